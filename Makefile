@@ -1,0 +1,46 @@
+# Everything a fresh machine with Python >= 3.11 and make needs. Windows: see README.md for the pip equivalents.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+OUT ?= out
+
+.PHONY: report test lint types floors check bench clean
+
+$(VENV)/.run: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet -e .
+	@touch $@
+
+$(VENV)/.test: $(VENV)/.run
+	$(BIN)/python -m pip install --quiet -e ".[test]"
+	@touch $@
+
+$(VENV)/.dev: $(VENV)/.test
+	$(BIN)/python -m pip install --quiet -e ".[dev]"
+	@touch $@
+
+report: $(VENV)/.run
+	@mkdir -p $(OUT)
+	$(BIN)/conveyor power examples/specs/overland.yaml -o $(OUT)/overland.xlsx
+
+test: $(VENV)/.test
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.dev
+	$(BIN)/mypy
+
+floors: $(VENV)/.dev
+	$(BIN)/lint-imports
+
+check: test lint types floors
+
+bench: $(VENV)/.test
+	$(BIN)/python benchmarks/speed.py
+
+clean:
+	rm -rf $(OUT) dist .pytest_cache .mypy_cache .ruff_cache
