@@ -1,0 +1,40 @@
+"""Friction from the loss compliance: the first law, formed apart from the solve.
+
+τ̃_m = 2ρ Σ_{m≥1} Im S_m |p̃̂_m|², p̃̂_m = ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m. The sum uses its own window, its own Gauss
+panels and the same closed half-space products, so that a fault of window, quadrature, order or eccentricity shows.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.bessel import bessel_j, product_ik
+from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.quadrature import Rule
+from conveyor.contact.spectral import Contact
+
+Array = NDArray[np.float64]
+
+
+def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
+    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,).
+
+    Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
+    ζ ∫ J_v J_u/(m (1+m²ζ²)) dm = ζ (-1)^{(v-u)/2} [δ_vu/(2v) - I_max K_min].
+    """
+    n = contact.c.shape[1]
+    v = np.arange(1, n + 1)
+    weighted = v * contact.c
+    table = bessel_j(n, np.multiply.outer(contact.alpha, rule.nodes))[1:]
+    phase = (-1j) ** ((v - 1) % 4)
+    spectrum = 0.5 * np.einsum("bv,vbk->bk", weighted * phase, table) / rule.nodes
+    total = np.einsum("bk,k->b", np.abs(spectrum) ** 2, rule.weights.imag * rule.nodes)
+    if creep.weights.size:
+        ik, deficit = product_ik(n, contact.alpha[:, None] / creep.times)
+        kernel = -np.tensordot(creep.weights * creep.times, ik, axes=(0, 1))[:, 1:, 1:]
+        kernel *= (v[:, None] - v[None, :]) % 2 == 0
+        index = np.arange(n)
+        kernel[:, index, index] = np.tensordot(creep.weights * creep.times, deficit, axes=(0, 1))[:, 1:]
+        total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted)
+    return 2.0 * rho * total / contact.pressure

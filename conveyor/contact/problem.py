@@ -1,0 +1,178 @@
+"""The dimensionless contact problem and why a solve stopped.
+
+Scales (paper, section 3; E0 = rubbery modulus, k = 2π/λ, λ = roll spacing)
+
+===============  =============================  ==========================
+name             dimensionless                  physical
+===============  =============================  ==========================
+length x         X = k x                        x [m]
+radius           R/λ; ρ = k R                   R [m]
+thickness        k h                            h [m]
+pressure         p̃ = 2(1-ν²) p/(E0 k R)         p [Pa]
+retardation      ζ = V τ k                      τ [s], V [m/s]
+displacement     w = u/R                        u [m]
+half width       α = k a                        a [m]
+eccentricity     ε = k e                        e [m]
+===============  =============================  ==========================
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
+from conveyor.errors import InputError
+
+Array = NDArray[np.float64]
+_SUPPORTS = ("free", "confined", "half-space")
+_SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
+
+
+class Status(Enum):
+    """Why a solve stopped; the value says what to change."""
+
+    OK = "converged to the tolerance asked for"
+    SPLIT = (
+        "the contact separates into several strips: one strip would need tension between belt and roll; "
+        "lower the load, thicken the layer, or use the confined support"
+    )
+    WRAP_LIMIT = (
+        "the load presses the roll in beyond its half circle: no contact with an edge inside the roll "
+        "carries it; lower the load, or enlarge the radius"
+    )
+    NOT_CONVERGED = (
+        "the highest order did not reach the tolerance: see error_estimate; "
+        "ask for a larger rtol, or resolve a sharp retardation time by more terms"
+    )
+
+    @property
+    def message(self) -> str:
+        """Why the solve stopped and what to change."""
+        return self.value
+
+
+@dataclass(frozen=True, eq=False)
+class CreepSpectrum:
+    """Normalised complex creep compliance j(m) = j∞ + Σ d_t/(1 - i m ζ_t).
+
+    Parameters
+    ----------
+    instantaneous : float
+        j∞ = E0/E∞ [-], in (0, 1].
+    weights : array_like, shape (t,)
+        d_t = E0 J_t [-], positive; j∞ + Σ d_t = 1.
+    times : array_like, shape (t,)
+        ζ_t = V τ_t k [-], retardation (not relaxation) times, zero or positive.
+
+    Raises
+    ------
+    InputError
+        A value outside its range, lengths that differ, or a sum other than one.
+
+    Examples
+    --------
+    >>> CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0]).compliance(np.array([1.0]))
+    array([0.55+0.45j])
+    """
+
+    instantaneous: float
+    weights: Array = field(default_factory=lambda: np.empty(0))
+    times: Array = field(default_factory=lambda: np.empty(0))
+
+    def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
+        d = np.array(weights, dtype=float, ndmin=1)
+        z = np.array(times, dtype=float, ndmin=1)
+        if d.ndim != 1 or d.shape != z.shape:
+            raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
+        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
+            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
+        if not np.all(np.isfinite(d) & (d > 0.0)):
+            raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
+        if not np.all(np.isfinite(z) & (z >= 0.0)):
+            raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
+        if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
+            raise InputError(
+                f"instantaneous + sum(weights) = {instantaneous + d.sum():.12g}: must be 1 "
+                "(compliances are in units of the rubbery compliance 1/E0)"
+            )
+        for array in (d, z):
+            array.flags.writeable = False
+        object.__setattr__(self, "instantaneous", float(instantaneous))
+        object.__setattr__(self, "weights", d)
+        object.__setattr__(self, "times", z)
+
+    def compliance(self, m: Array) -> NDArray[np.complex128]:
+        """j(m) at wave numbers m [-], shape of m."""
+        out = np.full(m.shape, self.instantaneous, dtype=complex)
+        if self.weights.size:
+            mz = np.multiply.outer(m, self.times)
+            # 1/(1 - iz) = (1 + iz)/(1 + z²), written so that z = 1e200 does not overflow
+            out += (1.0 / (1.0 - 1j * mz)) @ self.weights
+        return out
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """A viscoelastic layer rolling over periodic rigid cylinders, pressed on by a mean pressure.
+
+    Parameters
+    ----------
+    support : "free", "confined", "half-space" or Layer
+        Far face of the layer: loaded but free to bend (the paper's belt), bonded to a rigid plane (a cover on a
+        stiff carcass), or infinitely far. Any object with the methods of `Layer` brings its own symbol.
+    radius : float
+        R/λ [-], in (0, 0.5].
+    pressure : float
+        p̃_m = 2(1-ν²) p_m/(E0 k R) [-], positive; p_m is the load per roll and width over the spacing.
+    creep : CreepSpectrum
+        Normalised creep compliance.
+    thickness : float
+        k h [-], positive, infinity allowed.
+    poisson : float
+        ν [-], in [0, 0.5]; enters the confined layer only, beside the scale of pressure.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+    """
+
+    support: str | Layer
+    radius: float
+    pressure: float
+    creep: CreepSpectrum
+    thickness: float = math.inf
+    poisson: float = 0.5
+
+    def __post_init__(self) -> None:
+        if isinstance(self.support, str) and self.support not in _SUPPORTS:
+            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if not 0.0 < self.radius <= 0.5:
+            raise InputError(f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap")
+        if not self.thickness > 0.0:
+            raise InputError(f"thickness = {self.thickness!r}: k h is positive (infinity allowed)")
+        if not (self.pressure > 0.0 and math.isfinite(self.pressure)):
+            raise InputError(f"pressure = {self.pressure!r}: the mean pressure is finite and positive")
+        if not 0.0 <= self.poisson <= 0.5:
+            raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
+
+    @property
+    def rho(self) -> float:
+        """ρ = k R [-]."""
+        return 2.0 * math.pi * self.radius
+
+    @property
+    def layer(self) -> Layer:
+        """The layer whose symbol the solver uses."""
+        if not isinstance(self.support, str):
+            return self.support
+        if self.support == "half-space" or math.isinf(self.thickness):
+            return HalfSpace()
+        if self.support == "free":
+            return Free(self.thickness)
+        return Confined(self.thickness, self.poisson)

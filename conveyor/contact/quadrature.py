@@ -1,0 +1,120 @@
+"""Nodes and weights that turn the sum over wave numbers into a closed half-space part and a short correction.
+
+For any summand S(m) F(m)/m whose F oscillates no faster than the contact is wide,
+
+    Σ_{m≥1} S F/m  =  ∫_0^∞ j F/m dm  +  Σ_{m≥1} χ S F/m  +  ∫_0^∞ [(1-χ) S - j] F/m dm,
+
+χ(m) = ½ erfc((m - m0)/w). The first term is the isolated half-space, known in closed form (spectral.py); the sum ends
+with the window, the last integral where S = j. Σ (1-χ) S F/m may be read as an integral up to its first Poisson alias,
+exp(-(w (2π - span))²/4), because (1-χ) S F/m is smooth on m > 0 and vanishes below m = 1.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from conveyor.contact.layers import Layer
+from conveyor.contact.problem import CreepSpectrum
+from conveyor.errors import NoSolutionError
+
+Array = NDArray[np.float64]
+
+_ALIAS = 12.5  # exp(-12.5²/4) = 1e-17
+_RAMP = 6.5  # ½ erfc(6.5) = 2e-20: the window is one below m0 - 6.5 w and zero beyond m0 + 6.5 w
+_MAX_NODES = 2_000_000
+
+
+@dataclass(frozen=True)
+class Panels:
+    """How a composite Gauss-Legendre rule is graded; each limit holds the panel error near 1e-13.
+
+    `points` per panel; `stretch` is the largest ln(right/left): the poles ±i/ζ lie π/2 off the real axis of ln m;
+    `phase` the largest change of phase in radians; `ramps` the largest width in units of the window's width;
+    `window` multiplies the window width that the alias needs.
+    """
+
+    points: int
+    stretch: float
+    phase: float
+    ramps: float
+    window: float = 1.0
+
+
+SOLVE = Panels(points=16, stretch=2.4, phase=16.0, ramps=4.0)
+CHECK = Panels(points=18, stretch=2.1, phase=17.0, ramps=3.5, window=1.3)  # same sum, no node in common
+
+
+@dataclass(frozen=True, eq=False)
+class Rule:
+    """Nodes m, shape (k,), and complex weights of F/m; valid for contacts up to `half_width`.
+
+    `edge` ends the first panel [0, edge], `edge_sum` is what the rule makes of ∫ dm/m over it: the displacement's
+    summand has a logarithm there that is taken out and put back in closed form.
+    """
+
+    nodes: Array
+    weights: NDArray[np.complex128]
+    half_width: float
+    edge: float
+    edge_sum: float
+
+
+def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Panels = SOLVE) -> Rule:
+    """Nodes and weights valid for every contact of half width up to `half_width` = k a [-].
+
+    Raises
+    ------
+    NoSolutionError
+        The layer is so thin against the contact that the rule would need more than two million nodes.
+    """
+    span = 2.0 * half_width
+    width = panels.window * max(2.0, _ALIAS / (2.0 * math.pi - span))
+    centre = _RAMP * width
+    integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
+    end = max(2.0 * centre, layer.reach)
+    edges = _panel_edges(creep, end, span, width, centre, panels)
+    x, gauss = np.polynomial.legendre.leggauss(panels.points)
+    half = 0.5 * np.diff(edges)
+    m = (edges[:-1, None] + half[:, None] * (x + 1.0)).ravel()
+    measure = (half[:, None] * gauss).ravel()
+
+    kernel = -creep.compliance(m)
+    sampled = m >= 1.0  # below, 1-χ < 1e-17 would meet a symbol that may grow like m^-3
+    inside = m[sampled]
+    kernel[sampled] += 0.5 * special.erfc((centre - inside) / width) * layer.symbol(inside, creep)
+    window = 0.5 * special.erfc((integers - centre) / width)
+    return Rule(
+        nodes=np.concatenate([integers, m]),
+        weights=np.concatenate([window * layer.symbol(integers, creep) / integers, measure * kernel / m]),
+        half_width=half_width,
+        edge=float(edges[1]),
+        edge_sum=float(np.sum(gauss / (1.0 + x))),
+    )
+
+
+def _panel_edges(
+    creep: CreepSpectrum, end: float, span: float, width: float, centre: float, panels: Panels
+) -> Array:
+    """Edges from 0 to `end`, graded toward 0 for the slowest retardation term."""
+    slowest = float(creep.times.max(initial=0.0))
+    edge = min(1.0, 0.5 / slowest) if slowest > 0.0 else 1.0
+    edges = [0.0, edge]
+    growth = math.expm1(panels.stretch)
+    longest = panels.phase / span
+    if (end - edge) / longest * panels.points > _MAX_NODES:
+        raise NoSolutionError(
+            f"the contact ({span:.3g}/k wide) is too wide for so thin a layer (reach m = {end:.3g}): "
+            "use a thicker layer or a smaller load"
+        )
+    while edge < end:
+        step = min(growth * edge, longest)
+        if edge < 2.0 * centre:
+            step = min(step, panels.ramps * width)
+        edge += step
+        edges.append(min(edge, end))
+    return np.array(edges)

@@ -1,0 +1,167 @@
+"""The Bessel-Galerkin method: one contact of given half width.
+
+p̃(X) = sqrt(1-s²) Σ_{v=1..n} c_v U_{v-1}(s), X = α s, vanishes at both edges, so both stress intensity factors are
+zero. Its slope, matched in Chebyshev coefficients g_i of T_i, i = 0 … n, is the matrix
+
+    g_i = (2-δ_i0) Σ_v v c_v Σ_{m≥1} Re[i^{q+2} S_m] J_v(mα) J_i(mα)/m,   q = i - v.
+
+Rows 1 … n give c, row 0 the eccentricity. The isolated half-space's share is closed (bessel.product_ik), the rest is
+the short sum of quadrature.py: a weighted Gram product of one Bessel table. Everything is batched over half widths.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.bessel import bessel_j, product_ik
+from conveyor.contact.circle import mean_drop, slope_coefficients
+from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.quadrature import Rule
+
+Array = NDArray[np.float64]
+_NEWTON_STEPS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Contacts of given half widths in equilibrium; arrays over the batch, shape (b,), c of shape (b, n).
+
+    `inside` is false where no eccentricity keeps both edges on the roll; the other entries then mean nothing.
+    """
+
+    alpha: Array
+    eps: Array
+    c: Array
+    pressure: Array
+    friction: Array
+    inside: NDArray[np.bool_]
+
+
+@lru_cache(maxsize=32)
+def _signs(n: int) -> tuple[Array, Array, Array]:
+    """Factors of Re S and Im S in the matrix, and of the retardation products, shape (n+1, n)."""
+    i, v = np.arange(n + 1)[:, None], np.arange(1, n + 1)[None, :]
+    q = i - v
+    factor = np.where(i == 0, 1.0, 2.0) * v
+    real = np.where(q % 2 == 0, -((-1.0) ** (q // 2)), 0.0) * factor
+    imaginary = np.where(q % 2 == 1, -((-1.0) ** ((q + 1) // 2)), 0.0) * factor
+    retarded = np.where((i < v) & (q % 2 == 1), -1.0, 1.0) * factor
+    return real, imaginary, retarded
+
+
+def assemble(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int) -> Array:
+    """Galerkin matrix, rows T_0 … T_n, columns c_1 … c_n, shape (b, n+1, n).
+
+    Matrices are nested: that of a lower order is a leading block.
+
+    Parameters
+    ----------
+    rule : Rule
+        Nodes valid for the largest of `alpha`.
+    creep : CreepSpectrum
+        Every ζ_t positive.
+    alpha : ndarray, shape (b,)
+        Half widths k a [-].
+    n : int
+        Order, at least 2.
+    """
+    real, imaginary, retarded = _signs(n)
+    table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
+    columns = table[:, 1:].swapaxes(1, 2)
+    matrix = real * ((table * rule.weights.real) @ columns)
+    matrix += imaginary * ((table * rule.weights.imag) @ columns)
+    index = np.arange(n)
+    half_space = np.full((alpha.size, n), -creep.instantaneous)
+    if creep.weights.size:
+        ik, deficit = product_ik(n, alpha[:, None] / creep.times)
+        products = np.tensordot(creep.weights, ik, axes=(0, 1))[:, :, 1:] * retarded
+        products[:, index + 1, index] = 0.0
+        matrix += products
+        # -j0 + 2v Σ d I K = -(j∞ + Σ d (1 - 2v I K)) keeps a small j∞
+        half_space -= 2.0 * (index + 1) * np.tensordot(creep.weights, deficit, axes=(0, 1))[:, 1:]
+    matrix[:, index + 1, index] += half_space
+    return matrix
+
+
+def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = None) -> Contact:
+    """Pressure and eccentricity of contacts of given half width.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (b, n+1, n)
+        From `assemble`, or a leading block of it.
+    alpha : ndarray, shape (b,)
+        Half widths [-].
+    rho : float
+        k R [-].
+    eps : ndarray, shape (b,), optional
+        Start of Newton's iteration; the parabola's eccentricity without it.
+
+    Returns
+    -------
+    Contact
+        With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
+    """
+    n = matrix.shape[2]
+    inverse = np.linalg.inv(matrix[:, 1:, :])
+    row = (matrix[:, :1, :] @ inverse)[:, 0]
+    eps, inside = _eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
+    safe = np.where(inside, alpha, 0.5 * rho)
+    slope, _ = slope_coefficients(safe, np.where(inside, eps, 0.0), rho, n + 2)
+    c = (inverse @ slope[:, 1 : n + 1, None])[..., 0]
+    pressure = 0.25 * alpha * c[:, 0]
+    # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
+    work = np.einsum("bv,bv->b", c, slope[:, :n] - slope[:, 2 : n + 2]) + c[:, 0] * slope[:, 0]
+    friction = -0.5 * rho * work / c[:, 0]
+    return Contact(alpha=alpha, eps=eps, c=c, pressure=pressure, friction=friction, inside=inside)
+
+
+def _eccentricity(row: Array, alpha: Array, rho: float, start: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Row 0 as one scalar equation in ε per contact: Newton, kept inside α + |ε| < ρ."""
+    room = rho - alpha
+    fits = room > 0.0
+    room = np.where(fits, room, rho)
+    alpha = np.where(fits, alpha, 0.0)
+    eps = np.where(np.abs(start) < 0.9 * room, start, np.sign(start) * 0.9 * room)
+    n = row.shape[1]
+    settled = np.zeros(alpha.size, dtype=bool)
+    for _ in range(_NEWTON_STEPS):
+        g, dg = slope_coefficients(alpha, eps, rho, n + 2)
+        step = (np.einsum("bv,bv->b", row, g[:, 1 : n + 1]) - g[:, 0]) / (
+            dg[:, 0] - np.einsum("bv,bv->b", row, dg[:, 1 : n + 1])
+        )
+        target = eps + step
+        outside = np.abs(target) >= room
+        target = np.where(outside, 0.5 * (eps + np.sign(target) * room), target)
+        settled = ~outside & (np.abs(target - eps) <= 1e-13 * np.abs(target))
+        eps = target
+        if settled.all() or not (settled | fits).any():
+            break
+    return eps, settled & fits
+
+
+def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
+    """Δ/R = 1 + W_0 - v_0: depth of the roll's crown below the mean line of the deformed surface, shape (b,).
+
+    W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
+    ∫_δ^∞ J_1 J_0/x² dx = ½ (ln 2 - γ - ln δ); each retardation term from w_t - ζ w_t' = d w_el.
+    """
+    n = contact.c.shape[1]
+    alpha = contact.alpha
+    table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
+    v = np.arange(1, n + 1)
+    moments = np.einsum("bvk,bk,k->bv", table[:, 1:], table[:, 0], rule.weights / rule.nodes)
+    level = np.einsum("bv,bv->b", v * contact.c, np.real((-1j) ** ((v - 1) % 4) * moments))
+    compliance = creep.instantaneous + float(creep.weights.sum())
+    logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
+    level += 0.5 * compliance * contact.c[:, 0] * alpha * logarithm
+    if creep.weights.size:
+        ik, _ = product_ik(n, alpha[:, None] / creep.times)
+        retarded = np.tensordot(creep.weights * creep.times, ik, axes=(0, 1))[:, 0, 1:] * _signs(n)[2][0]
+        level += np.einsum("bv,bv->b", retarded, contact.c)
+    points = 2 * n + 16
+    return level + mean_drop(alpha, contact.eps, rho, points)
