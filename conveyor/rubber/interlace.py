@@ -1,0 +1,124 @@
+"""Exact inversion of a relaxation or retardation spectrum: the roots that interlace with its poles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from conveyor.errors import NoSolutionError
+from conveyor.rubber.arrays import FloatArray
+
+MAX_ITERATIONS = 100
+"""Quadratic convergence: 5-12 steps are usual, 23 the most seen in 20 000 random spectra."""
+ROUNDING_PER_TERM = 4.0
+"""A sum of n terms of one sign, each with a few roundings, is right to about 4 n machine epsilons."""
+
+
+def interlaced(
+    constant: float, weights: FloatArray, times: FloatArray, *, reciprocal: bool = False
+) -> tuple[FloatArray, FloatArray]:
+    r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``.
+
+    Parameters
+    ----------
+    constant : float
+        Value at s = 0, > 0 [modulus or compliance].
+    weights : numpy.ndarray
+        Weights, shape `(n,)`, > 0 [as `constant`].
+    times : numpy.ndarray
+        Times in ascending order, distinct, shape `(n,)` [s].
+    reciprocal : bool
+        Work on 1/`times` instead (the retardation form has s and 1/s exchanged); the differences
+        of the reciprocals are then formed without rounding them first [-].
+
+    Returns
+    -------
+    excess : numpy.ndarray
+        Root i relative to pole i: ``L_i = t_i (1 + excess_i)``, shape `(n,)` [-]. With `reciprocal`
+        poles and roots are 1/t in ascending order.
+    residues : numpy.ndarray
+        Weights of the inverse, shape `(n,)`, > 0 [1/`constant`].
+
+    Raises
+    ------
+    NoSolutionError
+        If the iteration does not settle (weights beyond the range of double precision).
+
+    Notes
+    -----
+    With s = -1/L the roots solve ``1 = sum_j g_j t_j/(L - t_j)``, ``g_j = weights_j/constant``: one root
+    between consecutive poles, one above the last. In interval i unknown are the distance z from the
+    lower pole and w from the upper one, both in units of t_i, so every difference is a sum of two
+    positive numbers and a root 1e-30 from its pole keeps all its digits. Each step replaces the sums over
+    lower and upper poles by ``p + q/z`` and ``s + t/w`` of equal value and slope and solves the resulting
+    quadratic: quadratically convergent, always inside the interval.
+
+    References
+    ----------
+    R.-C. Li, "Solving secular equations stably and efficiently", LAPACK Working Note 89 (1993), section 3.
+    """
+    if weights.size == 0:
+        return np.empty(0), np.empty(0)
+    ratio, gap = _pole_geometry(times, reciprocal=reciprocal)
+    if reciprocal:
+        weights = weights[::-1]
+    g = ratio * (weights / constant)
+    lower = np.tri(weights.size, dtype=np.bool_)
+    offset, span, z, w = _start(ratio, gap, g, lower)
+    g_low, g_up = np.where(lower, g, 0.0), np.where(lower, 0.0, g)
+    g_low_offset, g_up_offset = g_low * offset, g_up * offset
+    tolerance = ROUNDING_PER_TERM * weights.size * float(np.finfo(np.float64).eps)
+    for _ in range(MAX_ITERATIONS):
+        inverse_square = 1.0 / np.square(np.where(lower, z[:, None], w[:, None]) + offset)
+        p, low = (g_low_offset * inverse_square).sum(1), (g_low * inverse_square).sum(1) * z
+        s, up = (g_up_offset * inverse_square).sum(1), (g_up * inverse_square).sum(1) * w
+        residual, size = (1.0 + s + up) - (p + low), (1.0 + s + up) + (p + low)
+        z, w = _quadratic(1.0 + s - p, low * z, up * w, span)
+        if np.all(np.abs(residual) <= tolerance * size):
+            break
+    else:
+        raise NoSolutionError(
+            f"the spectrum could not be inverted in {MAX_ITERATIONS} steps; the weights span"
+            f" {np.log10(weights.max() / weights.min()):.0f} decades: drop the terms that do not matter"
+        )
+    distance = np.where(lower, z[:, None], w[:, None]) + offset
+    residues = 1.0 / (constant * (1.0 + z) * (g / np.square(distance)).sum(1))
+    return z, residues
+
+
+def _pole_geometry(times: FloatArray, *, reciprocal: bool) -> tuple[FloatArray, FloatArray]:
+    """Pole j over pole i, and their difference over pole i, each correctly rounded."""
+    if reciprocal:
+        t = times[::-1]
+        return t[:, None] / t, (t[:, None] - t) / t
+    return times / times[:, None], (times - times[:, None]) / times[:, None]
+
+
+def _start(
+    ratio: FloatArray, gap: FloatArray, g: FloatArray, lower: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Offsets of all poles from the near end of each interval; widths; geometric mid-points as (z, w)."""
+    n = len(ratio)
+    i = np.arange(n - 1)
+    step = ratio[i, i + 1]
+    offset = -gap
+    offset[:-1] = np.where(lower[:-1], offset[:-1], gap[1:] * step[:, None])
+    span, z, w = np.empty(n), np.empty(n), np.ones(n)
+    span[:-1] = gap[i, i + 1]
+    z[:-1] = span[:-1] / (1.0 + np.sqrt(step))
+    w[:-1] = np.sqrt(step) * z[:-1]
+    # above the last pole: g t/(L - t) summed <= sum(g)/z bounds the root; from there the steps descend
+    span[-1] = z[-1] = g[-1].sum()
+    return offset, span, z, w
+
+
+def _quadratic(
+    c: FloatArray, q: FloatArray, t: FloatArray, span: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Solve c + t/w = q/z, z + w = span: both unknowns by the form of the formula without cancellation."""
+    cr = c * span
+    root = np.hypot(cr + t - q, 2.0 * np.sqrt(q * t))
+    b, d = cr + t + q, cr - t - q
+    z = np.where(b > 0.0, 2.0 * q * span, b - root) / np.where(b > 0.0, b + root, 2.0 * c)
+    w = np.where(d < 0.0, 2.0 * t * span, d + root) / np.where(d < 0.0, root - d, 2.0 * c)
+    w[-1] = 1.0
+    return z, w

@@ -1,0 +1,327 @@
+"""Linear viscoelastic solids as discrete spectra: relaxation form (Prony series) and creep form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from conveyor.rubber.arrays import ComplexArray, FloatArray, non_negative, positive, spectrum
+from conveyor.rubber.interlace import interlaced
+
+_FLUID_ADVICE = (
+    ": without an equilibrium modulus the series is a fluid and the belt would creep without end;"
+    " fit again with the equilibrium modulus held at a measured value"
+)
+
+
+def _debye(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """x^2/(1+x^2), x/(1+x^2), 1/(1+x^2) of x = omega*times, on a new last axis, without overflow."""
+    x = non_negative("omega", omega, "rad/s")[..., None] * times
+    h = np.hypot(1.0, x)
+    cosine, sine = 1.0 / h, x / h
+    return sine * sine, sine * cosine, cosine * cosine
+
+
+@dataclass(frozen=True, eq=False)
+class PronySeries:
+    r"""Relaxation modulus ``E(t) = E_e + sum_i E_i exp(-t/tau_i)`` (generalised Maxwell model).
+
+    Parameters
+    ----------
+    equilibrium : float
+        Equilibrium (rubbery, zero-frequency) modulus E_e, > 0 [Pa].
+    moduli : array_like
+        Moduli E_i, shape `(n,)`, > 0; n = 0 is an elastic solid [Pa].
+    times : array_like
+        Relaxation times tau_i, shape `(n,)`, > 0, distinct; sorted ascending with their moduli [s].
+
+    Raises
+    ------
+    InputError
+        If a number is not finite and > 0, lengths differ, times repeat, or E_e = 0 (a fluid).
+
+    Notes
+    -----
+    Small strain, isothermal, at the temperature the times hold for. Frequencies are ANGULAR:
+    omega = 2 pi f. The arrays are read-only; two series are equal only if they are the same object.
+
+    References
+    ----------
+    J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), chapter 3, Eqs. (22)-(29).
+
+    Examples
+    --------
+    >>> series = PronySeries(equilibrium=1e6, moduli=[9e6], times=[1e-3])
+    >>> round(float(series.storage(1e3))), round(float(series.loss(1e3)))
+    (5500000, 4500000)
+    >>> print(series.creep())
+    CreepSeries(instantaneous=1e-07, compliances=array([9.e-07]), times=array([0.01]))
+    """
+
+    equilibrium: float
+    moduli: FloatArray
+    times: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check, copy, sort, freeze."""
+        moduli, times = spectrum("moduli", self.moduli, "Pa", self.times)
+        object.__setattr__(
+            self, "equilibrium", positive("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE)
+        )
+        object.__setattr__(self, "moduli", moduli)
+        object.__setattr__(self, "times", times)
+
+    @property
+    def glassy(self) -> float:
+        """Instantaneous modulus ``E_inf = E_e + sum E_i`` [Pa]."""
+        return float(self.equilibrium + self.moduli.sum())
+
+    def relaxation(self, t: ArrayLike) -> FloatArray:
+        """Relaxation modulus E(t) after a step of strain.
+
+        Parameters
+        ----------
+        t : array_like
+            Time since the step, >= 0, any shape [s].
+
+        Returns
+        -------
+        numpy.ndarray
+            E(t), shape of `t` [Pa].
+
+        Raises
+        ------
+        InputError
+            If a time is negative or not finite.
+        """
+        decay = np.exp(-non_negative("t", t, "s")[..., None] / self.times)
+        return np.asarray(self.equilibrium + decay @ self.moduli)[()]
+
+    def storage(self, omega: ArrayLike) -> FloatArray:
+        """Storage modulus ``E' = E_e + sum E_i x^2/(1+x^2)``, x = omega tau_i.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequency 2 pi f, >= 0, any shape [rad/s].
+
+        Returns
+        -------
+        numpy.ndarray
+            E', shape of `omega` [Pa].
+
+        Raises
+        ------
+        InputError
+            If a frequency is negative or not finite.
+        """
+        return np.asarray(self.equilibrium + _debye(omega, self.times)[0] @ self.moduli)[()]
+
+    def loss(self, omega: ArrayLike) -> FloatArray:
+        """Loss modulus ``E'' = sum E_i x/(1+x^2)``, x = omega tau_i.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequency 2 pi f, >= 0, any shape [rad/s].
+
+        Returns
+        -------
+        numpy.ndarray
+            E'', shape of `omega` [Pa].
+
+        Raises
+        ------
+        InputError
+            If a frequency is negative or not finite.
+        """
+        return np.asarray(_debye(omega, self.times)[1] @ self.moduli)[()]
+
+    def tan_delta(self, omega: ArrayLike) -> FloatArray:
+        """Loss tangent E''/E'.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequency 2 pi f, >= 0, any shape [rad/s].
+
+        Returns
+        -------
+        numpy.ndarray
+            tan delta, shape of `omega` [-].
+
+        Raises
+        ------
+        InputError
+            If a frequency is negative or not finite.
+        """
+        modulus = self.modulus(omega)
+        return np.asarray(modulus.imag / modulus.real)[()]
+
+    def modulus(self, omega: ArrayLike) -> ComplexArray:
+        """Complex modulus ``E* = E' + i E''`` for strain ~ exp(+i omega t).
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequency 2 pi f, >= 0, any shape [rad/s].
+
+        Returns
+        -------
+        numpy.ndarray
+            E*, complex, shape of `omega` [Pa].
+
+        Raises
+        ------
+        InputError
+            If a frequency is negative or not finite.
+        """
+        storage, loss, _ = _debye(omega, self.times)
+        return np.asarray(self.equilibrium + storage @ self.moduli + 1j * (loss @ self.moduli))[()]
+
+    def creep(self) -> CreepSeries:
+        """Convert exactly to the creep form, ``J*(omega) E*(omega) = 1`` at every frequency.
+
+        Returns
+        -------
+        CreepSeries
+            Same number of terms; each retardation time lies between consecutive relaxation times.
+
+        Raises
+        ------
+        NoSolutionError
+            If the moduli are beyond the range of double precision.
+
+        Notes
+        -----
+        J*E* = 1 to 1e-13 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
+        """
+        excess, compliances = interlaced(self.equilibrium, self.moduli, self.times)
+        return CreepSeries(1.0 / self.glassy, compliances, self.times * (1.0 + excess))
+
+    def scaled(self, *, a_T: float = 1.0, b_T: float = 1.0) -> PronySeries:
+        """Shift to another temperature: times times `a_T`, all moduli times `b_T`.
+
+        Parameters
+        ----------
+        a_T : float
+            Horizontal shift factor, > 1 when colder than the reference [-].
+        b_T : float
+            Vertical shift factor of every modulus [-].
+
+        Returns
+        -------
+        PronySeries
+            The shifted series.
+
+        Raises
+        ------
+        InputError
+            If a factor is not finite and > 0.
+        """
+        a, b = positive("a_T", a_T, "-"), positive("b_T", b_T, "-")
+        return PronySeries(self.equilibrium * b, self.moduli * b, self.times * a)
+
+
+@dataclass(frozen=True, eq=False)
+class CreepSeries:
+    r"""Creep compliance ``J(t) = J_inf + sum_i J_i (1 - exp(-t/lambda_i))`` (generalised Kelvin-Voigt model).
+
+    Parameters
+    ----------
+    instantaneous : float
+        Instantaneous (glassy) compliance J_inf = 1/E_inf, > 0 [1/Pa].
+    compliances : array_like
+        Compliances J_i, shape `(n,)`, > 0 [1/Pa].
+    times : array_like
+        Retardation times lambda_i, shape `(n,)`, > 0, distinct; sorted ascending [s].
+
+    Raises
+    ------
+    InputError
+        If a number is not finite and > 0, lengths differ or times repeat.
+
+    Examples
+    --------
+    >>> creep = CreepSeries(instantaneous=1e-7, compliances=[9e-7], times=[1e-2])
+    >>> print(creep.relaxation())
+    PronySeries(equilibrium=1000000.0, moduli=array([9000000.]), times=array([0.001]))
+    """
+
+    instantaneous: float
+    compliances: FloatArray
+    times: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check, copy, sort, freeze."""
+        compliances, times = spectrum("compliances", self.compliances, "1/Pa", self.times)
+        object.__setattr__(self, "instantaneous", positive("instantaneous", self.instantaneous, "1/Pa"))
+        object.__setattr__(self, "compliances", compliances)
+        object.__setattr__(self, "times", times)
+
+    @property
+    def equilibrium(self) -> float:
+        """Compliance after infinite time, ``J_0 = J_inf + sum J_i = 1/E_e`` [1/Pa]."""
+        return float(self.instantaneous + self.compliances.sum())
+
+    def creep(self, t: ArrayLike) -> FloatArray:
+        """Creep compliance J(t) after a step of stress.
+
+        Parameters
+        ----------
+        t : array_like
+            Time since the step, >= 0, any shape [s].
+
+        Returns
+        -------
+        numpy.ndarray
+            J(t), shape of `t` [1/Pa].
+
+        Raises
+        ------
+        InputError
+            If a time is negative or not finite.
+        """
+        rise = -np.expm1(-non_negative("t", t, "s")[..., None] / self.times)
+        return np.asarray(self.instantaneous + rise @ self.compliances)[()]
+
+    def compliance(self, omega: ArrayLike) -> ComplexArray:
+        """Complex compliance ``J* = J_inf + sum J_i/(1 + i omega lambda_i)``, strain ~ exp(+i omega t).
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequency 2 pi f, >= 0, any shape [rad/s].
+
+        Returns
+        -------
+        numpy.ndarray
+            J*, complex with imaginary part <= 0, shape of `omega` [1/Pa].
+
+        Raises
+        ------
+        InputError
+            If a frequency is negative or not finite.
+        """
+        _, loss, storage = _debye(omega, self.times)
+        return np.asarray(self.instantaneous + storage @ self.compliances - 1j * (loss @ self.compliances))[
+            ()
+        ]
+
+    def relaxation(self) -> PronySeries:
+        """Convert exactly to the relaxation form, the inverse of `PronySeries.creep`.
+
+        Returns
+        -------
+        PronySeries
+            Same number of terms, equilibrium modulus ``1/(J_inf + sum J_i)``.
+
+        Raises
+        ------
+        NoSolutionError
+            If the compliances are beyond the range of double precision.
+        """
+        excess, moduli = interlaced(self.instantaneous, self.compliances, self.times, reciprocal=True)
+        return PronySeries(1.0 / self.equilibrium, moduli, self.times[::-1] / (1.0 + excess))

@@ -1,0 +1,379 @@
+"""Time-temperature superposition: the factor a_T that multiplies all times when the temperature changes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.constants import R as GAS_CONSTANT
+from scipy.constants import zero_Celsius
+from scipy.interpolate import PchipInterpolator
+
+from conveyor.errors import InputError, RangeError
+from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
+from conveyor.rubber.prony import PronySeries
+
+REFERENCE_TOLERANCE = 0.01
+"""Decades by which a table may miss log10 a_T = 0 at its reference: tables are printed to 2-3 decimals,
+and 0.01 decade is about 0.1 K for a rubber."""
+MAX_DECADES = 100.0
+"""No measured shift comes near; beyond it times leave the range of double precision."""
+
+
+def celsius(temperature: float) -> str:
+    """Write a temperature for a message.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+
+    Returns
+    -------
+    str
+        The temperature with its unit [degC].
+    """
+    return f"{temperature - zero_Celsius:.2f} degC"
+
+
+def _kelvin(temperature: ArrayLike) -> FloatArray:
+    """Refuse what cannot be an absolute temperature."""
+    array = np.asarray(temperature, dtype=np.float64)
+    bad = array[~(np.isfinite(array) & (array > 0.0))]
+    if bad.size:
+        raise InputError(
+            f"temperature = {bad.flat[0]:g} K must be finite and > 0 K (this floor counts in kelvin)"
+        )
+    return array
+
+
+class ShiftLaw(Protocol):
+    """What every shift law offers: a reference temperature [K] and log10 a_T [-] at any other."""
+
+    @property
+    def reference(self) -> float:
+        """Temperature at which a_T = 1 [K]."""
+
+    def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
+        """Shift in decades at absolute `temperature` [K], any shape [-]."""
+
+
+@dataclass(frozen=True)
+class WLF:
+    """Williams-Landel-Ferry law ``log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref)``.
+
+    Parameters
+    ----------
+    c1 : float
+        First coefficient, for the given reference, > 0 [-].
+    c2 : float
+        Second coefficient, for the given reference, > 0 [K].
+    reference : float
+        Absolute reference temperature, a_T = 1 [K].
+
+    Raises
+    ------
+    InputError
+        If a number is not finite and > 0.
+
+    Notes
+    -----
+    Holds from the glass transition T_g to about T_g + 100 K; below T_g it overestimates the shift. The pole
+    T_ref - c2 lies some 50 K below T_g: at and below it the law has no meaning and is refused.
+
+    References
+    ----------
+    M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701-3707, Eq. (1).
+
+    Examples
+    --------
+    >>> round(float(WLF(c1=8.86, c2=101.6, reference=293.15).log10_a_T(293.15 + 101.6)), 9)
+    -4.43
+    """
+
+    c1: float
+    c2: float
+    reference: float
+
+    def __post_init__(self) -> None:
+        """Check."""
+        positive("c1", self.c1, "-")
+        positive("c2", self.c2, "K")
+        positive("reference", self.reference, "K")
+
+    def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
+        """Shift in decades.
+
+        Parameters
+        ----------
+        temperature : array_like
+            Absolute temperature above the pole, any shape [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
+
+        Raises
+        ------
+        RangeError
+            At or below the pole ``reference - c2``.
+        InputError
+            If a temperature is not finite and > 0.
+        """
+        difference = _kelvin(temperature) - self.reference
+        if np.any(difference <= -self.c2):
+            coldest, pole = self.reference + float(difference.min()), self.reference - self.c2
+            raise RangeError(
+                f"temperature {celsius(coldest)} is at or below the pole of the WLF law at {celsius(pole)};"
+                " it holds only well above that: use a shift table or Arrhenius"
+            )
+        return np.asarray(-self.c1 * difference / (self.c2 + difference))[()]
+
+
+@dataclass(frozen=True)
+class Arrhenius:
+    """Arrhenius law ``log10 a_T = E_a/(R ln 10) (1/T - 1/T_ref)``.
+
+    Parameters
+    ----------
+    activation_energy : float
+        Apparent activation energy E_a, > 0 [J/mol].
+    reference : float
+        Absolute reference temperature, a_T = 1 [K].
+
+    Raises
+    ------
+    InputError
+        If a number is not finite and > 0.
+
+    Notes
+    -----
+    For glasses, or far (> 100 K) above the glass transition; between the two WLF or a table fits better.
+
+    References
+    ----------
+    J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), chapter 11.
+
+    Examples
+    --------
+    >>> round(float(Arrhenius(activation_energy=120e3, reference=293.15).log10_a_T(283.15)), 3)
+    0.755
+    """
+
+    activation_energy: float
+    reference: float
+
+    def __post_init__(self) -> None:
+        """Check."""
+        positive("activation_energy", self.activation_energy, "J/mol")
+        positive("reference", self.reference, "K")
+
+    def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
+        """Shift in decades.
+
+        Parameters
+        ----------
+        temperature : array_like
+            Absolute temperature, any shape [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
+
+        Raises
+        ------
+        InputError
+            If a temperature is not finite and > 0.
+        """
+        t = _kelvin(temperature)
+        slope = self.activation_energy / (GAS_CONSTANT * math.log(10.0))
+        return np.asarray(slope * (self.reference - t) / (t * self.reference))[()]
+
+
+@dataclass(frozen=True, eq=False)
+class ShiftTable:
+    """Measured shifts, interpolated monotonically (PCHIP) and never extrapolated.
+
+    Parameters
+    ----------
+    temperatures : array_like
+        Absolute temperatures, shape `(n,)`, n >= 2, distinct, any order [K].
+    log10_factors : array_like
+        log10 a_T at them, shape `(n,)`, falling with rising temperature [-].
+    reference : float
+        Absolute reference temperature inside the table, where log10 a_T = 0 [K].
+
+    Raises
+    ------
+    InputError
+        If the table is too short, not finite, repeats a temperature, does not fall with rising temperature,
+        or is not 0 at its reference (to 0.01 decade).
+
+    References
+    ----------
+    F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246 (monotone cubic interpolation).
+
+    Examples
+    --------
+    >>> table = ShiftTable([283.15, 293.15, 303.15], [1.1, 0.0, -1.0], reference=293.15)
+    >>> table.log10_a_T([283.15, 303.15])
+    array([ 1.1, -1. ])
+    """
+
+    temperatures: FloatArray
+    log10_factors: FloatArray
+    reference: float
+    _curve: PchipInterpolator = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check, sort, freeze."""
+        t = positive_vector("temperatures", self.temperatures, "K")
+        y = finite_vector("log10_factors", self.log10_factors, "decades")
+        if t.shape != y.shape or t.size < 2:
+            raise InputError(
+                f"a shift table needs >= 2 temperatures and one log10 a_T for each; got {t.size} and {y.size}"
+            )
+        order = np.argsort(t, kind="stable")
+        t, y = t[order], y[order]
+        if np.any(np.diff(t) == 0.0):
+            repeated = float(t[:-1][np.diff(t) == 0.0][0])
+            raise InputError(
+                f"temperatures of a shift table must be distinct; {celsius(repeated)} occurs twice"
+            )
+        rising = np.flatnonzero(np.diff(y) >= 0.0)
+        if rising.size:
+            i = int(rising[0])
+            raise InputError(
+                f"log10 a_T must fall with rising temperature; it goes from {y[i]:g} at {celsius(t[i])}"
+                f" to {y[i + 1]:g} at {celsius(t[i + 1])} (reversed sign, or log of 1/a_T?)"
+            )
+        for array in (t, y):
+            array.setflags(write=False)
+        object.__setattr__(self, "temperatures", t)
+        object.__setattr__(self, "log10_factors", y)
+        object.__setattr__(self, "_curve", PchipInterpolator(t, y, extrapolate=False))
+        at_reference = float(self.log10_a_T(positive("reference", self.reference, "K")))
+        if abs(at_reference) > REFERENCE_TOLERANCE:
+            raise InputError(
+                f"log10 a_T at the reference {celsius(self.reference)} is {at_reference:.4f};"
+                f" it must be 0 to {REFERENCE_TOLERANCE} decade: state the temperature at which a_T = 1"
+            )
+
+    def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
+        """Shift in decades.
+
+        Parameters
+        ----------
+        temperature : array_like
+            Absolute temperature inside the table, any shape [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
+
+        Raises
+        ------
+        RangeError
+            Outside the table.
+        InputError
+            If a temperature is not finite and > 0.
+        """
+        t = _kelvin(temperature)
+        low, high = float(self.temperatures[0]), float(self.temperatures[-1])
+        outside = t[(t < low) | (t > high)]
+        if outside.size:
+            raise RangeError(
+                f"temperature {celsius(float(outside.flat[0]))} is outside the shift table,"
+                f" {celsius(low)} to {celsius(high)}; it is not extrapolated: extend the measurement,"
+                " or choose a WLF or Arrhenius law knowingly"
+            )
+        return np.asarray(self._curve(t))[()]
+
+
+def entropic_b_T(temperature: float, reference: float) -> float:  # noqa: N802
+    """Vertical shift of an ideal (entropic) rubber network, ``b_T = T/T_ref`` (density change neglected).
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+    reference : float
+        Absolute reference temperature [K].
+
+    Returns
+    -------
+    float
+        Factor on all moduli [-].
+
+    Raises
+    ------
+    InputError
+        If a temperature is not finite and > 0.
+
+    Notes
+    -----
+    Right for unfilled networks on the rubbery plateau; carbon-black filled rubber softens when heated, so
+    the default everywhere is b_T = 1, which is also how the shelf's master curves were published.
+
+    References
+    ----------
+    J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), chapter 11, Eq. (4).
+
+    Examples
+    --------
+    >>> entropic_b_T(330.0, reference=300.0)
+    1.1
+    """
+    return positive("temperature", temperature, "K") / positive("reference", reference, "K")
+
+
+def shifted(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: float = 1.0) -> PronySeries:
+    """Series at another temperature: every relaxation time times a_T, every modulus times b_T.
+
+    Parameters
+    ----------
+    series : PronySeries
+        The series at the reference temperature of `law` [Pa, s].
+    law : ShiftLaw
+        `WLF`, `Arrhenius` or `ShiftTable` [-].
+    temperature : float
+        Absolute temperature wanted [K].
+    b_T : float
+        Vertical shift, see `entropic_b_T` [-].
+
+    Returns
+    -------
+    PronySeries
+        The series at `temperature`.
+
+    Raises
+    ------
+    RangeError
+        Where `law` does not hold, or if the shift is above 100 decades.
+    InputError
+        If a temperature or `b_T` is not finite and > 0.
+
+    Notes
+    -----
+    Assumes a thermorheologically simple rubber: one a_T for all times.
+
+    Examples
+    --------
+    >>> series = PronySeries(1e6, [9e6], [1e-3])
+    >>> cold = shifted(series, WLF(c1=10.0, c2=100.0, reference=300.0), 290.0)
+    >>> round(float(cold.times[0] / series.times[0]), 3)
+    12.915
+    """
+    decades = float(law.log10_a_T(temperature))
+    if abs(decades) > MAX_DECADES:
+        raise RangeError(
+            f"the shift law gives {decades:.0f} decades at {celsius(temperature)}, above {MAX_DECADES:.0f}:"
+            f" too far from the reference {celsius(law.reference)}"
+        )
+    return series.scaled(a_T=10.0**decades, b_T=b_T)
