@@ -1,0 +1,173 @@
+"""A solved contact: figures with their errors, and fields computed when asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.contact.bessel import bessel_j
+from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
+from conveyor.contact.spectral import Contact
+from conveyor.errors import NoSolutionError
+
+Array = NDArray[np.float64]
+
+_SERIES_REACH = 600.0  # outside the contact the series ends at m α = 600: truncated by (m α)^(-5/2) = 1e-7
+_CHUNK = 4_000_000
+
+
+@dataclass(frozen=True)
+class SolveStats:
+    """What a solve cost: final order, Galerkin matrices built, quadrature nodes, retardation terms kept."""
+
+    order: int
+    matrices: int
+    nodes: int
+    terms: int
+
+
+@dataclass(frozen=True)
+class Found:
+    """A single-patch contact that carries the load (internal to the solver)."""
+
+    contact: Contact
+    penetration: float
+    energy_error: float
+    error_estimate: float
+    creep: CreepSpectrum
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSolution:
+    """Result of `solve`.
+
+    Figures exist where a contact was found (status OK or NOT_CONVERGED, the latter with its error); reading one of a
+    refused problem raises NoSolutionError with the status' advice.
+
+    Attributes
+    ----------
+    problem : ContactProblem
+        What was solved.
+    status : Status
+        Why the solve stopped.
+    advice : tuple of str
+        Remarks on validity, e.g. a penetration beyond small strain.
+    stats : SolveStats
+        What it cost.
+    """
+
+    problem: ContactProblem
+    status: Status
+    stats: SolveStats
+    advice: tuple[str, ...] = ()
+    _found: Found | None = field(default=None, repr=False)
+
+    def _need(self) -> Found:
+        if self._found is None:
+            raise NoSolutionError(self.message)
+        return self._found
+
+    @property
+    def message(self) -> str:
+        """Why the solve stopped, what to change, and remarks on validity."""
+        return "; ".join((self.status.message, *self.advice))
+
+    @property
+    def friction(self) -> float:
+        """μ = F_T/F_N [-]."""
+        return float(self._need().contact.friction[0])
+
+    @property
+    def half_width(self) -> float:
+        """a/R [-]."""
+        return float(self._need().contact.alpha[0]) / self.problem.rho
+
+    @property
+    def eccentricity(self) -> float:
+        """e/R [-], positive toward the side the layer comes from (paper, Fig. 1)."""
+        return float(self._need().contact.eps[0]) / self.problem.rho
+
+    @property
+    def penetration(self) -> float:
+        """Δ/R [-]: mean line of the deformed surface to the roll's crown."""
+        return self._need().penetration
+
+    @property
+    def dissipation(self) -> float:
+        """W̃_d = μ p̃_m ζ_1 [-] (paper, section 3), ζ_1 = creep.times[0]; zero for an elastic layer."""
+        times = self.problem.creep.times
+        return self.friction * self.problem.pressure * float(times[0]) if times.size else 0.0
+
+    @property
+    def energy_error(self) -> float:
+        """Relative difference of friction by geometry and by loss compliance [-]."""
+        return self._need().energy_error
+
+    @property
+    def error_estimate(self) -> float:
+        """Estimated relative error of friction [-]."""
+        return self._need().error_estimate
+
+    @property
+    def patches(self) -> Array:
+        """Contact strips in x/R about the roll's axis, shape (1, 2)."""
+        e, a = self.eccentricity, self.half_width
+        return np.array([[e - a, e + a]])
+
+    @cached_property
+    def peak_pressure(self) -> float:
+        """Largest pressure p̃ [-]."""
+        c = self._need().contact.c[0]
+        v = np.arange(1, c.size + 1)
+        angle = np.linspace(0.0, np.pi, 8 * c.size + 17)
+        sampled = np.sin(np.multiply.outer(angle, v)) @ c
+        best = int(np.argmax(sampled))
+        theta, step = angle[best], angle[1]
+        for _ in range(8):  # Newton on dp/dθ = 0, kept within the sampled maximum's neighbours
+            first = np.dot(v * c, np.cos(v * theta))
+            second = -np.dot(v * v * c, np.sin(v * theta))
+            if second >= 0.0:
+                break
+            theta = float(np.clip(theta - first / second, angle[best] - step, angle[best] + step))
+        return float(max(sampled[best], np.dot(c, np.sin(v * theta))))
+
+    def pressure(self, x: ArrayLike) -> Array:
+        """Contact pressure p̃ at x/R about the roll's axis; zero outside the contact; shape of x."""
+        contact = self._need().contact
+        s = (np.asarray(x, dtype=float) * self.problem.rho - contact.eps[0]) / contact.alpha[0]
+        angle = np.arccos(np.clip(s, -1.0, 1.0))
+        v = np.arange(1, contact.c.shape[1] + 1)
+        return np.where(np.abs(s) < 1.0, np.sin(np.multiply.outer(angle, v)) @ contact.c[0], 0.0)
+
+    def profile(self, x: ArrayLike) -> Array:
+        """Surface displacement u/R about its mean line at x/R about the roll's axis; shape of x.
+
+        Inside the contact the roll's own shape, outside the Fourier series up to m α = 600 (1e-7 of the depth).
+        """
+        found = self._need()
+        contact, rho = found.contact, self.problem.rho
+        at = np.asarray(x, dtype=float)
+        period = 2.0 * np.pi / rho
+        wrapped = at - period * np.round((at - self.eccentricity) / period)
+        inside = np.abs(wrapped - self.eccentricity) <= self.half_width
+        shape = found.penetration - 1.0 + np.sqrt(np.where(inside, 1.0 - np.where(inside, wrapped, 0.0) ** 2, 1.0))
+        out = np.where(inside, shape, 0.0)
+        outer = wrapped[~inside] * rho - contact.eps[0]
+        out[~inside] = surface_series(self.problem, found.creep, contact, outer)
+        return out
+
+
+def surface_series(problem: ContactProblem, creep: CreepSpectrum, contact: Contact, x: Array) -> Array:
+    """u/R at X = x about the contact's centre, shape (p,), by the Fourier series w = 2 Re Σ S_m p̃̂_m e^{imX}/m."""
+    alpha, c = float(contact.alpha[0]), contact.c[0]
+    m = np.arange(1.0, np.ceil(_SERIES_REACH / alpha) + 1.0)
+    v = np.arange(1, c.size + 1)
+    table = bessel_j(c.size, m * alpha)[1:]
+    spectrum = 0.5 * ((v * c * (-1j) ** ((v - 1) % 4)) @ table) / m
+    wave = 2.0 * problem.layer.symbol(m, creep) * spectrum / m
+    step = max(1, _CHUNK // m.size)
+    parts = [np.real(np.exp(1j * np.multiply.outer(x[i : i + step], m)) @ wave) for i in range(0, x.size, step)]
+    return np.concatenate(parts) if parts else np.empty(0)
