@@ -1,0 +1,253 @@
+"""Rebuild the shelf of compounds: fit the measured master curves, construct the illustrative covers.
+
+Run it as ``python examples/02_refit_materials.py [FOLDER]``; without a folder it rewrites materials/*.yaml
+beside the master curves it reads. It is deterministic: a test holds the committed files against it.
+
+The illustrative covers are NOT measurements. Each has a continuous relaxation spectrum of two parts,
+
+    H(tau) = A g(tau) + B n(tau)                                                                    [Pa]
+    g = 1/[(tau/tau_g)^0.6 + (tau/tau_g)^-0.3]                 glass transition, Rouse-like on its slow side
+    n = (tau/tau_s)^-0.12 exp(-sqrt(tau/tau_s))/(1 + tau_g/tau)    network and filler, broad, ends at tau_s
+
+with tau_g = 100 s at the stated glass temperature, carried to 20 degC by the WLF law with the universal
+constants. Sampled at two lines a decade from 1e-14 to 1e4 s it ripples by 4 exp(-pi^2/1.15) = 0.08 % only. A, B and the equilibrium modulus solve three linear equations: E' and E'' at 20 degC and 10 Hz, and E_inf.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from conveyor.rubber import WLF, PronyFit, PronySeries, fit_prony, read_master_curve
+
+ZERO_CELSIUS = 273.15
+SHELF = Path(__file__).resolve().parent.parent / "materials"
+
+UNIVERSAL_C1, UNIVERSAL_C2 = 17.44, 51.6
+"""WLF constants at the glass transition, Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701."""
+TIME_AT_TG = 100.0
+"""Relaxation time that defines the glass transition by convention [s]."""
+REFERENCE = 20.0
+"""Temperature of the targets [degC]."""
+TARGET_FREQUENCY = 10.0
+"""Frequency of the targets [Hz]."""
+GLASSY = 1.5e9
+"""E_inf of all three covers, as of a filled hydrocarbon rubber below T_g [Pa]."""
+SLOWEST = 1.0e3
+"""tau_s, where the network has settled at 20 degC [s]."""
+TIMES = np.logspace(-14, 4, 37)
+"""Two lines a decade [s]."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A compound whose master curve lies on the shelf."""
+
+    name: str
+    description: str
+    missing: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Illustrative:
+    """Targets of a constructed cover: E' [Pa] and tan delta at 20 degC, 10 Hz; glass temperature [degC]."""
+
+    name: str
+    description: str
+    storage: float
+    tan_delta: float
+    glass: float
+    coldest: float
+
+
+UNKNOWN = (
+    "compound and its standard grade",
+    "instrument and deformation mode",
+    "strain amplitude of the master curve and its strain dependence",
+    "density",
+    "Poisson ratio (0.5 assumed)",
+    "vertical shift (the origin does not say; none applied here)",
+)
+MEASURED = (
+    Measured(
+        "S100",
+        "Filled rubber of tyre type, not a belt cover: master curve as published, raw. Its E'' scatters by 28 %"
+        " and contradicts its E' (no positive spectrum does much better): use it for trends, not for guarantees.",
+        UNKNOWN,
+    ),
+    Measured(
+        "S120",
+        "Filled rubber of tyre type, not a belt cover: master curve as published, apparently smoothed by"
+        " its origin. E' and E'' still disagree by about 7 % under any positive spectrum.",
+        UNKNOWN,
+    ),
+)
+ILLUSTRATIVE = (
+    Illustrative("standard-cover", "an ordinary cover", 10.0e6, 0.20, -50.0, -50.0),
+    Illustrative("low-rolling-resistance-cover", "a low rolling resistance cover", 8.0e6, 0.09, -58.0, -58.0),
+    Illustrative("cold-resistant-cover", "a cold-resistant cover", 8.0e6, 0.15, -75.0, -60.0),
+)
+
+
+def number(value: float) -> str:
+    """Twelve digits: read back, the series is the fit to 1e-11."""
+    return f"{value:.12g}"
+
+
+def prony_lines(series: PronySeries) -> list[str]:
+    terms = [
+        f"    - {{modulus: {number(e / 1e6)} MPa, time: {number(t)} s}}"
+        for e, t in zip(series.moduli, series.times, strict=True)
+    ]
+    return ["prony:", f"  equilibrium: {number(series.equilibrium / 1e6)} MPa", "  terms:", *terms]
+
+
+def listing(items: list[str]) -> str:
+    return "[" + ", ".join(items) + "]"
+
+
+def read_shifts(path: Path) -> tuple[list[float], list[float]]:
+    """Temperatures [degC] and log10 a_T of a <name>.shift.csv."""
+    rows = [
+        line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")
+    ]
+    return [float(t) for t, _ in rows[1:]], [math.log10(float(a)) for _, a in rows[1:]]
+
+
+def refit(name: str) -> PronyFit:
+    curve = read_master_curve(SHELF / f"{name.lower()}.dma.csv")
+    return fit_prony(curve.frequency_Hz, curve.storage_Pa, curve.loss_Pa)
+
+
+def measured_text(compound: Measured) -> str:
+    fit = refit(compound.name)
+    temperatures, decades = read_shifts(SHELF / f"{compound.name.lower()}.shift.csv")
+    (reference,) = (t for t, y in zip(temperatures, decades, strict=True) if y == 0.0)
+    lines = [
+        "# Written by examples/02_refit_materials.py; change the data or the script, not this file.",
+        f"name: {compound.name}",
+        "kind: measured",
+        f'description: "{compound.description}"',
+        "source:",
+        '  origin: "k100kan35-dotcom/psfinal, commit a72d476b; no word on the measurement there"',
+        '  licence: "MIT according to its README (no LICENSE file)"',
+        f"  data: {compound.name.lower()}.dma.csv",
+        "poisson_ratio: 0.5",
+        "strain: not stated",
+        f"reference_temperature: {number(reference)} degC  # where a_T = 1; quoted as 40 degC",
+        *prony_lines(fit.series),
+        "shift:",
+        "  law: table",
+        f"  temperature: {listing([number(t) + ' degC' for t in temperatures])}",
+        f"  log10_aT: {listing([number(y) for y in decades])}",
+        "range:",
+        f"  frequency: {listing([number(f) + ' Hz' for f in fit.window])}",
+        f"  temperature: {listing([number(t) + ' degC' for t in (temperatures[0], temperatures[-1])])}",
+        "fit:",
+        f"  storage_rms: {fit.storage.rms:.6g}",
+        f"  loss_rms: {fit.loss.rms:.6g}",
+        f"  storage_worst: {abs(fit.storage.worst):.6g}",
+        f"  loss_worst: {abs(fit.loss.worst):.6g}",
+        "  method: \"NNLS on relative errors of E' and E'', one relaxation time per decade inside the data"
+        " window, equilibrium free; the best positive spectrum of all leaves"
+        f' {fit.consistency_floor:.1%} rms of both"',
+        "missing:",
+        *[f"  - {item}" for item in compound.missing],
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def wlf_at_reference(glass: float) -> WLF:
+    """Universal WLF constants moved from the glass temperature [degC] to 20 degC (same curve, same pole)."""
+    c2 = UNIVERSAL_C2 + REFERENCE - glass
+    return WLF(UNIVERSAL_C1 * UNIVERSAL_C2 / c2, c2, REFERENCE + ZERO_CELSIUS)
+
+
+def construct(cover: Illustrative) -> tuple[PronySeries, WLF]:
+    law = wlf_at_reference(cover.glass)
+    tau_g = TIME_AT_TG / 10.0 ** float(law.log10_a_T(cover.glass + ZERO_CELSIUS))
+    x = TIMES / tau_g
+    glass = 1.0 / (x**0.6 + x**-0.3)
+    network = (TIMES / SLOWEST) ** -0.12 * np.exp(-np.sqrt(TIMES / SLOWEST)) / (1.0 + 1.0 / x)
+    wt = 2.0 * math.pi * TARGET_FREQUENCY * TIMES
+    loss = wt / (1.0 + wt * wt)
+    storage = wt * loss
+    matrix = np.array(
+        [
+            [1.0, network @ storage, glass @ storage],
+            [0.0, network @ loss, glass @ loss],
+            [1.0, network.sum(), glass.sum()],
+        ]
+    )
+    targets = np.array([cover.storage, cover.storage * cover.tan_delta, GLASSY])
+    equilibrium, b, a = np.linalg.solve(matrix, targets)
+    return PronySeries(float(equilibrium), b * network + a * glass, TIMES), law
+
+
+def illustrative_text(cover: Illustrative) -> str:
+    series, law = construct(cover)
+    lines = [
+        "# Written by examples/02_refit_materials.py; change the script, not this file.",
+        f"name: {cover.name}",
+        "kind: illustrative",
+        f'description: "NOT a measured compound: a smooth spectrum built to look like {cover.description}.'
+        f" Targets: E' {cover.storage / 1e6:g} MPa and tan delta {cover.tan_delta:g} at 20 degC, 10 Hz;"
+        f' E_inf {GLASSY / 1e9:g} GPa; glass transition at {cover.glass:g} degC."',
+        "source:",
+        '  origin: "constructed for this project"',
+        "  licence: MIT",
+        "poisson_ratio: 0.5",
+        "density: 1150 kg/m^3",
+        "strain: not applicable (constructed as linear)",
+        f"reference_temperature: {REFERENCE:g} degC",
+        *prony_lines(series),
+        "shift:",
+        "  law: wlf",
+        f"  c1: {number(law.c1)}",
+        f"  c2: {number(law.c2)} K",
+        "range:",
+        "  frequency: [1e-3 Hz, 1e11 Hz]",
+        f"  temperature: [{cover.coldest:g} degC, 80 degC]",
+        "fit:",
+        "  storage_rms: 0",
+        "  loss_rms: 0",
+        "  storage_worst: 0",
+        "  loss_worst: 0",
+        '  method: "none: constructed from a closed-form spectrum, not fitted to data"',
+        "missing:",
+        "  - any measurement (do not design with it)",
+        "  - strain dependence",
+        "  - vertical shift (none applied)",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def shelf_texts() -> dict[str, str]:
+    """File name and content of every compound."""
+    texts = {f"{m.name.lower()}.yaml": measured_text(m) for m in MEASURED}
+    return texts | {f"{c.name}.yaml": illustrative_text(c) for c in ILLUSTRATIVE}
+
+
+def main(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    for file, text in shelf_texts().items():
+        (folder / file).write_text(text, encoding="utf-8", newline="\n")
+        print(f"wrote {file}")
+    for compound in MEASURED:
+        fit = refit(compound.name)
+        print(
+            f"{compound.name}: {fit.active_terms} of {fit.grid_terms} terms,"
+            f" E_e {fit.series.equilibrium / 1e6:.3f} MPa, rms E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}, tan delta {fit.tan_delta.rms:.1%};"
+            f" both together {fit.residual:.1%}, at best {fit.consistency_floor:.1%}"
+        )
+    for cover in ILLUSTRATIVE:
+        series, _ = construct(cover)
+        print(f"{cover.name}: {series.times.size} terms, E_e {series.equilibrium / 1e6:.3f} MPa")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else SHELF)
