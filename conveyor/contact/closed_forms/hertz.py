@@ -46,7 +46,7 @@ def plane_modulus(shear_modulus: float, *, poisson: float) -> float:
 
 
 def composite_plane_modulus(*plane_moduli: float) -> float:
-    """Plane modulus of a pair of bodies: compliances add, 1/E* = Σ (1-ν_i²)/E_i (Johnson 1985, Eq. 4.28).
+    """Plane modulus of a pair of bodies: compliances add, 1/E* = Σ (1-ν_i²)/E_i.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def composite_plane_modulus(*plane_moduli: float) -> float:
 
 
 def hertz_half_width(load: float, *, radius: float, plane_modulus: float) -> float:
-    """Half-width of a line contact, a = sqrt(4 P R/(π E')) (Hertz; Johnson 1985, Eq. 4.43).
+    """Half-width of a line contact, a = sqrt(4 P R/(π E')) (Hertz).
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def hertz_half_width(load: float, *, radius: float, plane_modulus: float) -> flo
 
 
 def hertz_peak_pressure(half_width: float, *, radius: float, plane_modulus: float) -> float:
-    """Peak pressure of a line contact, p0 = E' a/(2R) (Hertz; Johnson 1985, Eq. 4.44).
+    """Peak pressure of a line contact, p0 = E' a/(2R) (Hertz).
 
     Parameters
     ----------
@@ -162,8 +162,8 @@ def plate_symbol(q: Array) -> Array:
 
     Notes
     -----
-    A plate of stiffness D = E h³/(12(1-ν²)) under p cos κx deflects by p/(D κ⁴), and L = κ u E/(2(1-ν²) p). The
-    free layer is larger by the relative amount q²/5 + O(q⁴).
+    A plate of stiffness D = E h³/(12(1-ν²)) under p cos κx deflects by p/(D κ⁴), and L = κ u E/(2(1-ν²) p).
+    The free layer's symbol is larger by the relative amount q²/5 + O(q⁴).
 
     Examples
     --------

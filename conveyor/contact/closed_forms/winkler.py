@@ -1,9 +1,10 @@
 """Viscoelastic oracle on a Winkler foundation: a cover of independent columns with a Maxwell spectrum.
 
 Sources: Lodewijks (1995); Rudolphi & Reicks (2006), the generalised Maxwell form; Jonkers (1980) for small loss.
-Any coherent units. With the depth d = a - x behind the entry, u_i = d/k_i and k_i = V τ_i (τ_i relaxation times),
-σ R h = E_e (a d - d²/2) + Σ E_i [a d g1(u_i) - (d²/2) g2(u_i)], where g_m(u) = m ∫_0^1 (1-t)^(m-1) exp(-u t) dt runs
-from 1 (glassy) to 0 (relaxed): the sources' formula without its differences.
+Any coherent units. With the depth d = a - x behind the entry, u_i = d/k_i and k_i = V τ_i (τ_i relaxation
+times), σ R h = E_e (a d - d²/2) + Σ E_i [a d g1(u_i) - (d²/2) g2(u_i)], where
+g_m(u) = m ∫_0^1 (1-t)^(m-1) exp(-u t) dt runs from 1 (glassy) to 0 (relaxed): the sources' formula without its
+differences.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ def _memory_functions(u: Array) -> tuple[Array, Array, Array]:
 def _history(depth: Array, memory: Array) -> Array:
     """Return a d g1(d/k) - (d²/2) g2(d/k) with a = 1: stress of one element over E_i/(R h)."""
     g1, g2, _ = _memory_functions(depth / memory)
-    return depth * g1 - depth**2 / 2.0 * g2
+    history: Array = depth * g1 - depth**2 / 2.0 * g2
+    return history
 
 
 def _dissipated(memory: Array, depth: float) -> Array:
@@ -59,7 +61,8 @@ def _dissipated(memory: Array, depth: float) -> Array:
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS)
     half = np.diff(edges, axis=1)[:, :, None] / 2.0
     stress = _history(edges[:, :-1, None] + half * (nodes + 1.0), memory[:, None, None])
-    return np.einsum("ijk,k,ijk->i", stress**2, weights, half * np.ones_like(stress)) / memory
+    integral: Array = ((half * stress**2) @ weights).sum(axis=1)
+    return integral / memory
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +170,7 @@ def winkler_pressure(
 def winkler(
     *, equilibrium: float, moduli: Array, memories: Array, entry: float, radius: float, thickness: float
 ) -> WinklerContact:
-    """Rolling contact for a given entry (Lodewijks 1995; Rudolphi & Reicks 2006).
+    """Solve the rolling contact for a given entry (Lodewijks 1995; Rudolphi & Reicks 2006).
 
     The exit is where σ = 0; W = ∫ σ dx, F = ∫ σ x dx/R.
 
@@ -198,9 +201,9 @@ def winkler(
 
     Notes
     -----
-    Independent columns, parabola for the circle: a ≪ R. F is summed as what the columns dissipate and what they
-    still store when they leave, Σ ∫ σ_i² h dx/(E_i k_i) + h Σ σ_i²/(2 E_i) + h σ_e²/(2 E_e), which equals ∫ σ x dx/R
-    and keeps its digits when the loss is small.
+    Independent columns, parabola for the circle: a ≪ R. F is summed as what the columns dissipate and what
+    they still store when they leave, Σ ∫ σ_i² h dx/(E_i k_i) + h Σ σ_i²/(2 E_i) + h σ_e²/(2 E_e), which equals
+    ∫ σ x dx/R and keeps its digits when the loss is small.
 
     Examples
     --------
@@ -243,7 +246,7 @@ def winkler(
 def winkler_at_load(
     load: float, *, equilibrium: float, moduli: Array, memories: Array, radius: float, thickness: float
 ) -> WinklerContact:
-    """Rolling contact for a given load: find the entry (Lodewijks 1995; Rudolphi & Reicks 2006).
+    """Solve the rolling contact for a given load (Lodewijks 1995; Rudolphi & Reicks 2006).
 
     Parameters
     ----------
@@ -353,4 +356,4 @@ def jonkers_friction(
     require(0.0 <= load < math.inf, "load", load, "a finite number of at least 0 is needed")
     require(0.0 <= tan_delta < math.inf, "tan_delta", tan_delta, "a finite number of at least 0 is needed")
     require_positive(thickness=thickness, storage=storage, diameter=diameter)
-    return JONKERS_FACTOR * tan_delta * (load * thickness / (storage * diameter**2)) ** (1.0 / 3.0)
+    return JONKERS_FACTOR * tan_delta * math.cbrt(load * thickness / (storage * diameter**2))

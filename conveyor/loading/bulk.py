@@ -1,0 +1,184 @@
+"""The bulk on the belt: line mass, usable width, cross-section, capacity.
+
+Source: ISO 5048.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from conveyor.loading._checks import require, require_angle, require_not_negative, require_positive
+
+EDGE_FRACTION: Final = 0.9  # ISO 5048: b = 0.9 B - 50 mm
+EDGE_MARGIN: Final = 0.05  # [m], ISO 5048, belts up to WIDE_BELT
+WIDE_BELT: Final = 2.0  # [m], ISO 5048
+WIDE_EDGE_MARGIN: Final = 0.25  # [m], ISO 5048: b = B - 250 mm beyond WIDE_BELT
+
+
+def bulk_line_mass(mass_flow: float, *, belt_speed: float) -> float:
+    """Mass of bulk per length of belt, m'_bulk = Q/v (ISO 5048).
+
+    Parameters
+    ----------
+    mass_flow : float
+        Q [kg/s], at least 0.
+    belt_speed : float
+        v [m/s], positive.
+
+    Returns
+    -------
+    float
+        m'_bulk [kg/m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(bulk_line_mass(2300 / 3.6, belt_speed=4.8), 2)
+    133.1
+    """
+    require_not_negative(mass_flow=mass_flow)
+    require_positive(belt_speed=belt_speed)
+    return mass_flow / belt_speed
+
+
+def usable_width(belt_width: float) -> float:
+    """Width of belt that may carry bulk, b = 0.9 B - 50 mm, beyond B = 2 m B - 250 mm (ISO 5048).
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], more than 0.056 m (below, nothing is left between the free edges).
+
+    Returns
+    -------
+    float
+        b [m].
+
+    Raises
+    ------
+    InputError
+        The belt is too narrow to carry anything.
+
+    Examples
+    --------
+    >>> round(usable_width(1.2), 3), round(usable_width(2.4), 3)
+    (1.03, 2.15)
+    """
+    narrowest = EDGE_MARGIN / EDGE_FRACTION
+    require(
+        narrowest < belt_width < math.inf, "belt_width", belt_width, f"more than {narrowest:.4g} m is needed"
+    )
+    if belt_width <= WIDE_BELT:
+        return EDGE_FRACTION * belt_width - EDGE_MARGIN
+    return belt_width - WIDE_EDGE_MARGIN
+
+
+@dataclass(frozen=True, slots=True)
+class CrossSection:
+    """Cross-section of the bulk on the belt.
+
+    Parameters
+    ----------
+    top : float
+        A_top, the heap above the water line [m²].
+    bottom : float
+        A_bottom, the trough below the water line [m²].
+    """
+
+    top: float
+    bottom: float
+
+    @property
+    def area(self) -> float:
+        """Whole cross-section [m²]."""
+        return self.top + self.bottom
+
+
+def cross_section(
+    usable_width: float, *, middle_roll_length: float, trough_angle: float, surcharge_angle: float
+) -> CrossSection:
+    """Largest cross-section of bulk on a trough of up to three rolls (ISO 5048).
+
+    A_top = [l_M + (b - l_M) cos λ]² tan β/6, A_bottom = [l_M + (b - l_M)/2 cos λ] (b - l_M)/2 sin λ.
+
+    Parameters
+    ----------
+    usable_width : float
+        b [m], see `usable_width`.
+    middle_roll_length : float
+        l_M [m], from 0 to b. 0 gives the trough of two rolls.
+    trough_angle : float
+        λ of the wing rolls [rad], from 0 (flat belt) to below pi/2.
+    surcharge_angle : float
+        β, dynamic slope of the heap [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    CrossSection
+        Its two parts [m²].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Level belt. The parabola of the heap is the standard's approximation for moderate β.
+
+    Examples
+    --------
+    >>> s = cross_section(
+    ...     1.03, middle_roll_length=0.436, trough_angle=math.radians(45), surcharge_angle=math.radians(20)
+    ... )
+    >>> round(s.top, 4), round(s.bottom, 4)
+    (0.0445, 0.1357)
+    """
+    require_positive(usable_width=usable_width)
+    ok = 0.0 <= middle_roll_length <= usable_width
+    require(ok, "middle_roll_length", middle_roll_length, f"0 to usable_width = {usable_width!r} m is needed")
+    require_angle(0.0, trough_angle=trough_angle, surcharge_angle=surcharge_angle)
+    wing = (usable_width - middle_roll_length) / 2.0
+    wing_across = wing * math.cos(trough_angle)
+    top = (middle_roll_length + 2.0 * wing_across) ** 2 * math.tan(surcharge_angle) / 6.0
+    bottom = (middle_roll_length + wing_across) * wing * math.sin(trough_angle)
+    return CrossSection(top=top, bottom=bottom)
+
+
+def fill_ratio(mass_flow: float, *, belt_speed: float, bulk_density: float, area: float) -> float:
+    """Capacity check: needed over available cross-section, Q/(ρ v A) (ISO 5048).
+
+    Parameters
+    ----------
+    mass_flow : float
+        Q [kg/s], at least 0.
+    belt_speed : float
+        v [m/s], positive.
+    bulk_density : float
+        ρ [kg/m³], positive.
+    area : float
+        A, what the trough holds [m²], positive, see `cross_section`.
+
+    Returns
+    -------
+    float
+        Fill ratio [-]; above 1 the belt spills.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(fill_ratio(2300 / 3.6, belt_speed=4.8, bulk_density=850.0, area=0.1802), 3)
+    0.869
+    """
+    require_positive(bulk_density=bulk_density, area=area)
+    return bulk_line_mass(mass_flow, belt_speed=belt_speed) / (bulk_density * area)

@@ -1,0 +1,33 @@
+"""Refusals of the resistance laws: every message names the argument, its value and what is allowed."""
+
+from __future__ import annotations
+
+import math
+
+from conveyor.errors import InputError
+
+
+def require(ok: bool, name: str, value: object, allowed: str) -> None:
+    if not ok:
+        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
+
+
+def require_positive(**values: float) -> None:
+    for name, value in values.items():
+        require(0.0 < value < math.inf, name, value, "a finite number greater than 0 is needed")
+
+
+def require_not_negative(**values: float) -> None:
+    for name, value in values.items():
+        require(0.0 <= value < math.inf, name, value, "a finite number of at least 0 is needed")
+
+
+def require_finite(**values: float) -> None:
+    for name, value in values.items():
+        require(math.isfinite(value), name, value, "a finite number is needed")
+
+
+def require_slope(**values: float) -> None:
+    for name, value in values.items():
+        ok = -math.pi / 2.0 < value < math.pi / 2.0
+        require(ok, name, value, "an angle in rad between -pi/2 and pi/2 is needed")

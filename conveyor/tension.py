@@ -1,0 +1,303 @@
+"""Belt tensions: grip at the drive, sag between idlers, what governs; pulley size and belt stiffness.
+
+Sources: Eytelwein; ISO 5048, DIN 22101.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from conveyor.errors import InputError
+
+Carcass = Literal["polyamide", "EP", "steel cord"]
+
+DRIVE_FRICTION_LAGGED: Final = 0.35  # [-], worked examples; a default
+DRIVE_FRICTION_BARE: Final = 0.25  # [-], worked examples; a default
+DRIVE_FRICTION_RUBBER_ON_STEEL: Final = 0.30  # [-], worked examples; a default
+RELATIVE_SAG: Final = 0.01  # [-], 1 to 2 % in operation; the ISO 5048 worked example's carry strand
+START_FACTOR_RANGE: Final = (1.2, 1.5)  # [-], start over steady drive force
+PULLEY_FACTOR: Final[Mapping[Carcass, float]] = {"polyamide": 90.0, "EP": 108.0, "steel cord": 145.0}  # c [-]
+LARGEST_FRICTION: Final = 2.0  # [-], beyond any pair of belt and pulley: catches slips of the pen
+LARGEST_WRAP: Final = 8.0 * math.pi  # [rad], four pulleys of a full turn: catches degrees given as rad
+STEEL_CORD_STIFFNESS_FACTOR: Final = 72.0  # [-], EA over nominal strength, approximate
+
+
+def _require(ok: bool, name: str, value: object, allowed: str) -> None:
+    if not ok:
+        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
+
+
+def _require_positive(**values: float) -> None:
+    for name, value in values.items():
+        _require(0.0 < value < math.inf, name, value, "a finite number greater than 0 is needed")
+
+
+def _require_not_negative(**values: float) -> None:
+    for name, value in values.items():
+        _require(0.0 <= value < math.inf, name, value, "a finite number of at least 0 is needed")
+
+
+def _require_drive(friction: float, wrap_angle: float) -> None:
+    _require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "above 0 and at most 2 is needed")
+    _require(
+        0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "above 0 and at most 8 pi rad is needed"
+    )
+
+
+def grip_ratio(friction: float, *, wrap_angle: float) -> float:
+    """Largest ratio of tensions a drive pulley holds without slip, T1/T2 ≤ e^(μ α) (Eytelwein).
+
+    Parameters
+    ----------
+    friction : float
+        μ between belt and pulley [-], above 0, at most 2.
+    wrap_angle : float
+        α [rad], above 0, at most 8 pi; sum of the angles of all driven pulleys.
+
+    Returns
+    -------
+    float
+        T1/T2 [-].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(grip_ratio(0.3, wrap_angle=math.pi), 4)
+    2.5663
+    """
+    _require_drive(friction, wrap_angle)
+    return math.exp(friction * wrap_angle)
+
+
+def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> float:
+    """Least tension on the slack side of the drive, T2,min = |F_U|/(e^(μ α) - 1) (Eytelwein, ISO 5048).
+
+    Parameters
+    ----------
+    drive_force : float
+        F_U at the pulley [N]; negative when the belt drives the motor.
+    friction : float
+        μ [-], above 0, at most 2.
+    wrap_angle : float
+        α [rad], above 0, at most 8 pi.
+
+    Returns
+    -------
+    float
+        T2,min [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(grip_tension(13232.32, friction=0.3, wrap_angle=math.pi), 2)
+    8447.96
+    """
+    _require(math.isfinite(drive_force), "drive_force", drive_force, "a finite number is needed")
+    _require_drive(friction, wrap_angle)
+    return abs(drive_force) / math.expm1(friction * wrap_angle)
+
+
+def sag_tension(line_mass: float, *, spacing: float, relative_sag: float, gravity: float) -> float:
+    """Least tension that keeps the sag, T ≥ (m'_belt + m'_bulk) g a/(8 (h/a)) (ISO 5048).
+
+    Parameters
+    ----------
+    line_mass : float
+        m'_belt + m'_bulk on the strand [kg/m], at least 0.
+    spacing : float
+        a, distance of the idler sets [m], positive.
+    relative_sag : float
+        h/a [-], positive; 0.01 to 0.02 in operation.
+    gravity : float
+        g [m/s²], positive.
+
+    Returns
+    -------
+    float
+        T [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Parabola of a level strand: small relative sag.
+
+    Examples
+    --------
+    >>> round(sag_tension(16.44, spacing=3.0, relative_sag=0.02, gravity=9.81))
+    3024
+    """
+    _require_not_negative(line_mass=line_mass)
+    _require_positive(spacing=spacing, relative_sag=relative_sag, gravity=gravity)
+    return line_mass * gravity * spacing / (8.0 * relative_sag)
+
+
+def governing_tension(minima: Mapping[str, float]) -> tuple[str, float]:
+    """Return the largest of several least tensions at one point of the belt, and its name.
+
+    Parameters
+    ----------
+    minima : mapping of str to float
+        Least tension each condition asks for at that point [N], each at least 0, for example
+        {"grip": …, "sag carry": …, "sag return": …}.
+
+    Returns
+    -------
+    name : str
+        The condition that governs; of equals the first.
+    tension : float
+        Its tension [N].
+
+    Raises
+    ------
+    InputError
+        There is no condition, or a tension is negative.
+
+    Examples
+    --------
+    >>> governing_tension({"grip": 8448.0, "sag carry": 22005.0, "sag return": 3024.0})
+    ('sag carry', 22005.0)
+    """
+    _require(len(minima) > 0, "minima", dict(minima), "at least one condition is needed")
+    _require_not_negative(**minima)
+    name = max(minima, key=lambda condition: minima[condition])
+    return name, minima[name]
+
+
+@dataclass(frozen=True, slots=True)
+class DriveTensions:
+    """Tensions on both sides of the drive.
+
+    Parameters
+    ----------
+    tight : float
+        T1 [N].
+    slack : float
+        T2 [N].
+    governed_by : str
+        "grip", or "sag" when the tension the sag asks for is larger.
+    """
+
+    tight: float
+    slack: float
+    governed_by: str
+
+
+def drive_tensions(
+    drive_force: float,
+    *,
+    friction: float,
+    wrap_angle: float,
+    start_factor: float = 1.0,
+    slack_for_sag: float = 0.0,
+) -> DriveTensions:
+    """Tensions at the drive: T2 = max(grip, sag), T1 = T2 + ξ |F_U| (ISO 5048, DIN 22101).
+
+    Parameters
+    ----------
+    drive_force : float
+        F_U in steady operation [N]; negative when the belt drives the motor.
+    friction : float
+        μ [-], above 0, at most 2.
+    wrap_angle : float
+        α [rad], above 0, at most 8 pi.
+    start_factor : float
+        ξ, drive force at start over steady one [-], at least 1; 1 for steady operation.
+    slack_for_sag : float
+        Tension the sag asks for, transferred to the slack side of the drive [N], at least 0.
+
+    Returns
+    -------
+    DriveTensions
+        Both tensions [N] and the governing condition.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    The tight side is the one the belt runs in on for F_U > 0 and the one it leaves on for F_U < 0.
+
+    Examples
+    --------
+    >>> t = drive_tensions(13232.32, friction=0.3, wrap_angle=math.pi)
+    >>> round(t.tight, 2), round(t.slack, 2), t.governed_by
+    (21680.28, 8447.96, 'grip')
+    """
+    _require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
+    grip = grip_tension(start_factor * drive_force, friction=friction, wrap_angle=wrap_angle)
+    governed_by, slack = governing_tension({"grip": grip, "sag": slack_for_sag})
+    return DriveTensions(tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by)
+
+
+def least_pulley_diameter(carcass_thickness: float, *, carcass: Carcass) -> float:
+    """Least diameter of the drive pulley, c d_carcass (DIN 22101).
+
+    Parameters
+    ----------
+    carcass_thickness : float
+        d_carcass, fabric plies or cord diameter [m], positive.
+    carcass : {"polyamide", "EP", "steel cord"}
+        Kind: c is 90, 108, 145.
+
+    Returns
+    -------
+    float
+        Diameter [m].
+
+    Raises
+    ------
+    InputError
+        The thickness is not positive or the kind unknown.
+
+    Examples
+    --------
+    >>> round(least_pulley_diameter(0.005, carcass="EP"), 3)
+    0.54
+    """
+    _require_positive(carcass_thickness=carcass_thickness)
+    _require(carcass in PULLEY_FACTOR, "carcass", carcass, f"one of {', '.join(PULLEY_FACTOR)} is needed")
+    return PULLEY_FACTOR[carcass] * carcass_thickness
+
+
+def steel_cord_stiffness(nominal_strength: float) -> float:
+    """Tensile stiffness of a steel-cord belt per width, EA ≈ 72 × strength class.
+
+    Parameters
+    ----------
+    nominal_strength : float
+        Strength class per width [N/m], positive: ST1600 is 1.6e6 N/m.
+
+    Returns
+    -------
+    float
+        EA per width [N/m].
+
+    Raises
+    ------
+    InputError
+        The strength is not positive.
+
+    Examples
+    --------
+    >>> steel_cord_stiffness(1.6e6)
+    115200000.0
+    """
+    _require_positive(nominal_strength=nominal_strength)
+    return STEEL_CORD_STIFFNESS_FACTOR * nominal_strength
