@@ -106,18 +106,30 @@ def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = Non
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    n = matrix.shape[2]
     inverse = np.linalg.inv(matrix[:, 1:, :])
     row = (matrix[:, :1, :] @ inverse)[:, 0]
     eps, inside = _eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
     safe = np.where(inside, alpha, 0.5 * rho)
-    slope, _ = slope_coefficients(safe, np.where(inside, eps, 0.0), rho, n + 2)
+    return figures(inverse, safe, np.where(inside, eps, 0.0), rho, inside)
+
+
+def figures(
+    inverse: Array, alpha: Array, eps: Array, rho: float, inside: NDArray[np.bool_] | None = None
+) -> Contact:
+    """Coefficients, load and friction of contacts of known place; `inverse` is that of rows 1 … n, shape (b, n, n)."""
+    n = inverse.shape[1]
+    slope, _ = slope_coefficients(alpha, eps, rho, n + 2)
     c = (inverse @ slope[:, 1 : n + 1, None])[..., 0]
-    pressure = 0.25 * alpha * c[:, 0]
     # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
     work = np.einsum("bv,bv->b", c, slope[:, :n] - slope[:, 2 : n + 2]) + c[:, 0] * slope[:, 0]
-    friction = -0.5 * rho * work / c[:, 0]
-    return Contact(alpha=alpha, eps=eps, c=c, pressure=pressure, friction=friction, inside=inside)
+    return Contact(
+        alpha=alpha,
+        eps=eps,
+        c=c,
+        pressure=0.25 * alpha * c[:, 0],
+        friction=-0.5 * rho * work / c[:, 0],
+        inside=np.ones(alpha.size, dtype=bool) if inside is None else inside,
+    )
 
 
 def _eccentricity(row: Array, alpha: Array, rho: float, start: Array) -> tuple[Array, NDArray[np.bool_]]:

@@ -7,8 +7,8 @@ s + e/a - Vτ/a, and the belt enters at s = +1.
 
 References
 ----------
-Hunter, S. C. (1961), The rolling contact of a rigid cylinder with a viscoelastic half space, J. Appl. Mech. 28,
-611-617.
+Hunter, S. C. (1961), The rolling contact of a rigid cylinder with a viscoelastic half space, J. Appl. Mech.
+28, 611-617.
 """
 
 from __future__ import annotations
@@ -171,7 +171,7 @@ def hunter(modulus_ratio: float, *, memory: float) -> HunterContact:
 
     Notes
     -----
-    Parabola for the circle: a ≪ R. Bessel functions are exponentially scaled; the scale cancels in every ratio.
+    Parabola for the circle: a ≪ R. Bessel functions are exponentially scaled; the scale cancels in each ratio.
 
     Examples
     --------

@@ -1,10 +1,10 @@
 """Viscoelastic oracle on a Winkler foundation: a cover of independent columns with a Maxwell spectrum.
 
-Sources: Lodewijks (1995); Rudolphi & Reicks (2006), the generalised Maxwell form; Jonkers (1980) for small loss.
+Sources: Lodewijks (1995); Rudolphi & Reicks (2006), the generalised Maxwell form; Jonkers (1980), small loss.
 Any coherent units. With the depth d = a - x behind the entry, u_i = d/k_i and k_i = V τ_i (τ_i relaxation
 times), σ R h = E_e (a d - d²/2) + Σ E_i [a d g1(u_i) - (d²/2) g2(u_i)], where
-g_m(u) = m ∫_0^1 (1-t)^(m-1) exp(-u t) dt runs from 1 (glassy) to 0 (relaxed): the sources' formula without its
-differences.
+g_m(u) = m ∫_0^1 (1-t)^(m-1) exp(-u t) dt runs from 1 (glassy) to 0 (relaxed): the sources' formula without
+its differences.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from conveyor.contact.closed_forms._checks import require, require_positive
 
 Array = NDArray[np.float64]
 
-JONKERS_FACTOR: Final = (math.pi / 2.0) * (math.pi / 4.0) ** (4.0 / 3.0)  # [-], Jonkers (1980)
+JONKERS_FACTOR: Final[float] = (math.pi / 2.0) * (math.pi / 4.0) ** (4.0 / 3.0)  # [-], Jonkers (1980)
 _SERIES_TERMS: Final = 18  # 1/18! is below rounding for u < 1
 _GAUSS: Final = 24  # points per panel: exact to rounding for exp(-2u) over a doubling of u
 _DECAYED: Final = 64.0  # exp(-64) is below rounding beside what remains of the history
@@ -202,8 +202,8 @@ def winkler(
     Notes
     -----
     Independent columns, parabola for the circle: a ≪ R. F is summed as what the columns dissipate and what
-    they still store when they leave, Σ ∫ σ_i² h dx/(E_i k_i) + h Σ σ_i²/(2 E_i) + h σ_e²/(2 E_e), which equals
-    ∫ σ x dx/R and keeps its digits when the loss is small.
+    they still store when they leave, Σ ∫ σ_i² h dx/(E_i k_i) + h Σ σ_i²/(2 E_i) + h σ_e²/(2 E_e), which
+    equals ∫ σ x dx/R and keeps its digits when the loss is small.
 
     Examples
     --------

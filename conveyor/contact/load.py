@@ -1,0 +1,109 @@
+"""Load control: the half width whose contact carries the load asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.problem import ContactProblem, CreepSpectrum
+from conveyor.contact.scene import Scene, State
+from conveyor.contact.spectral import Contact, equilibrium
+
+Array = NDArray[np.float64]
+
+_LOAD_STEPS = 60
+_LOAD_ACCEPTED = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
+_WIDEST = 1.0 - 1e-9
+_CLOSED = 1e-10
+_DISTINCT = 1e-9  # half widths closer than this carry no slope
+
+
+@dataclass
+class LoadSearch:
+    """Root of ln p̃_m(ln α) = ln p̃_m: secant steps between the widest contact too light and the narrowest too heavy."""
+
+    target: float
+    log_alpha: float
+    slope: float
+    low: float = -math.inf
+    high: float = math.inf
+    last: tuple[float, float, float] | None = None
+    eps: Array | None = None
+    exponent: float | None = None
+
+    def accept(self, contact: Contact) -> float:
+        """Take the load at the present half width, move to the next one; returns the mismatch ln p - target.
+
+        Learns d ln p/d ln α (the next step) and d ln μ/d ln p (`exponent`, for the error at fixed load) on the way.
+        """
+        log_pressure, friction = math.log(contact.pressure[0]), float(contact.friction[0])
+        miss = log_pressure - self.target
+        if self.last is not None and abs(self.log_alpha - self.last[0]) > _DISTINCT:
+            rise = log_pressure - self.last[1]
+            slope = rise / (self.log_alpha - self.last[0])
+            if slope > 0.1:
+                self.slope = slope
+                if friction * self.last[2] > 0.0:
+                    self.exponent = math.log(friction / self.last[2]) / rise
+        self.last = (self.log_alpha, log_pressure, friction)
+        self.eps = contact.eps
+        if miss < 0.0:
+            self.low = max(self.low, self.log_alpha)
+        elif miss > 0.0:
+            self.high = min(self.high, self.log_alpha)
+        step = self.log_alpha - max(-1.5, min(1.5, miss / self.slope))
+        if not self.low < step < self.high and math.isfinite(self.low + self.high):
+            step = 0.5 * (self.low + self.high)
+        self.log_alpha = step
+        return miss
+
+    def renew(self) -> None:
+        """Forget the bracket: at another order the load of a half width differs slightly."""
+        self.low, self.high, self.last = -math.inf, math.inf, None
+
+    def reject(self) -> None:
+        """The present half width has no contact on the roll: go back toward a narrower one."""
+        self.high = min(self.high, self.log_alpha)
+        self.log_alpha = 0.5 * (self.low + self.high) if math.isfinite(self.low) else self.high - 0.7
+
+
+def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State | None:
+    """The contact of order n that carries the load to `tolerance`; None where the roll is wrapped before it does."""
+    rho = scene.problem.rho
+    best: State | None = None
+    for _ in range(_LOAD_STEPS):
+        alpha = math.exp(search.log_alpha)
+        if alpha >= rho * _WIDEST:
+            search.reject()
+            continue
+        matrix = scene.matrix(alpha, n)
+        contact = equilibrium(matrix, np.array([alpha]), rho, search.eps)
+        if not contact.inside[0] or contact.pressure[0] <= 0.0:
+            search.reject()
+            if search.high - search.low < _CLOSED:
+                break
+            continue
+        miss = abs(search.accept(contact))
+        if best is None or miss < best.miss:
+            best = State(contact, matrix, miss)
+        if miss <= tolerance:
+            return best
+    return best if best is not None and best.miss <= _LOAD_ACCEPTED else None
+
+
+def guess(problem: ContactProblem, creep: CreepSpectrum) -> tuple[float, float]:
+    """First ln α and d ln p̃_m/d ln α: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
+    rho = problem.rho
+    narrow = rho * math.sqrt(problem.pressure * creep.instantaneous)
+    widest = 0.8 * rho
+    if narrow >= widest:
+        return math.log(widest), 2.0
+    alpha = np.geomspace(narrow, widest, 48)
+    compliance = np.abs(problem.layer.symbol(1.0 / alpha, creep))
+    log_alpha = np.log(alpha)
+    log_pressure = np.maximum.accumulate(2.0 * np.log(alpha / (2.0 * rho)) - np.log(compliance))
+    at = float(np.interp(math.log(problem.pressure), log_pressure, log_alpha))
+    return at, 2.0
