@@ -10,7 +10,8 @@ The illustrative covers are NOT measurements. Each has a continuous relaxation s
     n = (tau/tau_s)^-0.12 exp(-sqrt(tau/tau_s))/(1 + tau_g/tau)    network and filler, broad, ends at tau_s
 
 with tau_g = 100 s at the stated glass temperature, carried to 20 degC by the WLF law with the universal
-constants. Sampled at two lines a decade from 1e-14 to 1e4 s it ripples by 4 exp(-pi^2/1.15) = 0.08 % only. A, B and the equilibrium modulus solve three linear equations: E' and E'' at 20 degC and 10 Hz, and E_inf.
+constants. Sampled at two lines a decade, 1e-14 to 1e4 s, its tan delta ripples by 4 exp(-pi^2/1.15) = 0.08 %.
+A, B and the equilibrium modulus solve three linear equations: E' and E'' at 20 degC and 10 Hz, and E_inf.
 """
 
 from __future__ import annotations
@@ -75,8 +76,8 @@ UNKNOWN = (
 MEASURED = (
     Measured(
         "S100",
-        "Filled rubber of tyre type, not a belt cover: master curve as published, raw. Its E'' scatters by 28 %"
-        " and contradicts its E' (no positive spectrum does much better): use it for trends, not for guarantees.",
+        "Filled rubber of tyre type, not a belt cover: master curve as published, raw. Its E'' scatters"
+        " by 28 % and contradicts its E' (no positive spectrum does much better): for trends, no guarantees.",
         UNKNOWN,
     ),
     Measured(
@@ -241,7 +242,8 @@ def main(folder: Path) -> None:
         fit = refit(compound.name)
         print(
             f"{compound.name}: {fit.active_terms} of {fit.grid_terms} terms,"
-            f" E_e {fit.series.equilibrium / 1e6:.3f} MPa, rms E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}, tan delta {fit.tan_delta.rms:.1%};"
+            f" E_e {fit.series.equilibrium / 1e6:.3f} MPa,"
+            f" rms E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}, tan delta {fit.tan_delta.rms:.1%};"
             f" both together {fit.residual:.1%}, at best {fit.consistency_floor:.1%}"
         )
     for cover in ILLUSTRATIVE:

@@ -12,6 +12,8 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
 from conveyor.rubber.prony import PronySeries
 
+DUST = 1.0e-12
+"""NNLS may return zero as rounding, 1e-16; no data resolve a modulus this far below the smallest E'."""
 FLOOR_TERMS_PER_DECADE = 10.0
 """Spectrum lines of the consistency test. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-18."""
 FLOOR_EXTRA_DECADES = 3.0
@@ -61,7 +63,8 @@ class PronyFit:
         Root mean square of all relative errors, E' and E'' together: what was minimised [-].
     consistency_floor : float
         The same for the best of ALL positive spectra (ten lines a decade, three decades beyond the window,
-        equilibrium free): no series can do better, so the data contradict themselves by this much [-].
+        equilibrium free): no series does better by more than 0.1 %, so this much is noise or contradiction
+        of the data [-].
     """
 
     series: PronySeries
@@ -76,7 +79,7 @@ class PronyFit:
 
     @property
     def active_terms(self) -> int:
-        """Number of terms with a modulus > 0 [-]."""
+        """Number of terms the fit kept [-]."""
         return int(self.series.times.size)
 
 
@@ -125,7 +128,7 @@ def fit_prony(
     Minimised is the sum of squared RELATIVE errors of E' and E'' with all moduli >= 0 (NNLS), so every decade
     weighs the same. Rows of equal frequency are kept as separate rows: they are separate measurements, and
     least squares then weighs their mean by their number. Times outside the window are not determined by
-    the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at the same residual.
+    the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same residual.
 
     A dense grid (2 a decade and more) returns twins: neighbours that together stand for one time between
     them. They are not merged: the pair is the least-squares answer on its grid, and a merged line would
@@ -158,9 +161,9 @@ def fit_prony(
     held = None if equilibrium is None else _held(equilibrium, e1)
     tau = _grid(omega, density) if times is None else _given(times, omega, held)
     moduli, matrix = _solve(omega, e1, e2, tau, held)
-    active = moduli > 0.0
-    fitted, terms = float(moduli[0]), active[1:]
-    if fitted <= 0.0:
+    active = moduli > DUST * e1.min()
+    fitted, terms = float(moduli[0]) if held is None else held, active[1:]
+    if not active[0]:
         raise NoSolutionError(
             "the best equilibrium modulus is 0 (a fluid): the data do not reach the rubbery plateau;"
             " measure lower frequencies or hotter, or hold it with equilibrium=<measured value in Pa>"
