@@ -190,7 +190,7 @@ def _checked_shares(name: str, shares: tuple[float, ...], n_rolls: int) -> tuple
     require(len(shares) == n_rolls, name, shares, f"one share for each of the {n_rolls} rolls is needed")
     require(all(0.0 <= share <= 1.0 for share in shares), name, shares, "shares from 0 to 1 are needed")
     total = math.fsum(shares)
-    require(abs(total - 1.0) <= SHARE_SUM_TOLERANCE, name, shares, f"the sum must be 1, it is {total!r}")
+    require(abs(total - 1.0) <= SHARE_SUM_TOLERANCE, name, shares, f"the sum must be 1, it is {total:.12g}")
     return shares
 
 

@@ -171,7 +171,10 @@ def hunter(modulus_ratio: float, *, memory: float) -> HunterContact:
 
     Notes
     -----
-    Parabola for the circle: a ≪ R. Bessel functions are exponentially scaled; the scale cancels in each ratio.
+    Parabola for the circle: a ≪ R. Bessel functions are exponentially scaled,
+    which cancels in every ratio. Two viscoelastic bodies of the same retardation time and modulus ratio:
+    the plane compliances (1-ν²)/E0 = (1-ν)/(2 G0) add (`composite_plane_modulus`), and R is the equivalent
+    radius, 1/R = 1/R1 + 1/R2.
 
     Examples
     --------
