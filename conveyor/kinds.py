@@ -1,0 +1,74 @@
+"""Kinds of quantity: what each is called, the units it may be written in, the units of reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of quantity: noun, spelled units ("^2" is also read as "²" and "2"), example, report units."""
+
+    noun: str
+    spelled: str
+    example: str
+    si: str
+    us: str
+    units: dict[str, str] = field(init=False, repr=False, compare=False)
+    """Every accepted spelling and the spelling that stands for it in output."""
+
+    def __post_init__(self) -> None:
+        table = {form: name for name in self.spelled.split() for form in _forms(name)}
+        if self.si == "":
+            table[""] = ""
+        object.__setattr__(self, "units", table)
+
+    @property
+    def expected(self) -> str:
+        """What a message asks for."""
+        return self.noun if self.si == "" else f'{self.noun} such as "{self.example}"'
+
+
+def _forms(name: str) -> list[str]:
+    """List the ways to write a unit, the one used for output first."""
+    forms = [name]
+    for power, signs in {"^2": ("²", "2"), "^3": ("³", "3")}.items():
+        forms += [name.replace(power, sign) for sign in signs if power in name]
+    return forms
+
+
+_TEMPERATURES = "degC degF K °C °F"
+_DIFFERENCES = "K delta_degC delta_degF Δ°C Δ°F"
+
+KINDS: dict[str, Kind] = {
+    "length": Kind("a length", "mm cm m km in inch ft", "1200 mm", "m", "ft"),
+    "thickness": Kind("a length", "mm cm m km in inch ft", "6 mm", "mm", "in"),
+    "area": Kind("an area", "mm^2 cm^2 m^2 in^2 ft^2", "0.2 m^2", "m^2", "ft^2"),
+    "speed": Kind("a speed", "m/s fpm ft/min km/h m/min ft/s", "5 m/s", "m/s", "fpm"),
+    "mass": Kind("a mass", "kg g t lb short_ton", "15.5 kg", "kg", "lb"),
+    "line mass": Kind("a mass per length", "kg/m lb/ft t/m", "16.4 kg/m", "kg/m", "lb/ft"),
+    "area mass": Kind("a mass per area", "kg/m^2 lb/ft^2", "27 kg/m^2", "kg/m^2", "lb/ft^2"),
+    "density": Kind("a density", "kg/m^3 t/m^3 lb/ft^3 g/cm^3", "850 kg/m^3", "kg/m^3", "lb/ft^3"),
+    "force": Kind("a force", "N kN MN lbf", "2.5 N", "N", "lbf"),
+    "line force": Kind("a force per width", "N/m kN/m N/mm lbf/in lbf/ft PIW", "1600 N/mm", "N/m", "lbf/in"),
+    "pressure": Kind("a pressure", "Pa kPa MPa GPa psi N/mm^2 bar", "10 MPa", "MPa", "psi"),
+    "time": Kind("a time", "s ms us µs min h d", "0.1 s", "s", "s"),
+    "frequency": Kind("a frequency", "Hz mHz kHz MHz GHz", "10 Hz", "Hz", "Hz"),
+    "angular frequency": Kind("an angular frequency", "rad/s", "63 rad/s", "rad/s", "rad/s"),
+    "temperature": Kind("a temperature", _TEMPERATURES, "20 degC", "degC", "degF"),
+    "temperature difference": Kind(
+        "a temperature difference", _DIFFERENCES, "50 K", "delta_degC", "delta_degF"
+    ),
+    "angle": Kind("an angle", "deg rad °", "35 deg", "deg", "deg"),
+    "mass flow": Kind("a mass flow", "t/h tph kg/s short_ton/h stph lb/h kg/h", "2400 t/h", "t/h", "stph"),
+    "volume flow": Kind("a volume flow", "m^3/h m^3/s ft^3/min", "2800 m^3/h", "m^3/h", "ft^3/min"),
+    "power": Kind("a power", "W kW MW hp", "500 kW", "kW", "hp"),
+    "energy": Kind("an energy", "J kJ MJ kWh MWh", "1500 kWh", "kWh", "kWh"),
+    "molar energy": Kind("an energy per amount", "J/mol kJ/mol", "150 kJ/mol", "kJ/mol", "kJ/mol"),
+    "fraction": Kind('a fraction (0.95 or "95 %")', "%", "95 %", "", ""),
+}
+
+SPELLINGS: dict[str, str] = {}
+for _kind in KINDS.values():
+    for _form, _name in _kind.units.items():
+        SPELLINGS.setdefault(_form, _name)

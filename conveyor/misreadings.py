@@ -1,0 +1,113 @@
+"""Why a text is no quantity, and what to write instead: the traps of locale, unit and kind."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+
+from conveyor.kinds import KINDS, SPELLINGS, Kind
+
+NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+NUMBER_UNIT = re.compile(rf"\s*({NUMBER})\s*([^\s0-9.,+-](?:.*\S)?|)\s*")
+LONGEST = 80
+"""Characters: no quantity needs more, and messages quote the text."""
+
+_SEPARATORS = "[ \u00a0\u2007\u2009\u202f'’_]"
+_TRAPS: tuple[tuple[str, str], ...] = (
+    (
+        r"[+-]?[0-9][0-9.' ]*,",
+        'a comma is ambiguous; write a decimal point and no thousands sign, e.g. "1.2 m"',
+    ),
+    (
+        rf"[+-]?[0-9]{{1,3}}({_SEPARATORS}[0-9]{{3}})+(?![0-9])",
+        'write the number without a thousands sign, e.g. "1000 m"',
+    ),
+    (r"[+-]?[0-9]*\.[0-9]*\.", "the number has more than one decimal point"),
+    (r"[−–]", 'write minus as "-"'),
+    (r"(?i)[+-]?\.?(nan|inf)", "expected a finite number"),
+)
+_HZ = "1 Hz is 6.283 rad/s: they are not interchangeable"
+_CONFUSED = {
+    ("frequency", "angular frequency"): _HZ,
+    ("angular frequency", "frequency"): _HZ,
+    ("temperature difference", "temperature"): 'write a difference as "10 K" or "10 delta_degC"',
+}
+_OFTEN_MEANT = {
+    "C": "degC", "c": "degC", "celsius": "degC", "Celsius": "degC", "F": "degF", "fahrenheit": "degF",
+    "Fahrenheit": "degF", "kelvin": "K", '"': "in", "inches": "in", "'": "ft", "feet": "ft", "foot": "ft",
+    "metre": "m", "meter": "m", "metres": "m", "meters": "m", "lbs": "lb", "pound": "lb", "pounds": "lb",
+    "sec": "s", "hr": "h", "hour": "h", "hours": "h", "tonne": "t", "tonnes": "t", "tonne/h": "t/h",
+    "tonnes/h": "t/h", "degree": "deg", "degrees": "deg", "percent": "%", "lbs/ft": "lb/ft", "pli": "PIW",
+}  # fmt: skip
+
+
+def why_not(given: object, kind: str | None) -> str:
+    """Say why `given` is no quantity of `kind` and what to write instead."""
+    if isinstance(given, str):
+        return _why_not_text(given, None if kind is None else KINDS[kind], kind)
+    expected = _expected(None if kind is None else KINDS[kind])
+    if isinstance(given, int | float) and not isinstance(given, bool):
+        if not math.isfinite(given):
+            return f"got {given}, expected a finite number"
+        return f"got {given} without a unit; {_give_the_unit(str(given), kind)}"
+    return f"expected {expected}, got {_shown(given)}"
+
+
+def _expected(kind: Kind | None) -> str:
+    return 'a number and a unit such as "1200 mm"' if kind is None else kind.expected
+
+
+def _give_the_unit(number: str, kind: str | None) -> str:
+    unit = "mm" if kind is None else KINDS[kind].example.split()[1]
+    return f'give the unit, e.g. "{number} {unit}"'
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "nothing"
+    if isinstance(value, dict | list | tuple):
+        return "a mapping" if isinstance(value, dict) else "a list"
+    shown = f'"{value}"' if isinstance(value, str) else repr(value)
+    return shown if len(shown) <= LONGEST else shown[:LONGEST] + "..."
+
+
+def _why_not_text(given: str, kind: Kind | None, key: str | None) -> str:
+    shown = _shown(given)
+    start = given.strip()
+    if len(given) > LONGEST:
+        return f"expected {_expected(kind)}, got {shown}"
+    for trap, advice in _TRAPS:
+        if re.match(trap, start):
+            return f"got {shown}: {advice}"
+    match = NUMBER_UNIT.fullmatch(given)
+    if match is None:
+        return f"expected {_expected(kind)}, got {shown}"
+    number, unit = match.groups()
+    if not math.isfinite(float(number)):
+        return f"got {shown}, expected a finite number"
+    if unit == "":
+        return f"got {shown} without a unit; {_give_the_unit(number, key)}"
+    return f"got {shown}" + _wrong_unit(number, unit, kind, key)
+
+
+def _wrong_unit(number: str, unit: str, kind: Kind | None, key: str | None) -> str:
+    """Say which unit to write when the number is fine."""
+    others = [name for name, other in KINDS.items() if unit in other.units]
+    if others:
+        hint = next(
+            (_CONFUSED[key or "", other] for other in others if (key or "", other) in _CONFUSED), None
+        )
+        return f" ({KINDS[others[0]].noun}), expected {_expected(kind)}" + (f"; {hint}" if hint else "")
+    if re.search(r"\b(short |long )?tons?\b", unit, re.IGNORECASE):
+        rest = re.sub(r"^.*?tons?", "", unit, flags=re.IGNORECASE)
+        metric, short = f"{number} t{rest}", f"{number} short_ton{rest}"
+        return f': "ton" is ambiguous; write "{metric}" (metric) or "{short}"'
+    forms = [form for form in (SPELLINGS if kind is None else kind.units) if form]
+    tight = re.sub(r"\s+", "", unit).lower()
+    same_but_case = [form for form in forms if form.lower() == tight]
+    meant = [_OFTEN_MEANT[unit]] if _OFTEN_MEANT.get(unit) in forms else same_but_case
+    near = meant or difflib.get_close_matches(unit, forms, n=1)
+    guess = f'; did you mean "{number} {near[0]}"?' if near else ""
+    allowed = "" if kind is None else "; units allowed: " + ", ".join(forms)
+    return f': unknown unit "{unit}"{guess}{allowed}'

@@ -1,0 +1,333 @@
+"""Quantities as people write them: one regex, a white list of units, SI floats for the laws.
+
+Text such as ``"1200 mm"`` is split by one regular expression and its unit looked up in a table; it never
+reaches pint's expression parser. Number and unit stay as entered (`text`); laws read `si`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeGuard
+
+import pint
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from conveyor.errors import InputError
+from conveyor.kinds import KINDS, SPELLINGS
+from conveyor.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
+
+System = Literal["SI", "US"]
+
+_registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
+_registry.formatter.default_format = "~P"
+for _definition in (
+    "foot_per_minute = foot / minute = fpm",
+    "metric_ton_per_hour = metric_ton / hour = tph",
+    "short_ton_per_hour = short_ton / hour = stph",
+    "pound_per_inch_width = force_pound / inch = PIW",
+):
+    _registry.define(_definition)
+
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+    Quantity: TypeAlias = pint.Quantity[float]
+else:
+    Quantity = _registry.Quantity
+
+_PINT_NAME = {
+    "in": "inch", "inch": "inch", "us": "microsecond", "µs": "microsecond", "min": "minute", "h": "hour",
+    "d": "day", "t": "metric_ton", "°C": "degC", "°F": "degF", "Δ°C": "delta_degC", "Δ°F": "delta_degF",
+    "deg": "degree", "°": "degree", "rad": "radian", "hp": "horsepower", "lbf": "force_pound",
+    "%": "percent", "": "dimensionless", "t/h": "metric_ton/hour", "lb/h": "pound/hour",
+    "kg/h": "kilogram/hour", "m^3/h": "meter**3/hour", "t/m": "metric_ton/meter",
+    "t/m^3": "metric_ton/meter**3",
+    "short_ton/h": "short_ton/hour", "km/h": "kilometer/hour", "in^2": "inch**2", "ft/min": "foot/minute",
+    "m/min": "meter/minute", "ft^3/min": "foot**3/minute", "lbf/in": "force_pound/inch",
+    "lbf/ft": "force_pound/foot",
+}  # fmt: skip
+_UNITS: dict[str, Any] = {
+    form: _registry.Unit(_PINT_NAME.get(name, name.replace("^", "**"))) for form, name in SPELLINGS.items()
+}
+_TABLES: dict[str | None, dict[str, Any]] = {
+    None: _UNITS,
+    **{key: {form: _UNITS[form] for form in kind.units} for key, kind in KINDS.items()},
+}
+_SPELLED: dict[Any, str] = {}
+for _form, _unit in _UNITS.items():
+    _SPELLED.setdefault(_unit, _form)
+_PERCENT, _PLAIN = _UNITS["%"], _UNITS[""]
+
+
+def quantity(value: object, kind: str | None = None) -> Quantity:
+    """Read a quantity from text, or check one, and keep number and unit as entered.
+
+    Parameters
+    ----------
+    value : str or Quantity
+        ``"number unit"``; for a fraction a plain number too.
+    kind : str, optional
+        A key of `conveyor.kinds.KINDS`; without it every unit of the table is taken.
+
+    Raises
+    ------
+    InputError
+        Not a number and a unit of the table, of another kind, or not finite.
+
+    Examples
+    --------
+    >>> text(quantity("1200 mm", "length")), si(quantity("1200 mm"))
+    ('1200 mm', 1.2)
+    """
+    if isinstance(value, str):
+        match = NUMBER_UNIT.fullmatch(value) if len(value) <= LONGEST else None
+        if match is not None:
+            unit = _TABLES[kind].get(match[2])
+            number = float(match[1])
+            if unit is not None and math.isfinite(number):
+                return _build(number, unit)
+    elif isinstance(value, pint.Quantity):
+        return _checked(value, kind)
+    elif kind == "fraction" and _is_finite_number(value):
+        return _build(float(value), _PLAIN)
+    raise InputError(why_not(value, kind))
+
+
+def _is_finite_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _build(number: float, unit: Any) -> Quantity:
+    built: Quantity = _registry.Quantity(number, unit)
+    return built
+
+
+def _checked(value: Any, kind: str | None) -> Quantity:
+    """Check a quantity built in Python: our registry, a unit of the table, finite."""
+    expected = "a quantity" if kind is None else KINDS[kind].expected
+    if not isinstance(value, _registry.Quantity):
+        raise InputError(f"got {value} of another pint registry, expected {expected}; give it as text")
+    if value.units not in _TABLES[kind].values():
+        allowed = ", ".join(form for form in _TABLES[kind] if form)
+        raise InputError(f"got {value}, expected {expected}; units allowed (convert with .to): {allowed}")
+    number = float(value.magnitude)
+    if not math.isfinite(number):
+        raise InputError(f"got {value}, expected a finite number")
+    return _build(number, value.units)
+
+
+def si(value: Quantity) -> float:
+    """Return the value in SI base units: m, kg, s, N, Pa, W, K, rad, mol; a fraction as a plain number.
+
+    Examples
+    --------
+    >>> si(quantity("20 degC", "temperature")), si(quantity("95 %", "fraction"))
+    (293.15, 0.95)
+    """
+    if value.units == _PERCENT:
+        return float(value.magnitude) / 100.0
+    return float(value.to_base_units().magnitude)
+
+
+def text(value: Quantity) -> str:
+    """Return number and unit as entered; `quantity` reads it back to the same value.
+
+    Raises
+    ------
+    InputError
+        The unit is not in the table (a result of arithmetic): convert with ``.to`` first.
+
+    Examples
+    --------
+    >>> text(quantity("600 fpm")), text(quantity("0.5 kg/m³"))
+    ('600 fpm', '0.5 kg/m^3')
+    """
+    spelled = _SPELLED.get(value.units)
+    if spelled is None:
+        raise InputError(f"{value} has a unit that specs do not know; convert it with .to first")
+    number = repr(float(value.magnitude)).removesuffix(".0")
+    return f"{number} {spelled}" if spelled else number
+
+
+def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
+    """Build a quantity from an SI value, in `unit` or the SI report unit of its kind.
+
+    Examples
+    --------
+    >>> text(from_si(0.125, "length", "mm"))
+    '125 mm'
+    """
+    spelled = KINDS[kind].si if unit is None else unit
+    if spelled not in KINDS[kind].units:
+        raise InputError(f'"{spelled}" is not a unit of {KINDS[kind].noun}')
+    built: Quantity = _build(float(value), _base(kind)).to(_UNITS[spelled])
+    return built
+
+
+@cache
+def _base(kind: str) -> Any:
+    if kind == "temperature":
+        return _UNITS["K"]
+    return _build(1.0, _UNITS[KINDS[kind].si]).to_base_units().units
+
+
+def unit_label(kind: str, system: System = "SI") -> str:
+    """Return the unit that reports of a unit system use for a kind, as spelled in specs.
+
+    Examples
+    --------
+    >>> unit_label("speed"), unit_label("speed", "US")
+    ('m/s', 'fpm')
+    """
+    return KINDS[kind].si if system == "SI" else KINDS[kind].us
+
+
+def convert(value: float, kind: str, system: System = "SI") -> float:
+    """Return an SI value in the unit of `unit_label`, for table columns.
+
+    Examples
+    --------
+    >>> round(convert(293.15, "temperature", "US"), 9)
+    68.0
+    """
+    return float(from_si(value, kind, unit_label(kind, system)).magnitude)
+
+
+def display(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
+    """Return an SI value as text with its unit, for people; `digits` are significant digits.
+
+    Examples
+    --------
+    >>> display(5.0, "speed"), display(5.08, "speed", "US"), display(0.95, "fraction")
+    ('5 m/s', '1000 fpm', '0.95')
+    """
+    number = convert(value, kind, system)
+    shown = f"{number:.{digits}g}"
+    if "e" in shown and 1.0 <= abs(number) < 10.0**12:
+        shown = f"{number:.0f}"
+    return f"{shown} {unit_label(kind, system)}".rstrip()
+
+
+def _refusing(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
+    """Turn an `InputError` into pydantic's own error, without its prefix."""
+
+    def validate(value: Any) -> Quantity:
+        try:
+            return check(value)
+        except InputError as error:
+            raise PydanticCustomError("quantity", "{message}", {"message": str(error)}) from None
+
+    return validate
+
+
+def _written(value: Quantity) -> str | float:
+    return float(value.magnitude) if value.units == _PLAIN else text(value)
+
+
+@dataclass(frozen=True)
+class Measure:
+    """Marker of a model field: a quantity of one kind, read by `quantity`, written by `text`."""
+
+    kind: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Validate with `quantity`; keep quantities in Python, write text to JSON."""
+        return core_schema.no_info_plain_validator_function(
+            _refusing(partial(quantity, kind=self.kind)),
+            serialization=core_schema.plain_serializer_function_ser_schema(_written, when_used="json"),
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Describe the field as text with a pattern (a fraction as a number too)."""
+        kind = KINDS[self.kind]
+        units = "|".join(re.escape(form) for form in sorted(kind.units, key=len, reverse=True) if form)
+        described: JsonSchemaValue = {
+            "type": "string",
+            "pattern": rf"^\s*{NUMBER}\s*({units})\s*$",
+            "description": kind.noun,
+            "examples": [kind.example],
+        }
+        if self.kind == "fraction":
+            return {"anyOf": [{"type": "number"}, described], "description": kind.noun}
+        return described
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bounds:
+    """Marker of an allowed range, as text with units; messages give it in the unit the user wrote."""
+
+    gt: str | None = None
+    ge: str | None = None
+    lt: str | None = None
+    le: str | None = None
+
+    def _limits(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
+        signs: list[tuple[str, str | None, Callable[[float, float], bool]]] = [
+            (">", self.gt, float.__gt__),
+            (">=", self.ge, float.__ge__),
+            ("<", self.lt, float.__lt__),
+            ("<=", self.le, float.__le__),
+        ]
+        return [(sign, quantity(limit), holds) for sign, limit, holds in signs if limit is not None]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Check the range after the field has been read."""
+        limits = [(sign, limit, si(limit), holds) for sign, limit, holds in self._limits()]
+
+        def check(value: Quantity) -> Quantity:
+            given = si(value)
+            if all(holds(given, bound) for _, _, bound, holds in limits):
+                return value
+            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _, _ in limits)
+            raise InputError(f"got {text(value)}, allowed: {allowed}")
+
+        return core_schema.no_info_after_validator_function(_refusing(check), handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Add the range to the description."""
+        described = handler(schema)
+        allowed = " and ".join(f"{sign} {text(limit)}" for sign, limit, _ in self._limits())
+        described["description"] = f"{described.get('description', '')}, {allowed}"
+        return described
+
+
+def _rounded(limit: Quantity, like: Quantity) -> str:
+    """Write a limit in the unit of another quantity, to six digits."""
+    converted = limit.to(like.units)
+    return text(_build(float(f"{converted.magnitude:.6g}"), like.units))
+
+
+Length = Annotated[Quantity, Measure("length")]
+Thickness = Annotated[Quantity, Measure("thickness")]
+Area = Annotated[Quantity, Measure("area")]
+Speed = Annotated[Quantity, Measure("speed")]
+Mass = Annotated[Quantity, Measure("mass")]
+LineMass = Annotated[Quantity, Measure("line mass")]
+AreaMass = Annotated[Quantity, Measure("area mass")]
+Density = Annotated[Quantity, Measure("density")]
+Force = Annotated[Quantity, Measure("force")]
+LineForce = Annotated[Quantity, Measure("line force")]
+Pressure = Annotated[Quantity, Measure("pressure")]
+Modulus = Pressure
+Time = Annotated[Quantity, Measure("time")]
+Frequency = Annotated[Quantity, Measure("frequency")]
+AngularFrequency = Annotated[Quantity, Measure("angular frequency")]
+Temperature = Annotated[Quantity, Measure("temperature")]
+TemperatureDifference = Annotated[Quantity, Measure("temperature difference")]
+Angle = Annotated[Quantity, Measure("angle")]
+MassFlow = Annotated[Quantity, Measure("mass flow")]
+VolumeFlow = Annotated[Quantity, Measure("volume flow")]
+Power = Annotated[Quantity, Measure("power")]
+Energy = Annotated[Quantity, Measure("energy")]
+MolarEnergy = Annotated[Quantity, Measure("molar energy")]
+Fraction = Annotated[Quantity, Measure("fraction")]
