@@ -24,6 +24,12 @@ def _debye(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray,
     return sine * sine, sine * cosine, cosine * cosine
 
 
+def _one_per_time(weights: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Add terms whose times agree in every digit: a pole within 1e-16 of a root of the others leaves such pairs."""
+    distinct, index = np.unique(times, return_inverse=True)
+    return np.bincount(index, weights, distinct.size).astype(np.float64, copy=False), distinct
+
+
 @dataclass(frozen=True, eq=False)
 class PronySeries:
     r"""Relaxation modulus ``E(t) = E_e + sum_i E_i exp(-t/tau_i)`` (generalised Maxwell model).
@@ -187,7 +193,8 @@ class PronySeries:
         Returns
         -------
         CreepSeries
-            Same number of terms; each retardation time lies between consecutive relaxation times.
+            Each retardation time lies between consecutive relaxation times; as many terms as here (fewer only
+            if two of them agree in every digit).
 
         Raises
         ------
@@ -196,10 +203,10 @@ class PronySeries:
 
         Notes
         -----
-        J*E* = 1 to 1e-13 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
+        J*E* = 1 to 1e-14 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
         """
         excess, compliances = interlaced(self.equilibrium, self.moduli, self.times)
-        return CreepSeries(1.0 / self.glassy, compliances, self.times * (1.0 + excess))
+        return CreepSeries(1.0 / self.glassy, *_one_per_time(compliances, self.times * (1.0 + excess)))
 
     def scaled(self, *, a_T: float = 1.0, b_T: float = 1.0) -> PronySeries:
         """Shift to another temperature: times times `a_T`, all moduli times `b_T`.
@@ -324,4 +331,4 @@ class CreepSeries:
             If the compliances are beyond the range of double precision.
         """
         excess, moduli = interlaced(self.instantaneous, self.compliances, self.times, reciprocal=True)
-        return PronySeries(1.0 / self.equilibrium, moduli, self.times[::-1] / (1.0 + excess))
+        return PronySeries(1.0 / self.equilibrium, *_one_per_time(moduli, self.times[::-1] / (1.0 + excess)))

@@ -14,7 +14,7 @@ from conveyor.errors import InputError
 from conveyor.rubber import CreepSeries, PronySeries
 
 EXACT = 1e-12
-"""Asked of J*E* = 1 and of the sum rule; seen 8e-14 at worst over 26 000 random spectra."""
+"""Asked of J*E* = 1 and of the sum rule; seen 1.1e-14 at worst over 15 000 random spectra, a third of them resonant."""
 
 
 def frequencies(times: np.ndarray) -> np.ndarray:
@@ -99,6 +99,17 @@ def test_tiny_moduli_keep_their_relative_precision(tiny: float) -> None:
     # a weak term alone: J = E_i |J*_rest(-1/tau)|^2 to first order in E_i
     rest = 1.0 + 0.5 / (1 - 1e4 / 1e-3) * (-1e4 / 1e-3) + 2.0 / (1 - 1e4 / 10.0) * (-1e4 / 10.0)
     assert creep.compliances[-1] == pytest.approx(tiny / rest**2, rel=1e-10)
+
+
+def test_a_weak_pole_on_the_root_of_the_others() -> None:
+    """Found by hypothesis: two roots crowd the weak term; residues from the weights lost 1e-11 here."""
+    creep = check_inversion(PronySeries(1.0, [1e5, 10**-9.875], [1.0, 1e5]))
+    assert creep.times == pytest.approx(1e5, rel=1e-4)
+    # the weak term on the very root, 1 + 1e5: the pair splits as the square root of its modulus
+    split = check_inversion(PronySeries(1.0, [1e5, 1e-16], [1.0, 100001.0])).times
+    assert np.diff(split) / 100001.0 == pytest.approx(2 * np.sqrt(1e-16), rel=1e-3)
+    # weaker still the two agree in every digit and are one term
+    assert check_inversion(PronySeries(1.0, [1.0, 1e-40], [1.0, 2.0])).times.tolist() == [2.0]
 
 
 def test_glass_transition_of_twelve_decades_of_modulus() -> None:
