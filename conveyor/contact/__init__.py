@@ -1,9 +1,14 @@
-"""Steady viscoelastic rolling contact of a layer on periodic rigid cylinders, dimensionless."""
+"""Steady viscoelastic rolling contact of a layer on periodic rigid cylinders, dimensionless.
 
+A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its errors comes out; `solve_loads` and
+`load_curve` share one set-up among many loads. Numbers only: no units, no rubber.
+"""
+
+from conveyor.contact.curve import LoadCurve, LoadSolutions, load_curve, solve_loads
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
-from conveyor.contact.solve import solve
+from conveyor.contact.solve import solve, solve_many
 
 __all__ = [
     "Confined",
@@ -13,7 +18,12 @@ __all__ = [
     "Free",
     "HalfSpace",
     "Layer",
+    "LoadCurve",
+    "LoadSolutions",
     "SolveStats",
     "Status",
+    "load_curve",
     "solve",
+    "solve_loads",
+    "solve_many",
 ]

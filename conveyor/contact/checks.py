@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from functools import lru_cache
 
 import numpy as np
@@ -9,51 +10,66 @@ from numpy.typing import NDArray
 
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.quadrature import CHECK, build_rule
-from conveyor.contact.scene import Scene, State
+from conveyor.contact.scene import Scene
 from conveyor.contact.solution import surface_series
 from conveyor.contact.spectral import Contact, equilibrium
 
 Array = NDArray[np.float64]
 
+ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
+_RIPPLES = 10.0
 _GAP_TOLERANCE = 1e-4  # of the depth; truncation of the series is 1e-7
 
 
-def order_error(state: State, rho: float, exponent: float | None) -> float:
+def order_error(contact: Contact, matrix: Array, rho: float, exponent: Array | None) -> Array:
     """Relative error of friction by order, from the nested matrices of order n/2 and 3n/4 at the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
     and δ(3n/4) the error at n is δ(3n/4)²/δ(n/2) for geometric convergence; four times that covers n^-3, and δ(3n/4)
     is the most.
+
+    Parameters
+    ----------
+    contact : Contact
+        Contacts of the full order, batch of b.
+    matrix : ndarray, shape (b, n+1, n)
+        Their matrices.
+    rho : float
+        k R [-].
+    exponent : ndarray, shape (b,), optional
+        β.
+
+    Returns
+    -------
+    ndarray, shape (b,)
+        One where a lower order has no contact on the roll.
     """
-    contact, n = state.contact, state.order
+    n = matrix.shape[2]
     change = []
     for lower in (n // 2, (3 * n) // 4):
-        sub = equilibrium(state.matrix[:, : lower + 1, :lower], contact.alpha, rho, contact.eps)
-        if not sub.inside[0]:
-            return 1.0
-        friction = relative_difference(float(sub.friction[0]), float(contact.friction[0]))
-        load = float(sub.pressure[0] / contact.pressure[0]) - 1.0
-        if exponent is None:
-            change.append(abs(friction) + abs(load))
-        else:
-            change.append(abs(friction - exponent * load))
+        sub = equilibrium(matrix[:, : lower + 1, :lower], contact.alpha, rho, contact.eps)
+        friction = relative_difference(sub.friction, contact.friction)
+        load = sub.pressure / contact.pressure - 1.0
+        shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
+        change.append(np.where(sub.inside, shift, 1.0))
     half, most = change
-    return most if half <= most else min(most, 4.0 * most * most / half)
+    return np.where(half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0)))
 
 
-def relative_difference(value: float, reference: float) -> float:
+def relative_difference(value: Array, reference: Array) -> Array:
     """value/reference - 1; zero where both are zero (an elastic layer has no friction at any order)."""
-    if value == reference:
-        return 0.0
-    return (value - reference) / abs(reference) if reference != 0.0 else 1.0
+    scale = np.where(reference != 0.0, np.abs(reference), 1.0)
+    difference: Array = (value - reference) / scale
+    return difference
 
 
-def energy_error(scene: Scene, contact: Contact) -> float:
-    """Relative difference of friction by geometry and by loss compliance, with a rule of its own."""
-    rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha[0]), CHECK)
+def energy_error(scene: Scene, contact: Contact) -> Array:
+    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,)."""
+    rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
     by_loss = friction_by_loss(rule, scene.creep, contact, scene.problem.rho)
-    return abs(relative_difference(float(by_loss[0]), float(contact.friction[0])))
+    error: Array = np.abs(relative_difference(by_loss, contact.friction))
+    return error
 
 
 @lru_cache(maxsize=16)
@@ -63,11 +79,23 @@ def _sines(n: int) -> Array:
     return np.sin(np.multiply.outer(angle, np.arange(1, n + 1)))
 
 
-def splits(contact: Contact, error: float) -> bool:
-    """Whether the single-patch pressure turns negative by more than the order's own ripple."""
-    p = _sines(contact.c.shape[1]) @ contact.c[0]
-    ripple = max(float(np.max(np.abs(contact.c[0, -2:]))) / float(p.max()), error, 1e-12)
-    return bool(p.min() < -10.0 * ripple * p.max())
+class Sign(Enum):
+    """What the sampled pressure says of a single patch."""
+
+    PRESSING = "not negative, or by less than the tolerance"
+    PULLING = "negative by more than the order's ripple: the contact splits"
+    UNDECIDED = "negative by no more than the ripple: a higher order decides"
+
+
+def sign(contact: Contact, rtol: float) -> Sign:
+    """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against its ripple (last coefficients)."""
+    p = contact.c @ _sines(contact.c.shape[1]).T
+    highest = p.max(axis=1)
+    negative = -p.min(axis=1) / highest
+    ripple = np.abs(contact.c[:, -2:]).max(axis=1) / highest
+    if np.all(negative <= rtol):
+        return Sign.PRESSING
+    return Sign.PULLING if np.any(negative > np.maximum(_RIPPLES * ripple, rtol)) else Sign.UNDECIDED
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:

@@ -69,4 +69,5 @@ def mean_drop(alpha: Array, eps: Array, rho: float, points: int) -> Array:
     """1 - v_0: T_0 coefficient over the contact of 1 - sqrt(1 - t²) = t²/(1 + sqrt(1 - t²)), shape (b,)."""
     s = np.cos((np.arange(points) + 0.5) * (np.pi / points))
     t2 = ((alpha[:, None] * s + eps[:, None]) / rho) ** 2
-    return np.mean(t2 / (1.0 + np.sqrt(1.0 - t2)), axis=1)
+    drop: Array = np.mean(t2 / (1.0 + np.sqrt(1.0 - t2)), axis=1)
+    return drop

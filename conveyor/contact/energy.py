@@ -37,4 +37,5 @@ def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: fl
         index = np.arange(n)
         kernel[:, index, index] = np.tensordot(creep.weights * creep.times, deficit, axes=(0, 1))[:, 1:]
         total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted)
-    return 2.0 * rho * total / contact.pressure
+    friction: Array = 2.0 * rho * total / contact.pressure
+    return friction

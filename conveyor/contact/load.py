@@ -32,7 +32,7 @@ class LoadSearch:
     high: float = math.inf
     last: tuple[float, float, float] | None = None
     eps: Array | None = None
-    exponent: float | None = None
+    exponent: Array | None = None
 
     def accept(self, contact: Contact) -> float:
         """Take the load at the present half width, move to the next one; returns the mismatch ln p - target.
@@ -47,7 +47,7 @@ class LoadSearch:
             if slope > 0.1:
                 self.slope = slope
                 if friction * self.last[2] > 0.0:
-                    self.exponent = math.log(friction / self.last[2]) / rise
+                    self.exponent = np.array([math.log(friction / self.last[2]) / rise])
         self.last = (self.log_alpha, log_pressure, friction)
         self.eps = contact.eps
         if miss < 0.0:
@@ -65,13 +65,13 @@ class LoadSearch:
         self.low, self.high, self.last = -math.inf, math.inf, None
 
     def reject(self) -> None:
-        """The present half width has no contact on the roll: go back toward a narrower one."""
+        """Go back toward a narrower contact: the present half width has none on the roll."""
         self.high = min(self.high, self.log_alpha)
         self.log_alpha = 0.5 * (self.low + self.high) if math.isfinite(self.low) else self.high - 0.7
 
 
 def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State | None:
-    """The contact of order n that carries the load to `tolerance`; None where the roll is wrapped before it does."""
+    """Find the contact of order n that carries the load; None where the roll is wrapped before it does."""
     rho = scene.problem.rho
     best: State | None = None
     for _ in range(_LOAD_STEPS):

@@ -77,7 +77,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
     centre = _RAMP * width
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
     end = max(2.0 * centre, layer.reach)
-    edges = _panel_edges(creep, end, span, width, centre, panels)
+    edges = _panel_edges(creep, panels, span=span, width=width, end=end, ramp_end=2.0 * centre)
     x, gauss = np.polynomial.legendre.leggauss(panels.points)
     logs = np.log(edges[1:])
     half = 0.5 * np.diff(logs)
@@ -100,7 +100,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
 
 
 def _panel_edges(
-    creep: CreepSpectrum, end: float, span: float, width: float, centre: float, panels: Panels
+    creep: CreepSpectrum, panels: Panels, *, span: float, width: float, end: float, ramp_end: float
 ) -> Array:
     """Edges from 0 to `end`, graded toward 0 for the slowest retardation term."""
     slowest = float(creep.times.max(initial=0.0))
@@ -115,7 +115,7 @@ def _panel_edges(
         )
     while edge < end:
         step = min(growth * edge, longest)
-        if edge < 2.0 * centre:
+        if edge < ramp_end:
             step = min(step, panels.ramps * width)
         edge += step
         edges.append(min(edge, end))

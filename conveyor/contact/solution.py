@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 _SERIES_REACH = 600.0  # outside the contact the series ends at m α = 600: truncated by (m α)^(-5/2) = 1e-7
 _CHUNK = 4_000_000
+_PEAK_STEPS = 8
 
 
 @dataclass(frozen=True)
@@ -120,19 +121,7 @@ class ContactSolution:
     @cached_property
     def peak_pressure(self) -> float:
         """Largest pressure p̃ [-]."""
-        c = self._need().contact.c[0]
-        v = np.arange(1, c.size + 1)
-        angle = np.linspace(0.0, np.pi, 8 * c.size + 17)
-        sampled = np.sin(np.multiply.outer(angle, v)) @ c
-        best = int(np.argmax(sampled))
-        theta, step = angle[best], angle[1]
-        for _ in range(8):  # Newton on dp/dθ = 0, kept within the sampled maximum's neighbours
-            first = np.dot(v * c, np.cos(v * theta))
-            second = -np.dot(v * v * c, np.sin(v * theta))
-            if second >= 0.0:
-                break
-            theta = float(np.clip(theta - first / second, angle[best] - step, angle[best] + step))
-        return float(max(sampled[best], np.dot(c, np.sin(v * theta))))
+        return float(peak(self._need().contact.c)[0])
 
     def pressure(self, x: ArrayLike) -> Array:
         """Contact pressure p̃ at x/R about the roll's axis; zero outside the contact; shape of x."""
@@ -153,11 +142,35 @@ class ContactSolution:
         period = 2.0 * np.pi / rho
         wrapped = at - period * np.round((at - self.eccentricity) / period)
         inside = np.abs(wrapped - self.eccentricity) <= self.half_width
-        shape = found.penetration - 1.0 + np.sqrt(np.where(inside, 1.0 - np.where(inside, wrapped, 0.0) ** 2, 1.0))
+        shape = (
+            found.penetration
+            - 1.0
+            + np.sqrt(np.where(inside, 1.0 - np.where(inside, wrapped, 0.0) ** 2, 1.0))
+        )
         out = np.where(inside, shape, 0.0)
         outer = wrapped[~inside] * rho - contact.eps[0]
         out[~inside] = surface_series(self.problem, found.creep, contact, outer)
         return out
+
+
+def peak(c: Array) -> Array:
+    """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
+    n = c.shape[1]
+    v = np.arange(1.0, n + 1.0)
+    angle = np.linspace(0.0, np.pi, 8 * n + 17)
+    sampled = c @ np.sin(np.multiply.outer(v, angle))
+    best = np.argmax(sampled, axis=1)
+    theta = angle[best]
+    for _ in range(_PEAK_STEPS):
+        turn = np.multiply.outer(theta, v)
+        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
+        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
+        curved = second < 0.0
+        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
+        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
+    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
+    highest: Array = np.maximum(refined, sampled.max(axis=1))
+    return highest
 
 
 def surface_series(problem: ContactProblem, creep: CreepSpectrum, contact: Contact, x: Array) -> Array:
@@ -169,5 +182,7 @@ def surface_series(problem: ContactProblem, creep: CreepSpectrum, contact: Conta
     spectrum = 0.5 * ((v * c * (-1j) ** ((v - 1) % 4)) @ table) / m
     wave = 2.0 * problem.layer.symbol(m, creep) * spectrum / m
     step = max(1, _CHUNK // m.size)
-    parts = [np.real(np.exp(1j * np.multiply.outer(x[i : i + step], m)) @ wave) for i in range(0, x.size, step)]
+    parts = [
+        np.real(np.exp(1j * np.multiply.outer(x[i : i + step], m)) @ wave) for i in range(0, x.size, step)
+    ]
     return np.concatenate(parts) if parts else np.empty(0)

@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
-from conveyor.contact.checks import energy_error, order_error, overlaps, relative_difference, splits
+from conveyor.contact.checks import (
+    ENERGY_OVER_ERROR,
+    Sign,
+    energy_error,
+    order_error,
+    overlaps,
+    relative_difference,
+    sign,
+)
 from conveyor.contact.load import LoadSearch, carry, guess
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene, State
@@ -18,9 +27,9 @@ from conveyor.errors import InputError, NoSolutionError
 ORDERS = (8, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 _LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
-_ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
 _ROUNDING = 1e-14
 _WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
+_FULLY_WRAPPED = 0.98
 _LIGHT_ORDER, _PATH_ORDER, _LIGHTEST = 16, 24, 14
 _DEEP = "the penetration is {:.2f} R, far outside small strain"
 _LIMIT = "the largest mean pressure reached is {:.6g}"
@@ -75,7 +84,7 @@ def _solve(scene: Scene, rtol: float) -> ContactSolution:
     found = _by_half_width(scene, rtol)
     if found is not None:
         solution = _checked(scene, *found, rtol)
-        if solution.status is not Status.SPLIT or not _is_wrapped(found[0], scene.problem.rho):
+        if solution.status is not Status.SPLIT or _edge(found[0], scene) <= _WRAPPED:
             return solution
     return _by_load(scene, rtol)
 
@@ -90,13 +99,14 @@ def _by_half_width(scene: Scene, rtol: float) -> tuple[State, float] | None:
         state = carry(scene, search, n, tolerance)
         if state is None:
             return None
-        error = order_error(state, scene.problem.rho, search.exponent)
+        error = float(order_error(state.contact, state.matrix, scene.problem.rho, search.exponent)[0])
         if error <= rtol or n == ORDERS[-1]:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
-            error = max(error, state.miss, energy_error(scene, state.contact) / _ENERGY_OVER_ERROR)
-            if error <= rtol or n == ORDERS[-1]:
+            error = max(error, state.miss, float(energy_error(scene, state.contact)[0]) / ENERGY_OVER_ERROR)
+            settled = error <= rtol and sign(state.contact, rtol) is not Sign.UNDECIDED
+            if settled or n == ORDERS[-1]:
                 return state, error
         n = _next_order(n, error, rtol)
         search.renew()
@@ -110,7 +120,9 @@ def _by_load(scene: Scene, rtol: float) -> ContactSolution:
     state, reached = follow(scene, light, _PATH_ORDER)
     target = math.log(scene.problem.pressure)
     if reached < target:
-        status = Status.SPLIT if splits(state.contact, rtol) else Status.WRAP_LIMIT
+        # the path of a single patch ends inside the roll only where the layer pulls off or touches again
+        pressing = sign(state.contact, rtol) is Sign.PRESSING
+        status = Status.WRAP_LIMIT if pressing and _edge(state, scene) > _FULLY_WRAPPED else Status.SPLIT
         return _refused(scene, status, _PATH_ORDER, _LIMIT.format(math.exp(reached)))
     tight = max(1e-3 * rtol, _LOAD_FLOOR)
     for n in ORDERS[ORDERS.index(_PATH_ORDER) + 1 :]:
@@ -118,11 +130,11 @@ def _by_load(scene: Scene, rtol: float) -> ContactSolution:
         finer = settle(scene, n, place, target, tight)
         if finer is None:
             return _refused(scene, Status.NOT_CONVERGED, n)
-        error = abs(relative_difference(float(state.contact.friction[0]), float(finer.contact.friction[0])))
+        error = float(np.abs(relative_difference(state.contact.friction, finer.contact.friction))[0])
         state = finer
         if error <= rtol:
-            error = max(error, energy_error(scene, state.contact) / _ENERGY_OVER_ERROR)
-            if error <= rtol:
+            error = max(error, float(energy_error(scene, state.contact)[0]) / ENERGY_OVER_ERROR)
+            if error <= rtol and sign(state.contact, rtol) is not Sign.UNDECIDED:
                 break
     return _checked(scene, state, error, rtol)
 
@@ -135,13 +147,14 @@ def _light(scene: Scene) -> State | None:
         drop = decade * math.log(10.0)
         search = LoadSearch(target - drop, start - drop / slope, slope)
         state = carry(scene, search, _LIGHT_ORDER, 1e-6)
-        if state is not None and not _is_wrapped(state, scene.problem.rho):
+        if state is not None and _edge(state, scene) <= _WRAPPED:
             return state
     return None
 
 
-def _is_wrapped(state: State, rho: float) -> bool:
-    return float(state.contact.alpha[0]) + abs(float(state.contact.eps[0])) > _WRAPPED * rho
+def _edge(state: State, scene: Scene) -> float:
+    """(a + |e|)/R, the outer edge."""
+    return (float(state.contact.alpha[0]) + abs(float(state.contact.eps[0]))) / scene.problem.rho
 
 
 def _next_order(n: int, error: float, rtol: float) -> int:
@@ -153,15 +166,17 @@ def _next_order(n: int, error: float, rtol: float) -> int:
 def _checked(scene: Scene, state: State, error: float, rtol: float) -> ContactSolution:
     """Accept a contact only with p ≥ 0 inside and no overlap outside; attach its errors and remarks."""
     contact, rho = state.contact, scene.problem.rho
-    if splits(contact, error):
+    pressed = sign(contact, rtol)
+    if pressed is Sign.PULLING:
         return _refused(scene, Status.SPLIT, state.order)
     rule = scene.rule(float(contact.alpha[0]))
     depth = float(penetration(rule, scene.creep, contact, rho)[0])
-    if _is_wrapped(state, rho) and overlaps(scene, contact, depth):
+    if _edge(state, scene) > _WRAPPED and overlaps(scene, contact, depth):
         return _refused(scene, Status.SPLIT, state.order)
     estimate = max(error, _ROUNDING)
-    found = Found(contact, depth, energy_error(scene, contact), estimate, scene.creep)
-    status = Status.OK if estimate <= rtol else Status.NOT_CONVERGED
+    found = Found(contact, depth, float(energy_error(scene, contact)[0]), estimate, scene.creep)
+    converged = estimate <= rtol and pressed is Sign.PRESSING
+    status = Status.OK if converged else Status.NOT_CONVERGED
     advice = (_DEEP.format(depth),) if depth > 1.0 else ()
     return ContactSolution(scene.problem, status, _stats(scene, state.order), advice, found)
 
@@ -173,3 +188,10 @@ def _refused(scene: Scene, status: Status, n: int, *advice: str) -> ContactSolut
 def _stats(scene: Scene, n: int) -> SolveStats:
     rule = scene.rules.get("solve")
     return SolveStats(n, scene.matrices, rule.nodes.size if rule else 0, scene.creep.weights.size)
+
+
+def solve_many(
+    problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
+) -> list[ContactSolution]:
+    """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised."""
+    return [solve(problem, rtol, throw=throw) for problem in problems]

@@ -44,7 +44,7 @@ class Contact:
 @lru_cache(maxsize=32)
 def _signs(n: int) -> tuple[Array, Array, Array]:
     """Factors of Re S and Im S in the matrix, and of the retardation products, shape (n+1, n)."""
-    i, v = np.arange(n + 1)[:, None], np.arange(1, n + 1)[None, :]
+    i, v = np.arange(n + 1.0)[:, None], np.arange(1.0, n + 1.0)[None, :]
     q = i - v
     factor = np.where(i == 0, 1.0, 2.0) * v
     real = np.where(q % 2 == 0, -((-1.0) ** (q // 2)), 0.0) * factor
@@ -106,7 +106,7 @@ def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = Non
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    inverse = np.linalg.inv(matrix[:, 1:, :])
+    inverse = np.asarray(np.linalg.inv(matrix[:, 1:, :]), dtype=np.float64)
     row = (matrix[:, :1, :] @ inverse)[:, 0]
     eps, inside = _eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
     safe = np.where(inside, alpha, 0.5 * rho)
@@ -176,4 +176,5 @@ def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
         retarded = np.tensordot(creep.weights * creep.times, ik, axes=(0, 1))[:, 0, 1:] * _signs(n)[2][0]
         level += np.einsum("bv,bv->b", retarded, contact.c)
     points = 2 * n + 16
-    return level + mean_drop(alpha, contact.eps, rho, points)
+    depth: Array = level + mean_drop(alpha, contact.eps, rho, points)
+    return depth

@@ -1,8 +1,8 @@
 """Strongly wrapped contacts: half width and eccentricity solved together, followed from a light load.
 
 Where a roll is wrapped beyond about 0.75 R with large friction, one half width has two eccentricities and the load is
-not monotone in it. The pair (α, ε) as a function of the load is single-valued all the same, because the complementarity
-problem has one solution: Newton in both, with the load as the path's parameter, passes the fold.
+not monotone in it. The pair (α, ε) as a function of the load is single-valued all the same, because the
+complementarity problem has one solution: Newton in both, with the load as the path's parameter, passes the fold.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 _NEWTON_STEPS = 25
 _DIFFERENCE = 1e-6  # relative change of α for the Jacobian's column: Newton then gains six digits a step
 _FIRST_STEP, _LARGEST_STEP, _SMALLEST_STEP = 0.2, 0.7, 1e-3  # in ln p̃_m
+_STRAY = 0.05  # from the predicted place, in ln α and ε/ρ
 
 
 def settle(scene: Scene, n: int, start: Array, target: float, tolerance: float) -> State | None:
@@ -56,7 +57,8 @@ def settle(scene: Scene, n: int, start: Array, target: float, tolerance: float) 
         step = np.linalg.solve(jacobian, miss)
         largest = max(abs(step[0]), abs(step[1]) / alpha)
         if abs(miss[0]) <= tolerance and abs(step[1]) <= tolerance * alpha:
-            contact = figures(np.linalg.inv(matrix[:1, 1:]), both[:1], place[1:2], rho)
+            inverse = np.asarray(np.linalg.inv(matrix[:1, 1:]), dtype=np.float64)
+            contact = figures(inverse, both[:1], place[1:2], rho)
             return State(contact, matrix[:1], abs(float(miss[0])))
         place = place - step * min(1.0, 0.5 / largest)
     return None
@@ -94,7 +96,7 @@ def follow(scene: Scene, light: State, n: int) -> tuple[State, float]:
         if before is not None:
             ahead = place + (goal - load) / (load - before[0]) * (place - before[1])
         found = settle(scene, n, ahead, goal, 1e-9)
-        if found is None:
+        if found is None or _far(found, ahead, scene.problem.rho):
             step *= 0.5
             if step < _SMALLEST_STEP:
                 break
@@ -103,3 +105,10 @@ def follow(scene: Scene, light: State, n: int) -> tuple[State, float]:
         place = np.array([math.log(found.contact.alpha[0]), found.contact.eps[0]])
         step = min(1.5 * step, _LARGEST_STEP)
     return state, load
+
+
+def _far(found: State, ahead: Array, rho: float) -> bool:
+    """Whether Newton left the path: it may fall on another branch of the single-patch equations."""
+    contact = found.contact
+    narrower = abs(math.log(contact.alpha[0]) - ahead[0])
+    return bool(narrower > _STRAY or abs(contact.eps[0] - ahead[1]) > _STRAY * rho)
