@@ -145,6 +145,15 @@ def test_cross_section_below_the_water_line_is_the_trapezium_of_its_corners():
     section = loading.cross_section(b, middle_roll_length=middle, trough_angle=lam, surcharge_angle=0.0)
     assert section.bottom == pytest.approx(shoelace, rel=ULPS)
     assert section.top == 0
+    assert loading.CrossSection(top=1.0, bottom=2.0).area == 3.0
+
+
+def test_whole_load_on_one_roll_and_the_edge_of_each_range_are_allowed():
+    loads = loading.roll_loads(**SET | {"bulk_shares": (0.0, 1.0, 0.0), "inclination": 0.0})
+    assert [r.bulk_force for r in loads] == pytest.approx([0.0, 133.1 * 9.81 * 1.2, 0.0], rel=ULPS)
+    assert loading.middle_share_bulk(0.0) == 0.5
+    assert loading.middle_share_bulk(math.pi / 3) == pytest.approx(0.8, rel=ULPS)
+    assert loading.middle_share_belt(1.0, belt_width=1.02) == 1.0
 
 
 def test_usable_width_of_standard_and_wide_belts():
@@ -197,6 +206,7 @@ def test_refusals_of_roll_loads(change, message):
     [
         (lambda: loading.bulk_line_mass(-1.0, belt_speed=1.0), r"mass_flow = -1\.0 is not allowed"),
         (lambda: loading.bulk_line_mass(1.0, belt_speed=0.0), r"belt_speed = 0\.0 is not allowed"),
+        (lambda: loading.usable_width(math.inf), r"belt_width = inf is not allowed"),
         (lambda: loading.usable_width(0.05), r"belt_width = 0\.05 is not allowed: more than 0\.05556 m"),
         (
             lambda: loading.cross_section(1.0, middle_roll_length=1.1, trough_angle=0.5, surcharge_angle=0.2),

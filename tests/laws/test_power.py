@@ -48,6 +48,7 @@ def test_empirical_lift_is_the_potential_energy_with_367_for_3600_over_g():
     ("call", "message"),
     [
         (lambda: power.belt_power(1.0, belt_speed=0.0), r"belt_speed = 0\.0 is not allowed"),
+        (lambda: power.belt_power(1.0, belt_speed=math.inf), r"belt_speed = inf is not allowed"),
         (lambda: power.belt_power(math.nan, belt_speed=1.0), r"force = nan is not allowed: a finite number"),
         (
             lambda: power.motor_power(1.0, efficiency=1.01),

@@ -142,6 +142,18 @@ def test_idler_without_tilt_costs_nothing():
     assert resistance.idler_tilt_resistance(**tilt, tilt_angle=0.0) == 0
     some = resistance.idler_tilt_resistance(**tilt, tilt_angle=math.radians(30))
     assert some == pytest.approx(0.4 * 0.35 * 100 * 100 * 9.81 / 2, rel=ROUNDING)
+    steep = resistance.idler_tilt_resistance(
+        **tilt | {"inclination": math.radians(60)}, tilt_angle=math.radians(30)
+    )
+    assert steep == pytest.approx(some / 2, rel=ROUNDING)
+
+
+def test_every_roll_of_every_set_drags():
+    one = resistance.idler_rotation_resistance(2.0, n_rolls=1, spacing=3.0, length=300.0)
+    assert one == pytest.approx(200.0, rel=ROUNDING)
+    assert resistance.idler_rotation_resistance(2.0, n_rolls=3, spacing=1.5, length=300.0) == pytest.approx(
+        6 * one, rel=ROUNDING
+    )
 
 
 @pytest.mark.parametrize(

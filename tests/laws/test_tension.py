@@ -48,6 +48,10 @@ def test_belt_that_drives_the_motor_needs_the_same_grip():
     assert down == tension.drive_tensions(1e4, friction=0.3, wrap_angle=math.pi)
 
 
+def test_largest_grip_is_still_a_number():
+    assert tension.grip_ratio(2.0, wrap_angle=8 * math.pi) == pytest.approx(math.exp(16 * math.pi), rel=1e-12)
+
+
 def test_idle_drive_needs_no_grip():
     assert tension.grip_tension(0.0, friction=0.3, wrap_angle=math.pi) == 0
 
@@ -78,6 +82,12 @@ def test_pulley_diameter_of_a_five_mm_carcass(carcass, diameter):
         (
             lambda: tension.grip_ratio(0.3, wrap_angle=180.0),
             r"wrap_angle = 180\.0 is not allowed: .* 8 pi rad",
+        ),
+        (lambda: tension.grip_ratio(2.1, wrap_angle=3.0), r"friction = 2\.1 is not allowed: .* at most 2"),
+        (lambda: tension.steel_cord_stiffness(math.inf), r"nominal_strength = inf"),
+        (
+            lambda: tension.drive_tensions(1.0, friction=0.3, wrap_angle=3.0, start_factor=math.inf),
+            r"start_factor = inf",
         ),
         (lambda: tension.grip_ratio(0.0, wrap_angle=3.0), r"friction = 0\.0 is not allowed: above 0"),
         (lambda: tension.grip_tension(math.nan, friction=0.3, wrap_angle=3.0), r"drive_force = nan"),

@@ -180,6 +180,12 @@ def test_hertz_half_ellipse_carries_the_load():
     assert cf.hertz_half_width(0.0, radius=2.0, plane_modulus=7.0) == 0
 
 
+@pytest.mark.parametrize(("poisson", "modulus"), [(0.0, 2.0), (0.5, 4.0)])
+def test_plane_modulus_of_cork_and_of_rubber(poisson, modulus):
+    # E = 2 G (1 + ν), E' = E/(1-ν²)
+    assert cf.plane_modulus(1.0, poisson=poisson) == modulus
+
+
 @pytest.mark.parametrize("q", [1e-4, 1e-3, 1e-2])
 def test_free_layer_tends_to_a_kirchhoff_plate(q):
     with mpmath.workdps(60):
@@ -373,6 +379,7 @@ def test_jonkers_scales_as_the_winkler_foundation_does():
         (lambda: cf.hunter_friction_peak(1.0), r"modulus_ratio = 1\.0 is not allowed: above 1"),
         (lambda: cf.hunter(2.0, memory=1.0).pressure(np.array([1.1])), r"positions from -1 to 1"),
         (lambda: cf.low_speed_friction(memory=-1.0, radius=1.0, modulus_ratio=2.0), r"memory = -1\.0"),
+        (lambda: cf.low_speed_friction(memory=math.inf, radius=1.0, modulus_ratio=2.0), r"memory = inf"),
         (lambda: cf.low_speed_friction(memory=1.0, radius=0.0, modulus_ratio=2.0), r"radius = 0\.0"),
         (lambda: cf.plane_modulus(1.0, poisson=0.6), r"poisson = 0\.6 is not allowed: 0 to 0\.5"),
         (cf.composite_plane_modulus, r"plane_moduli = \(\) is not allowed: at least one"),
