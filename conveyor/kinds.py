@@ -45,9 +45,13 @@ KINDS: dict[str, Kind] = {
     "thickness": Kind("a length", "mm cm m km in inch ft", "6 mm", "mm", "in"),
     "area": Kind("an area", "mm^2 cm^2 m^2 in^2 ft^2", "0.2 m^2", "m^2", "ft^2"),
     "speed": Kind("a speed", "m/s fpm ft/min km/h m/min ft/s", "5 m/s", "m/s", "fpm"),
+    "acceleration": Kind("an acceleration", "m/s^2 ft/s^2", "9.81 m/s^2", "m/s^2", "ft/s^2"),
     "mass": Kind("a mass", "kg g t lb short_ton", "15.5 kg", "kg", "lb"),
     "line mass": Kind("a mass per length", "kg/m lb/ft t/m", "16.4 kg/m", "kg/m", "lb/ft"),
     "area mass": Kind("a mass per area", "kg/m^2 lb/ft^2", "27 kg/m^2", "kg/m^2", "lb/ft^2"),
+    "belt mass": Kind(
+        "a mass per area or per length", "kg/m^2 lb/ft^2 kg/m lb/ft", "27 kg/m^2", "kg/m^2", "lb/ft^2"
+    ),
     "density": Kind("a density", "kg/m^3 t/m^3 lb/ft^3 g/cm^3", "850 kg/m^3", "kg/m^3", "lb/ft^3"),
     "force": Kind("a force", "N kN MN lbf", "2.5 N", "N", "lbf"),
     "line force": Kind("a force per width", "N/m kN/m N/mm lbf/in lbf/ft PIW", "1600 N/mm", "N/m", "lbf/in"),

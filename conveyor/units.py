@@ -155,6 +155,22 @@ def text(value: Quantity) -> str:
     return f"{number} {spelled}" if spelled else number
 
 
+def is_quantity(value: object) -> TypeGuard[Quantity]:
+    """Tell whether a value is a quantity of this package."""
+    return isinstance(value, _registry.Quantity)
+
+
+def is_kind(value: Quantity, kind: str) -> bool:
+    """Tell whether the unit of a quantity is one of a kind's.
+
+    Examples
+    --------
+    >>> is_kind(quantity("16 kg/m"), "line mass"), is_kind(quantity("16 kg/m"), "area mass")
+    (True, False)
+    """
+    return value.units in _TABLES[kind].values()
+
+
 def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     """Build a quantity from an SI value, in `unit` or the SI report unit of its kind.
 
@@ -226,7 +242,8 @@ def _refusing(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
     return validate
 
 
-def _written(value: Quantity) -> str | float:
+def written(value: Quantity) -> str | float:
+    """Return what a spec holds: text, or a plain number for a fraction without a percent sign."""
     return float(value.magnitude) if value.units == _PLAIN else text(value)
 
 
@@ -240,7 +257,7 @@ class Measure:
         """Validate with `quantity`; keep quantities in Python, write text to JSON."""
         return core_schema.no_info_plain_validator_function(
             _refusing(partial(quantity, kind=self.kind)),
-            serialization=core_schema.plain_serializer_function_ser_schema(_written, when_used="json"),
+            serialization=core_schema.plain_serializer_function_ser_schema(written, when_used="json"),
         )
 
     def __get_pydantic_json_schema__(
@@ -256,8 +273,8 @@ class Measure:
             "examples": [kind.example],
         }
         if self.kind == "fraction":
-            return {"anyOf": [{"type": "number"}, described], "description": kind.noun}
-        return described
+            described = {"anyOf": [{"type": "number"}, described], "description": kind.noun}
+        return described | {"x-quantity": kind.noun}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -298,7 +315,7 @@ class Bounds:
         described = handler(schema)
         allowed = " and ".join(f"{sign} {text(limit)}" for sign, limit, _ in self._limits())
         described["description"] = f"{described.get('description', '')}, {allowed}"
-        return described
+        return described | {"x-allowed": allowed}
 
 
 def _rounded(limit: Quantity, like: Quantity) -> str:
@@ -311,9 +328,11 @@ Length = Annotated[Quantity, Measure("length")]
 Thickness = Annotated[Quantity, Measure("thickness")]
 Area = Annotated[Quantity, Measure("area")]
 Speed = Annotated[Quantity, Measure("speed")]
+Acceleration = Annotated[Quantity, Measure("acceleration")]
 Mass = Annotated[Quantity, Measure("mass")]
 LineMass = Annotated[Quantity, Measure("line mass")]
 AreaMass = Annotated[Quantity, Measure("area mass")]
+BeltMass = Annotated[Quantity, Measure("belt mass")]
 Density = Annotated[Quantity, Measure("density")]
 Force = Annotated[Quantity, Measure("force")]
 LineForce = Annotated[Quantity, Measure("line force")]

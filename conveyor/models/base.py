@@ -1,0 +1,113 @@
+"""What every model shares: frozen, no unknown keys, no NaN, `replace` that checks again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Any, NamedTuple, Self
+
+from pydantic import BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
+from pydantic.json_schema import GenerateJsonSchema
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from conveyor.errors import InputError
+from conveyor.units import is_quantity, written
+
+Number = Annotated[float, Strict()]
+Count = Annotated[int, Strict()]
+Switch = Annotated[bool, Strict()]
+Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]
+
+Location = tuple[int | str, ...]
+
+
+class Problem(NamedTuple):
+    """A refusal: the field it is about, as pydantic locates it, and what to change."""
+
+    location: Location
+    message: str
+
+
+def refuse(title: str, problems: Iterable[Problem]) -> None:
+    """Raise one pydantic error with every problem, each at its own field; none, no error.
+
+    Raises
+    ------
+    pydantic.ValidationError
+        There is at least one problem.
+    """
+    details = [
+        InitErrorDetails(
+            type=PydanticCustomError("conflict", "{message}", {"message": problem.message}),
+            loc=problem.location,
+            input=None,
+        )
+        for problem in problems
+    ]
+    if details:
+        raise ValidationError.from_exception_data(title, details)
+
+
+def field_path(location: Location) -> str:
+    """Write a pydantic location as people read it: ``route.sections[2].lift``.
+
+    Examples
+    --------
+    >>> field_path(("route", "sections", 2, "lift"))
+    'route.sections[2].lift'
+    """
+    path = ""
+    for part in location:
+        path += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return path.removeprefix(".")
+
+
+class _SchemaWriter(GenerateJsonSchema):
+    """Writes default quantities as specs write them."""
+
+    def encode_default(self, dft: Any) -> Any:
+        if isinstance(dft, Model):
+            return dft.as_data()
+        return written(dft) if is_quantity(dft) else super().encode_default(dft)
+
+
+class Model(BaseModel):
+    """Base of all models."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        populate_by_name=True,
+        use_attribute_docstrings=True,
+        validate_default=True,
+    )
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with changed fields, checked like new input.
+
+        Raises
+        ------
+        InputError
+            A change is not allowed; every refusal on its own line.
+        """
+        kept = {name: getattr(self, name) for name in self.model_fields_set}
+        aliases = {field.alias: name for name, field in type(self).model_fields.items() if field.alias}
+        renamed = {aliases.get(name, name): value for name, value in changes.items()}
+        try:
+            return type(self).model_validate(kept | renamed)
+        except ValidationError as error:
+            lines = [f"{field_path(item['loc'])}: {item['msg']}" for item in error.errors()]
+            raise InputError("\n".join(lines)) from None
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """Return the JSON schema of the model, in the names that specs use."""
+        return cls.model_json_schema(schema_generator=_SchemaWriter)
+
+    def as_data(self) -> dict[str, Any]:
+        """Return plain data (text, numbers, lists) that validate to the same model again."""
+        return self.model_dump(mode="json", by_alias=True, exclude_none=True)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as plain data: pint quantities do not survive another process's registry."""
+        return type(self).model_validate, (self.as_data(),)

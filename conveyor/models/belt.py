@@ -1,0 +1,140 @@
+"""The belt: covers, carcass, width, speed and mass."""
+
+from __future__ import annotations
+
+from typing import Annotated, Final, Literal, Self
+
+from pydantic import model_validator
+
+from conveyor.models.base import Model, Problem, refuse
+from conveyor.models.compound import CompoundReference, RubberCompound
+from conveyor.units import (
+    AreaMass,
+    BeltMass,
+    Bounds,
+    Length,
+    LineForce,
+    Quantity,
+    Speed,
+    Thickness,
+    display,
+    is_kind,
+    si,
+    text,
+)
+
+RUBBER_DENSITY: Final = 1150.0
+"""Density of cover rubber where the compound states none [kg/m³]: about 1.15 kg/m² per mm of cover."""
+LISTED_TO: Final = 0.5e-3
+"""Belt thicknesses are listed to about half a millimetre [m]: a larger mismatch is a slip."""
+
+CoverThickness = Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
+
+
+def _density(compound: RubberCompound | None) -> float:
+    return RUBBER_DENSITY if compound is None or compound.density is None else si(compound.density)
+
+
+class Cover(Model):
+    """A cover that rolls run on: its rubber decides the indentation resistance."""
+
+    thickness: CoverThickness
+    compound: CompoundReference
+    """Rubber: a shelf name, the path of a compound file, or the compound itself."""
+
+    @property
+    def area_mass(self) -> float:
+        """Mass per area [kg/m²]."""
+        return si(self.thickness) * _density(self.compound)
+
+
+class TopCover(Model):
+    """The carrying-side cover; the return rolls run on it unless the belt is turned over."""
+
+    thickness: CoverThickness
+    compound: CompoundReference | None = None
+    """Rubber; without it the bottom cover's is taken for the return rolls."""
+
+    @property
+    def area_mass(self) -> float:
+        """Mass per area [kg/m²]."""
+        return si(self.thickness) * _density(self.compound)
+
+
+class Carcass(Model):
+    """The tension member between the covers."""
+
+    kind: Literal["steel cord", "EP", "polyamide", "aramid", "cotton"]
+    """Material: decides pulley diameters and the resistance of wrapping a pulley."""
+    thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
+    mass: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="200 kg/m^2")] | None = None
+    """Mass per area of the carcass alone; needed where the belt's mass is not given."""
+    strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")] | None = None
+    """Nominal breaking strength per width (ST1600: 1600 N/mm)."""
+
+
+class Belt(Model):
+    """A belt as listed by its maker, and its speed."""
+
+    width: Annotated[Length, Bounds(ge="100 mm", le="5 m")]
+    speed: Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+    top_cover: TopCover
+    bottom_cover: Cover
+    carcass: Carcass
+    mass: Annotated[BeltMass, Bounds()] | None = None
+    """Mass per area or per length of the whole belt; else from covers and carcass."""
+    thickness: Annotated[Thickness, Bounds(gt="0 mm", le="150 mm")] | None = None
+    """Total thickness, to check covers and carcass against."""
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        refuse("Belt", self._problems())
+        return self
+
+    def _problems(self) -> list[Problem]:
+        problems = []
+        parts = (self.top_cover.thickness, self.bottom_cover.thickness, self.carcass.thickness)
+        total = sum(si(part) for part in parts)
+        if self.thickness is not None and abs(total - si(self.thickness)) > LISTED_TO:
+            listed = " + ".join(text(part) for part in parts)
+            problems.append(
+                Problem(
+                    ("thickness",),
+                    f"got {text(self.thickness)}, but top cover + bottom cover + carcass are {listed} = "
+                    f"{display(total, 'thickness')}; correct belt.thickness or the part that is wrong",
+                )
+            )
+        if self.mass is None and self.carcass.mass is None:
+            problems.append(
+                Problem(
+                    ("mass",), "missing: give belt.mass or belt.carcass.mass, the belt's mass is not known"
+                )
+            )
+        elif self.mass is not None and si(self.mass) <= 0.0:
+            problems.append(Problem(("mass",), f"got {text(self.mass)}, allowed: > 0"))
+        elif self.line_mass <= self._cover_line_mass:
+            problems.append(
+                Problem(
+                    ("mass",),
+                    f"got {self._mass_as_given()}, but the rubber of the covers alone weighs "
+                    f"{display(self._cover_line_mass, 'line mass')}; correct belt.mass (per area or per length?) "
+                    "or the covers",
+                )
+            )
+        return problems
+
+    def _mass_as_given(self) -> str:
+        given: Quantity | None = self.mass
+        return display(self.line_mass, "line mass") if given is None else text(given)
+
+    @property
+    def _cover_line_mass(self) -> float:
+        return (self.top_cover.area_mass + self.bottom_cover.area_mass) * si(self.width)
+
+    @property
+    def line_mass(self) -> float:
+        """Mass per length m'_belt [kg/m]: as given, else covers and carcass."""
+        if self.mass is not None:
+            return si(self.mass) * (1.0 if is_kind(self.mass, "line mass") else si(self.width))
+        carcass = 0.0 if self.carcass.mass is None else si(self.carcass.mass)
+        return self._cover_line_mass + carcass * si(self.width)

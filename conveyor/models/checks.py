@@ -1,0 +1,173 @@
+"""Checks between the parts of a conveyor, each naming both fields and what to change."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from conveyor.errors import RangeError
+from conveyor.loading import bulk_line_mass, cross_section, usable_width
+from conveyor.models.base import Location, Problem
+from conveyor.models.belt import Cover, TopCover
+from conveyor.models.idlers import IdlerSet, overlap_problems
+from conveyor.resistance import SHORTEST_FOR_FACTOR
+from conveyor.units import Quantity, display, from_si, si, text
+
+if TYPE_CHECKING:
+    from conveyor.models.conveyor import Conveyor
+
+
+def conflicts(conveyor: Conveyor) -> list[Problem]:
+    """Return every conflict between the parts, not the first only."""
+    checks = (
+        _rolls_span,
+        _flow_fits,
+        _sets_apart,
+        _covers_thin,
+        _warm_enough,
+        _feeding_fits,
+        _coefficient_holds,
+    )
+    return [problem for check in checks for problem in check(conveyor)]
+
+
+def _sets(conveyor: Conveyor) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
+    return (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
+
+
+def _rolls_span(conveyor: Conveyor) -> Iterator[Problem]:
+    """Rolls side by side are as wide as the belt, and the inner ones leave belt for the outer ones."""
+    width = conveyor.belt.width
+    for strand, idlers in _sets(conveyor):
+        each = si(idlers.roll.length)
+        location = ("idlers", strand, "roll", "length")
+        if idlers.rolls * each < si(width):
+            yield Problem(
+                location,
+                f"got {text(idlers.roll.length)}: {idlers.rolls} roll(s) side by side are "
+                f"{_like(idlers.rolls * each, idlers)} wide, the belt (belt.width) {text(width)}; "
+                "take longer rolls or a narrower belt",
+            )
+        elif (idlers.rolls - 2) * each >= si(width):
+            yield Problem(
+                location,
+                f"got {text(idlers.roll.length)}: the inner rolls alone are as wide as the belt "
+                f"(belt.width {text(width)}); take shorter rolls or a wider belt",
+            )
+
+
+def _like(length: float, idlers: IdlerSet) -> str:
+    unit = text(idlers.roll.length).split()[1]
+    return text(from_si(float(f"{length:.6g}"), "length", unit))
+
+
+def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
+    """The bulk fits the trough (ISO 5048); 5 rolls have no rule there and are not checked."""
+    carry, belt, material = conveyor.idlers.carry, conveyor.belt, conveyor.material
+    if carry.rolls == 5 or si(material.flow) == 0.0:
+        return
+    across = usable_width(si(belt.width))
+    inner = {1: across, 2: 0.0, 3: min(si(carry.roll.length), across)}[carry.rolls]
+    area = cross_section(
+        across,
+        middle_roll_length=inner,
+        trough_angle=si(carry.trough_angle),
+        surcharge_angle=si(material.surcharge_angle),
+    ).area
+    needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
+    if needed <= area:
+        return
+    most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
+    least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
+    yield Problem(
+        ("material", "flow"),
+        f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of "
+        f"{display(needed, 'area')}, the belt holds {display(area, 'area')}: reduce material.flow to "
+        f"{_rounded(most, down=True)} or less, raise belt.speed to {_rounded(least, down=False)} or more, "
+        "or take a wider belt",
+    )
+
+
+def _rounded(value: Quantity, *, down: bool) -> str:
+    """Write a limit to three digits, rounded to its safe side."""
+    number, unit = float(value.magnitude), text(value).split()[1]
+    step = 10.0 ** (math.floor(math.log10(number)) - 2)
+    whole = math.floor(number / step) if down else math.ceil(number / step)
+    return f"{whole * step:.3g} {unit}"
+
+
+def _sets_apart(conveyor: Conveyor) -> Iterator[Problem]:
+    """Also where a section has its own spacing, rolls of neighbouring sets do not overlap."""
+    for i, section in enumerate(conveyor.route.sections):
+        for strand, idlers in _sets(conveyor):
+            spacing = section.carry_spacing if strand == "carry" else section.return_spacing
+            if spacing is not None:
+                yield from overlap_problems(("route", "sections", i, f"{strand}_spacing"), spacing, idlers)
+
+
+def _covers_thin(conveyor: Conveyor) -> Iterator[Problem]:
+    """A cover is a layer on the roll, not a block: thinner than the radius of every roll on it."""
+    belt, idlers = conveyor.belt, conveyor.idlers
+    bottom_on_both = conveyor.route.turned_over
+    under: dict[str, tuple[Cover | TopCover, list[IdlerSet]]] = {
+        "bottom_cover": (belt.bottom_cover, [idlers.carry] + [idlers.return_] * bottom_on_both),
+        "top_cover": (belt.top_cover, [] if bottom_on_both else [idlers.return_]),
+    }
+    for name, (cover, sets) in under.items():
+        rolls = [roll for idler_set in sets for roll in (idler_set.roll, idler_set.middle)]
+        thinnest = min(rolls, key=lambda roll: si(roll.diameter), default=None)
+        if thinnest is not None and si(cover.thickness) >= si(thinnest.diameter) / 2.0:
+            yield Problem(
+                ("belt", name, "thickness"),
+                f"got {text(cover.thickness)}, but the rolls it runs on are {text(thinnest.diameter)} in diameter: "
+                "a cover must be thinner than their radius; correct the thickness or the roll diameter",
+            )
+
+
+def _warm_enough(conveyor: Conveyor) -> Iterator[Problem]:
+    """The compounds are known at the belt's temperature."""
+    ambient = conveyor.ambient
+    field = "temperature" if ambient.belt_temperature is None else "belt_temperature"
+    compounds = {"belt.bottom_cover.compound": conveyor.carry_compound}
+    if conveyor.return_compound is not conveyor.carry_compound:
+        compounds["belt.top_cover.compound"] = conveyor.return_compound
+    for name, compound in compounds.items():
+        try:
+            compound.series(si(ambient.belt))
+        except RangeError as error:
+            yield Problem(
+                ("ambient", field), f'got {text(ambient.belt)}, but {name} is "{compound.name}": {error}'
+            )
+
+
+def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
+    """Feeding and cleaners are no faster and no wider than the belt."""
+    belt, route = conveyor.belt, conveyor.route
+    if route.feeding is not None and si(route.feeding.speed) > si(belt.speed):
+        yield Problem(
+            ("route", "feeding", "speed"),
+            f"got {text(route.feeding.speed)}, faster than the belt (belt.speed {text(belt.speed)}); "
+            "the law holds for bulk that the belt accelerates: correct one of the two",
+        )
+    widths: dict[Location, Quantity] = {}
+    if route.feeding is not None:
+        widths["feeding", "skirt_width"] = route.feeding.skirt_width
+    widths |= {("cleaners", i, "width"): cleaner.width for i, cleaner in enumerate(route.cleaners)}
+    for location, width in widths.items():
+        if si(width) > si(belt.width):
+            yield Problem(
+                ("route", *location),
+                f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
+            )
+
+
+def _coefficient_holds(conveyor: Conveyor) -> Iterator[Problem]:
+    """The length coefficient stands for the secondary resistances of long conveyors only."""
+    length = conveyor.route.length
+    if conveyor.calculation.secondary == "C" and length <= SHORTEST_FOR_FACTOR:
+        yield Problem(
+            ("calculation", "secondary"),
+            f'got "C", but route.sections are {display(length, "length")} long together and C holds for more than '
+            f'{SHORTEST_FOR_FACTOR:g} m; set calculation.secondary to "itemised"',
+        )

@@ -1,0 +1,259 @@
+"""A rubber compound: its relaxation spectrum, temperature shift, provenance and gaps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo, model_validator
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from conveyor.errors import InputError, RangeError
+from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.units import (
+    Bounds,
+    Density,
+    Fraction,
+    Frequency,
+    Modulus,
+    MolarEnergy,
+    Temperature,
+    TemperatureDifference,
+    Time,
+    si,
+    text,
+)
+
+if TYPE_CHECKING:
+    from conveyor.rubber import PronySeries, ShiftLaw
+
+AbsoluteTemperature = Annotated[Temperature, Bounds(gt="0 K", le="1000 K")]
+PositiveModulus = Annotated[Modulus, Bounds(gt="0 Pa")]
+PositiveTime = Annotated[Time, Bounds(gt="0 s")]
+PositiveFrequency = Annotated[Frequency, Bounds(gt="0 Hz")]
+RelativeError = Annotated[Fraction, Bounds(ge="0 %")]
+
+CONVERSION_ROUNDING = 1e-9
+"""Relative difference of one temperature given in degC, degF or K: rounding of the conversion only."""
+
+
+class Source(Model):
+    """Where a compound comes from."""
+
+    origin: str
+    """Publication, repository or laboratory."""
+    licence: str
+    """Licence of the data."""
+    data: str | None = None
+    """File of the measured points, beside the compound's file."""
+    targets: str | tuple[str, ...] | None = None
+    """What an illustrative compound was built to show."""
+
+
+class PronyTerm(Model):
+    """One term of the relaxation spectrum."""
+
+    modulus: PositiveModulus
+    """E_i."""
+    time: PositiveTime
+    """Relaxation time τ_i at the reference temperature."""
+
+
+class Prony(Model):
+    """Relaxation modulus E(t) = E_e + Σ E_i exp(-t/τ_i) at the reference temperature."""
+
+    equilibrium: PositiveModulus
+    """E_e, the modulus at rest."""
+    terms: Annotated[tuple[PronyTerm, ...], Field(max_length=500)]
+    """Terms, in any order, with distinct times."""
+
+
+class TableShift(Model):
+    """Measured shifts, interpolated and never extrapolated."""
+
+    law: Literal["table"]
+    temperature: Annotated[tuple[AbsoluteTemperature, ...], Field(min_length=2)]
+    """Temperatures."""
+    log10_a_t: Annotated[tuple[Number, ...], Field(min_length=2, alias="log10_aT")]
+    """Decadic logarithm of the shift factor at each temperature, 0 at the reference temperature."""
+
+    def at(self, reference: float) -> ShiftLaw:
+        """Return the law for a reference temperature [K]."""
+        from conveyor.rubber import ShiftTable
+
+        return ShiftTable([si(t) for t in self.temperature], list(self.log10_a_t), reference)  # type: ignore[arg-type]
+
+
+class WLFShift(Model):
+    """Williams-Landel-Ferry law, log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref)."""
+
+    law: Literal["wlf"]
+    c1: Annotated[Number, Field(gt=0)]
+    """First coefficient."""
+    c2: Annotated[TemperatureDifference, Bounds(gt="0 delta_degC")]
+    """Second coefficient."""
+
+    def at(self, reference: float) -> ShiftLaw:
+        """Return the law for a reference temperature [K]."""
+        from conveyor.rubber import WLF
+
+        return WLF(c1=self.c1, c2=si(self.c2), reference=reference)
+
+
+class ArrheniusShift(Model):
+    """Arrhenius law, log10 a_T = E_a/(R ln 10) (1/T - 1/T_ref)."""
+
+    law: Literal["arrhenius"]
+    activation_energy: Annotated[MolarEnergy, Bounds(gt="0 kJ/mol")]
+    """Activation energy."""
+
+    def at(self, reference: float) -> ShiftLaw:
+        """Return the law for a reference temperature [K]."""
+        from conveyor.rubber import Arrhenius
+
+        return Arrhenius(activation_energy=si(self.activation_energy), reference=reference)
+
+
+class MeasuredRange(Model):
+    """Where the data behind a compound lie."""
+
+    frequency: tuple[PositiveFrequency, PositiveFrequency]
+    """Lowest and highest frequency at the reference temperature."""
+    temperature: tuple[AbsoluteTemperature, AbsoluteTemperature]
+    """Lowest and highest temperature."""
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        pairs = {"frequency": self.frequency, "temperature": self.temperature}
+        refuse(
+            "MeasuredRange",
+            [
+                Problem((name,), f"got {text(low)} to {text(high)}, expected the lower value first")
+                for name, (low, high) in pairs.items()
+                if not si(low) <= si(high)
+            ],
+        )
+        return self
+
+
+class FitStatistics(Model):
+    """How well the series meets the data, as relative errors."""
+
+    storage_rms: RelativeError
+    loss_rms: RelativeError
+    storage_worst: RelativeError
+    loss_worst: RelativeError
+    method: str
+
+
+class RubberCompound(Model):
+    """A rubber compound as the shelf holds it."""
+
+    name: Name
+    kind: Literal["measured", "illustrative"]
+    """Measured (with its source) or illustrative (constructed: not for design)."""
+    description: str = ""
+    source: Source
+    poisson_ratio: Annotated[Number, Field(ge=0, le=0.5)]
+    """Poisson ratio, taken as constant."""
+    density: Annotated[Density, Bounds(gt="0 kg/m^3", le="5000 kg/m^3")] | None = None
+    """Density of the rubber."""
+    strain: str | None = None
+    """Strain amplitude of the measurement, in words."""
+    reference_temperature: AbsoluteTemperature
+    """Temperature at which the series holds and the shift is 1."""
+    prony: Prony
+    shift: Annotated[TableShift | WLFShift | ArrheniusShift, Field(discriminator="law")] | None = None
+    """Temperature shift of all times; without it only the reference temperature is allowed."""
+    range: MeasuredRange | None = None
+    fit: FitStatistics | None = None
+    missing: tuple[str, ...] = ()
+    """What is not known about the compound."""
+
+    @model_validator(mode="after")
+    def _lawful(self) -> Self:
+        """Let the rubber laws refuse what they cannot take."""
+        checks: dict[str, Callable[[], object]] = {"prony": self._reference_series, "shift": self.shift_law}
+        problems = []
+        for name, build in checks.items():
+            try:
+                build()
+            except InputError as error:
+                problems.append(Problem((name,), str(error)))
+        refuse("RubberCompound", problems)
+        return self
+
+    def _reference_series(self) -> PronySeries:
+        from conveyor.rubber import PronySeries
+
+        terms = self.prony.terms
+        moduli = [si(term.modulus) for term in terms]
+        return PronySeries(si(self.prony.equilibrium), moduli, [si(term.time) for term in terms])  # type: ignore[arg-type]
+
+    def shift_law(self) -> ShiftLaw | None:
+        """Return the shift law in SI, if the compound has one."""
+        return None if self.shift is None else self.shift.at(si(self.reference_temperature))
+
+    def series(self, temperature: float) -> PronySeries:
+        """Return the relaxation spectrum at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        PronySeries
+            The series at `temperature`, SI.
+
+        Raises
+        ------
+        RangeError
+            The shift law does not reach this temperature, or there is none.
+        """
+        from conveyor.rubber import shifted
+
+        law = self.shift_law()
+        reference = si(self.reference_temperature)
+        if law is not None:
+            return shifted(self._reference_series(), law, temperature)
+        if not math.isclose(temperature, reference, rel_tol=CONVERSION_ROUNDING):
+            raise RangeError(
+                f'compound "{self.name}" has no temperature shift: it is known at '
+                f"{text(self.reference_temperature)} only, not at {temperature - 273.15:.4g} degC; "
+                "give it a shift law, or calculate at its reference temperature"
+            )
+        return self._reference_series()
+
+
+def _resolved(value: Any, info: ValidationInfo) -> Any:
+    """Turn the name or path of a compound into the compound, by the context's resolver."""
+    if not isinstance(value, str):
+        return value
+    resolver = (info.context or {}).get("compound")
+    if resolver is None:
+        message = f'got "{value}": a compound by name needs a shelf; give conveyor.shelf.compound("{value}")'
+        raise PydanticCustomError("compound", "{message}", {"message": message})
+    try:
+        return resolver(value)
+    except InputError as error:
+        raise PydanticCustomError("compound", "{message}", {"message": str(error)}) from None
+
+
+class _Resolved:
+    """Marker of a compound that may be given by name or path."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_before_validator_function(_resolved, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"anyOf": [{"type": "string"}, handler(schema)]}
+
+
+CompoundReference = Annotated[RubberCompound, _Resolved()]
+"""A compound in place, or its shelf name or path where a resolver is in the validation context."""

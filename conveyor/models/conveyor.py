@@ -1,0 +1,92 @@
+"""The whole conveyor: its parts, and the checks between them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.models.base import Model, Name, Number, refuse
+from conveyor.models.belt import Belt
+from conveyor.models.compound import RubberCompound
+from conveyor.models.drive import Drive, Operation
+from conveyor.models.idlers import Idlers
+from conveyor.models.material import BulkMaterial
+from conveyor.models.route import Route
+from conveyor.resistance import FLEXURE_SHARE, FRICTION_FACTOR
+from conveyor.units import Acceleration, Bounds, Fraction, Quantity, Temperature, quantity
+
+EarthTemperature = Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")]
+
+
+class Ambient(Model):
+    """Where the conveyor stands."""
+
+    temperature: EarthTemperature
+    """Temperature of the air."""
+    belt_temperature: EarthTemperature | None = None
+    """Temperature of the running belt's covers, where it differs."""
+
+    @property
+    def belt(self) -> Quantity:
+        """Temperature of the covers."""
+        return self.temperature if self.belt_temperature is None else self.belt_temperature
+
+
+class Calculation(Model):
+    """How to calculate."""
+
+    support: Literal["confined", "free", "half-space"] = "confined"
+    """What holds the cover: a stiff carcass (confined), nothing (free), endless rubber (half-space)."""
+    rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-6
+    """Relative tolerance of the rolling contact."""
+    gauss_points: Annotated[int, Field(ge=1, le=64, strict=True)] = 8
+    """Points along a roll at which the contact is solved."""
+    secondary: Literal["itemised", "C"] = "itemised"
+    """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
+    friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
+    """Friction factor f of the classical estimate, for comparison."""
+    flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(
+        FLEXURE_SHARE.value, "fraction"
+    )
+    """Share of the flexure of belt and bulk in the main resistance."""
+    gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
+
+
+class Conveyor(Model):
+    """A belt conveyor as its designers list it."""
+
+    name: Name
+    belt: Belt
+    idlers: Idlers
+    material: BulkMaterial
+    route: Route
+    drive: Drive
+    ambient: Ambient
+    operation: Operation | None = None
+    calculation: Calculation = Calculation()
+    notes: str | None = None
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> Self:
+        from conveyor.models.checks import conflicts
+
+        refuse("Conveyor", conflicts(self))
+        return self
+
+    @property
+    def carry_compound(self) -> RubberCompound:
+        """Rubber that the carry rolls run on: the bottom cover's."""
+        return self.belt.bottom_cover.compound
+
+    @property
+    def return_compound(self) -> RubberCompound:
+        """Rubber that the return rolls run on: the top cover's, unless turned over or not stated."""
+        top = self.belt.top_cover.compound
+        return self.carry_compound if self.route.turned_over or top is None else top
+
+    @property
+    def return_cover_thickness(self) -> Quantity:
+        """Thickness of the cover that the return rolls run on."""
+        belt = self.belt
+        return belt.bottom_cover.thickness if self.route.turned_over else belt.top_cover.thickness

@@ -1,0 +1,130 @@
+"""Rolls and the sets they stand in."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Final, Literal, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.models.base import Model, Problem, refuse
+from conveyor.units import Angle, Bounds, Force, Fraction, Length, Mass, Quantity, quantity, si, text
+
+ROLLS_UNDER_LOAD: Final = {1: "flat", 2: "V", 3: "trough", 5: "deep trough"}
+SHARE_SUM_TOLERANCE: Final = 1e-9
+"""Shares are typed as decimals; anything coarser is a slip (the loading laws use the same figure)."""
+
+Spacing = Annotated[Length, Bounds(gt="0 m", le="20 m")]
+Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
+
+
+class Roll(Model):
+    """One roll."""
+
+    diameter: Annotated[Length, Bounds(ge="20 mm", le="1 m")]
+    length: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
+    """Length of the shell."""
+    rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]
+    """Mass of the parts that turn."""
+    drag: Annotated[Force, Bounds(ge="0 N", le="1 kN")] | None = None
+    """Running drag of the roll (bearings and seals) at its rim; else the acceptance limit of its diameter."""
+
+
+class IdlerSet(Model):
+    """The rolls of one station, repeated at a spacing."""
+
+    rolls: Literal[1, 2, 3, 5]
+    """Rolls side by side."""
+    spacing: Spacing
+    """Distance of the sets along the belt."""
+    trough_angle: Annotated[Angle, Bounds(ge="0 deg", le="60 deg")] = quantity("0 deg")
+    """Angle of the outer rolls to the level."""
+    roll: Roll
+    middle_roll: Roll | None = None
+    """The middle roll of 3 or 5, where it differs (its length may not)."""
+    load_shares: tuple[Share, ...] | None = None
+    """Share of each roll in the bulk's load, left to right; else by VDI 2341. Needed for 5 rolls."""
+    belt_shares: tuple[Share, ...] | None = None
+    """The same for the belt's own weight."""
+    tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
+    """Forward tilt of the outer rolls."""
+    sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
+    """Largest sag of the belt between sets, over the spacing."""
+
+    @property
+    def middle(self) -> Roll:
+        """The middle roll, be it different or not."""
+        return self.roll if self.middle_roll is None else self.middle_roll
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        problems = self._roll_problems() + overlap_problems(("spacing",), self.spacing, self)
+        for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
+            problems += self._share_problems(name, shares)
+        refuse("IdlerSet", problems)
+        return self
+
+    def _roll_problems(self) -> list[Problem]:
+        problems = []
+        if self.rolls == 1 and si(self.trough_angle) != 0.0:
+            problems.append(
+                Problem(
+                    ("trough_angle",),
+                    f"got {text(self.trough_angle)} with rolls: 1, but one roll lies flat; "
+                    "set trough_angle to 0 deg or rolls to 2, 3 or 5",
+                )
+            )
+        if self.middle_roll is not None and self.rolls not in {3, 5}:
+            problems.append(
+                Problem(
+                    ("middle_roll",),
+                    f"given with rolls: {self.rolls}, but only 3 or 5 rolls have a middle one; "
+                    "remove middle_roll or change rolls",
+                )
+            )
+        elif self.middle_roll is not None and si(self.middle_roll.length) != si(self.roll.length):
+            problems.append(
+                Problem(
+                    ("middle_roll", "length"),
+                    f"got {text(self.middle_roll.length)}, but roll.length is {text(self.roll.length)}; "
+                    "the load shares hold for rolls of equal length: make them equal",
+                )
+            )
+        return problems
+
+    def _share_problems(self, name: str, shares: tuple[Quantity, ...] | None) -> list[Problem]:
+        if shares is None:
+            needed = self.rolls == 5 and name == "load_shares"
+            message = "missing: 5 rolls have no rule for their shares of the load, give the 5 load_shares"
+            return [Problem((name,), message)] if needed else []
+        if len(shares) != self.rolls:
+            return [
+                Problem(
+                    (name,), f"got {len(shares)} shares for rolls: {self.rolls}; give one share for each roll"
+                )
+            ]
+        total = math.fsum(si(share) for share in shares)
+        if abs(total - 1.0) > SHARE_SUM_TOLERANCE:
+            return [Problem((name,), f"got a sum of {total:.6g}, the shares must add up to 1 (100 %)")]
+        return []
+
+
+def overlap_problems(location: tuple[int | str, ...], spacing: Quantity, idlers: IdlerSet) -> list[Problem]:
+    """Refuse sets so close that rolls of neighbouring sets overlap."""
+    thickest = max((idlers.roll, idlers.middle), key=lambda roll: si(roll.diameter))
+    if si(spacing) > si(thickest.diameter):
+        return []
+    message = (
+        f"got {text(spacing)}, but the rolls are {text(thickest.diameter)} thick: "
+        "rolls of neighbouring sets overlap; increase the spacing or reduce the roll diameter"
+    )
+    return [Problem(location, message)]
+
+
+class Idlers(Model):
+    """The sets of both strands."""
+
+    carry: IdlerSet
+    """Under the loaded strand."""
+    return_: Annotated[IdlerSet, Field(alias="return")]
+    """Under the returning strand."""
