@@ -1,0 +1,122 @@
+"""Specs: a conveyor from a YAML or JSON file and back; every error with file, line and column."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from conveyor import shelf
+from conveyor.document import read_document
+from conveyor.errors import InputError
+from conveyor.explain import findings, message
+from conveyor.models import Conveyor
+from conveyor.models.base import Location, field_path
+
+
+def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
+    """Read a conveyor from a ``.yaml``, ``.yml`` or ``.json`` file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The spec.
+    shelves : iterable of path
+        Further folders of compounds. Paths of compounds in the spec start from the spec's folder.
+
+    Returns
+    -------
+    Conveyor
+        Its fields are quantities as written in the file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or is refused; all its errors at once, each on a line
+        ``file:line:column field: what was given, what is allowed``.
+    """
+    where = Path(path)
+    document = read_document(where)
+    context = {"compound": shelf.resolver(extra=shelves, base=where.parent)}
+    found = list(document.findings)
+    conveyor = None
+    try:
+        conveyor = Conveyor.model_validate(document.data, context=context)
+    except ValidationError as error:
+        found = findings(error, Conveyor, document)
+    if conveyor is None or found:
+        raise InputError("\n".join(finding.line(document.path) for finding in found))
+    return conveyor
+
+
+def from_data(
+    data: Mapping[str, Any],
+    *,
+    where: Callable[[Location], str] | None = None,
+    shelves: Iterable[str | Path] = (),
+    base: Path | None = None,
+) -> Conveyor:
+    """Build a conveyor from plain data that did not come from a spec file (a workbook, a service).
+
+    Parameters
+    ----------
+    data : mapping
+        The same keys and texts as a spec.
+    where : callable, optional
+        Gives the place of a field for messages (``"Belt!B4"``) from its location (keys and indices).
+    shelves, base
+        As in `load`.
+
+    Raises
+    ------
+    InputError
+        Refused; all errors at once, each on a line ``place field: message``.
+    """
+    try:
+        return Conveyor.model_validate(
+            dict(data), context={"compound": shelf.resolver(extra=shelves, base=base)}
+        )
+    except ValidationError as error:
+        lines = []
+        for item in error.errors():
+            location: Location = tuple(item["loc"])
+            place = "" if where is None else where(location) + " "
+            lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(dict(item), Conveyor)}")
+        raise InputError("\n".join(lines)) from None
+
+
+def dump(conveyor: Conveyor) -> str:
+    """Return a spec (YAML) that `load` reads back to an equal conveyor; compounds are written out."""
+    from ruamel.yaml import YAML
+
+    writer = YAML(typ="rt", pure=True)
+    writer.width = 110
+    stream = io.StringIO()
+    writer.dump(conveyor.as_data(), stream)
+    return stream.getvalue()
+
+
+def fingerprint(conveyor: Conveyor) -> str:
+    """Return the SHA-256 of a conveyor's data, compounds and defaults included, for reports.
+
+    Two specs that differ in comments, order or layout have the same fingerprint; any changed value or unit
+    changes it.
+    """
+    canonical = json.dumps(conveyor.as_data(), sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of a spec, for editors.
+
+    Examples
+    --------
+    >>> sorted(schema()["required"])[:3]
+    ['ambient', 'belt', 'drive']
+    """
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **Conveyor.json_schema()}
