@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 
 from conveyor.document import Document, Finding
 from conveyor.kinds import KINDS
-from conveyor.models.base import Location, field_path
+from conveyor.models.base import Location, field_path, real_errors
 from conveyor.units import Measure
 
 _OWN = {"quantity", "conflict", "compound", "price"}
@@ -35,11 +35,14 @@ _EXPECTED = {
 def findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Finding]:
     """Return every error of a validation with its place in the file, in the file's order."""
     found = list(document.findings)
-    for item in error.errors():
+    known = {finding.field for finding in found}
+    for item in real_errors(error):
         location = _in_file(tuple(item["loc"]), document.data)
         of_key = item["type"] == "extra_forbidden"
         place = document.place(location, of_key=of_key)
-        found.append(Finding(place, field_path(location) or "file", message(dict(item), model)))
+        field = field_path(location) or "file"
+        if field not in known:
+            found.append(Finding(place, field, message(item, model)))
     return sorted(found, key=lambda finding: finding.place)
 
 
@@ -68,7 +71,8 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
         "missing": lambda: f"missing; expected {_expected(model, location)}",
         "extra_forbidden": lambda: _unknown_key(model, location),
         "union_tag_not_found": lambda: (
-            f"{context['discriminator']} is missing; expected one of " + ", ".join(_tags(model, location))
+            f"{_bare(context['discriminator'])} is missing; expected one of "
+            + ", ".join(_tags(model, location))
         ),
         "union_tag_invalid": lambda: (
             f"got {context['discriminator']}: {shown(context['tag'])}, allowed: {context['expected_tags']}"
@@ -90,6 +94,10 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
     if kind in _EXPECTED:
         return f"expected {_EXPECTED[kind]}, got {shown(given)}"
     return f"got {shown(given)}: {item['msg']}"
+
+
+def _bare(name: str) -> str:
+    return name.strip("'")
 
 
 def shown(value: Any) -> str:

@@ -57,6 +57,7 @@ KINDS: dict[str, Kind] = {
     "line force": Kind("a force per width", "N/m kN/m N/mm lbf/in lbf/ft PIW", "1600 N/mm", "N/m", "lbf/in"),
     "pressure": Kind("a pressure", "Pa kPa MPa GPa psi N/mm^2 bar", "10 MPa", "MPa", "psi"),
     "time": Kind("a time", "s ms us µs min h d", "0.1 s", "s", "s"),
+    "duration": Kind("a time", "h d min s", "5500 h", "h", "h"),
     "frequency": Kind("a frequency", "Hz mHz kHz MHz GHz", "10 Hz", "Hz", "Hz"),
     "angular frequency": Kind("an angular frequency", "rad/s", "63 rad/s", "rad/s", "rad/s"),
     "temperature": Kind("a temperature", _TEMPERATURES, "20 degC", "degC", "degF"),

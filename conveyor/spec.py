@@ -16,7 +16,7 @@ from conveyor.document import read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings, message
 from conveyor.models import Conveyor
-from conveyor.models.base import Location, field_path
+from conveyor.models.base import Location, field_path, real_errors
 
 
 def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
@@ -83,10 +83,10 @@ def from_data(
         )
     except ValidationError as error:
         lines = []
-        for item in error.errors():
+        for item in real_errors(error):
             location: Location = tuple(item["loc"])
             place = "" if where is None else where(location) + " "
-            lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(dict(item), Conveyor)}")
+            lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}")
         raise InputError("\n".join(lines)) from None
 
 

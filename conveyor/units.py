@@ -339,6 +339,7 @@ LineForce = Annotated[Quantity, Measure("line force")]
 Pressure = Annotated[Quantity, Measure("pressure")]
 Modulus = Pressure
 Time = Annotated[Quantity, Measure("time")]
+Duration = Annotated[Quantity, Measure("duration")]
 Frequency = Annotated[Quantity, Measure("frequency")]
 AngularFrequency = Annotated[Quantity, Measure("angular frequency")]
 Temperature = Annotated[Quantity, Measure("temperature")]

@@ -47,6 +47,21 @@ def refuse(title: str, problems: Iterable[Problem]) -> None:
         raise ValidationError.from_exception_data(title, details)
 
 
+def real_errors(error: ValidationError) -> list[dict[str, Any]]:
+    """Return the errors of a validation without those that only follow from others.
+
+    Pydantic counts the entries of a list that passed, and calls a list of refused entries too short.
+    """
+    items: list[dict[str, Any]] = [dict(item) for item in error.errors()]
+    places: list[Location] = [item["loc"] for item in items]
+    return [
+        item
+        for item in items
+        if item["type"] != "too_short"
+        or not any(place != item["loc"] and place[: len(item["loc"])] == item["loc"] for place in places)
+    ]
+
+
 def field_path(location: Location) -> str:
     """Write a pydantic location as people read it: ``route.sections[2].lift``.
 
@@ -96,7 +111,7 @@ class Model(BaseModel):
         try:
             return type(self).model_validate(kept | renamed)
         except ValidationError as error:
-            lines = [f"{field_path(item['loc'])}: {item['msg']}" for item in error.errors()]
+            lines = [f"{field_path(item['loc'])}: {item['msg']}" for item in real_errors(error)]
             raise InputError("\n".join(lines)) from None
 
     @classmethod

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from conveyor.models.base import Model, Number
-from conveyor.units import Angle, Bounds, Fraction, Power, Time
+from conveyor.units import Angle, Bounds, Duration, Fraction, Power
 
 _PRICE = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
 
@@ -66,7 +66,7 @@ Price = Annotated[
 class Operation(Model):
     """How long the conveyor runs and what its energy costs."""
 
-    hours_per_year: Annotated[Time, Bounds(ge="0 h", le="8784 h")]
+    hours_per_year: Annotated[Duration, Bounds(ge="0 h", le="8784 h")]
     """Time under load in a year."""
     price: Price | None = None
     """Price of energy, as "0.12 EUR/kWh"."""
