@@ -94,7 +94,7 @@ def _rounded(value: Quantity, *, down: bool) -> str:
     number, unit = float(value.magnitude), text(value).split()[1]
     step = 10.0 ** (math.floor(math.log10(number)) - 2)
     whole = math.floor(number / step) if down else math.ceil(number / step)
-    return f"{whole * step:.3g} {unit}"
+    return f"{whole * step:.6g} {unit}"
 
 
 def _sets_apart(conveyor: Conveyor) -> Iterator[Problem]:

@@ -180,7 +180,7 @@ class RubberCompound(Model):
         for name, build in checks.items():
             try:
                 build()
-            except InputError as error:
+            except (InputError, RangeError) as error:
                 problems.append(Problem((name,), str(error)))
         refuse("RubberCompound", problems)
         return self

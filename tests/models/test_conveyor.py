@@ -1,0 +1,237 @@
+"""Checks of each part and between parts: every message, its field, and that its advice works."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from conveyor.errors import InputError
+from conveyor.models import Conveyor
+from conveyor.units import quantity, si
+
+ROLL = {"diameter": "133 mm", "length": "465 mm", "rotating_mass": "5 kg"}
+REFUSED = [
+    ("belt.thickness", "14 mm", "belt.thickness", r"6 mm \+ 4 mm \+ 5 mm = 15 mm; correct belt.thickness"),
+    ("belt.thickness", "17 mm", "belt.thickness", "got 17 mm, but top cover"),
+    ("belt.mass", "10 kg/m", "belt.mass", r"got 10 kg/m, but the rubber of the covers alone weighs 13.56 kg/m"),
+    ("belt.mass", "0 kg/m", "belt.mass", "got 0 kg/m, allowed: > 0"),
+    ("belt.carcass.mass", None, "belt.mass", "missing: give belt.mass or belt.carcass.mass"),
+    ("belt.carcass.kind", "rope", "belt.carcass.kind", "'steel cord', 'EP'"),
+    ("idlers.carry.rolls", 1, "idlers.carry.trough_angle", "got 35 deg with rolls: 1, but one roll lies flat"),
+    ("idlers.return.middle_roll", ROLL, "idlers.return.middle_roll", "only 3 or 5 rolls have a middle one"),
+    ("idlers.carry.middle_roll", ROLL | {"length": "400 mm"}, "idlers.carry.middle_roll.length",
+     "got 400 mm, but roll.length is 465 mm"),
+    ("idlers.carry.load_shares", [0.5, 0.5], "idlers.carry.load_shares", "got 2 shares for rolls: 3"),
+    ("idlers.carry.load_shares", ["20 %", "50 %", 0.2], "idlers.carry.load_shares", "got a sum of 0.9"),
+    ("idlers.carry.belt_shares", [0.5, 0.5, 0.5], "idlers.carry.belt_shares", "got a sum of 1.5"),
+    ("idlers.carry.load_shares", [-0.2, 1, 0.2], "idlers.carry.load_shares.0", "got -0.2, allowed: >= 0"),
+    ("idlers.carry.rolls", 5, "idlers.carry.load_shares", "missing: 5 rolls have no rule"),
+    ("idlers.carry.spacing", "150 mm", "idlers.carry.spacing",
+     "got 150 mm, but the rolls are 159 mm thick: rolls of neighbouring sets overlap"),
+    ("idlers.carry.roll.length", "390 mm", "idlers.carry.roll.length",
+     r"3 roll\(s\) side by side are 1170 mm wide, the belt \(belt.width\) 1200 mm"),
+    ("idlers.carry.roll.length", "1.3 m", "idlers.carry.roll.length", "inner rolls alone are as wide"),
+    ("idlers.return.roll.length", "1.1 m", "idlers.return.roll.length", r"1 roll\(s\) side by side are 1.1 m wide"),
+    ("route.sections.1.lift", "300 m", "route.sections.1.lift", "the section is only 300 m long"),
+    ("route.sections.1.lift", "-301 m", "route.sections.1.lift", "the section is only 300 m long"),
+    ("route.sections.1.slope", "2 deg", "route.sections.1.slope", "slope 2 deg and lift 10 m; give one of the two"),
+    ("route.sections.1.name", "one", "route.sections.1.name", r'"one", already the name of sections\[0\]'),
+    ("route.sections.1.carry_spacing", "159 mm", "route.sections.1.carry_spacing",
+     "rolls of neighbouring sets overlap"),
+    ("route.sections.1.return_spacing", "6 in", "route.sections.1.return_spacing",
+     "got 6 in, but the rolls are 159 mm"),
+    ("route.sections", [], "route.sections", "at least 1 item"),
+    ("route.feeding.skirt_width", "1.3 m", "route.feeding.skirt_width", r"got 1.3 m, wider than the belt"),
+    ("route.feeding.speed", "1000 fpm", "route.feeding.speed",
+     r"got 1000 fpm, faster than the belt \(belt.speed 5 m/s\)"),
+    ("route.cleaners.0.width", "1.3 m", "route.cleaners.0.width", "wider than the belt"),
+    ("route.pulleys",
+     [{"name": "p", "position": "head", "diameter": "0.5 m", "shaft_diameter": "500 mm", "mass": "1 t"}],
+     "route.pulleys.0.shaft_diameter", "got 500 mm, but the pulley's diameter is 0.5 m"),
+    ("material.flow", "2500 t/h", "material.flow",
+     r"which at 5 m/s \(belt.speed\) needs a cross-section of 0.1634 m\^2"),
+    ("ambient.temperature", "60 degC", "ambient.temperature",
+     'got 60 degC, but belt.bottom_cover.compound is "test rubber": temperature 60.00 degC is outside the shift table'),
+    ("ambient.belt_temperature", "0 degF", "ambient.belt_temperature", "got 0 degF, but belt.bottom_cover.compound"),
+    ("drive.position", "tail", "drive.position", "should be 'head'"),
+    ("drive.efficiency", 95, "drive.efficiency", "got 95, allowed: > 0 and <= 1"),
+    ("operation", {"hours_per_year": "9000 h"}, "operation.hours_per_year", "allowed: >= 0 h and <= 8784 h"),
+    ("operation", {"hours_per_year": "9 h", "price": 0.12}, "operation.price", 'such as "0.12 EUR/kWh"'),
+    ("operation", {"hours_per_year": "9 h", "price": "0,12 EUR/kWh"}, "operation.price", "currency's code"),
+]  # fmt: skip
+
+
+def changed(data: dict[str, Any], path: str, value: object) -> dict[str, Any]:
+    inner: Any = data
+    *parents, last = (int(part) if part.isdigit() else part for part in path.split("."))
+    for part in parents:
+        inner = inner[part]
+    inner[last] = value
+    return data
+
+
+@pytest.mark.parametrize(("path", "value", "field", "message"), REFUSED)
+def test_conflict_is_refused_at_its_field(
+    conveyor_data: dict[str, Any], path: str, value: object, field: str, message: str
+) -> None:
+    Conveyor.model_validate(conveyor_data)
+    with pytest.raises(ValidationError) as caught:
+        Conveyor.model_validate(changed(conveyor_data, path, value))
+    found = {".".join(map(str, item["loc"])): item["msg"] for item in caught.value.errors()}
+    assert field in found
+    assert re.search(message, found[field])
+
+
+def test_cover_as_thick_as_the_roll_radius(conveyor_data: dict[str, Any]) -> None:
+    for strand in ("carry", "return"):
+        conveyor_data["idlers"][strand]["roll"]["diameter"] = "12 mm"
+    with pytest.raises(
+        ValidationError, match=r"idlers\.carry\.roll\.diameter\n.*got 12 mm, allowed: >= 20 mm"
+    ):
+        Conveyor.model_validate(conveyor_data)
+    for strand in ("carry", "return"):
+        conveyor_data["idlers"][strand]["roll"]["diameter"] = "20 mm"
+    changed(conveyor_data, "belt.top_cover.thickness", "10 mm")
+    with pytest.raises(ValidationError, match=r"belt\.top_cover\.thickness\n.*thinner than their radius"):
+        Conveyor.model_validate(conveyor_data)
+    # Turned over, the thick top cover meets no roll.
+    changed(conveyor_data, "route.turned_over", True)
+    Conveyor.model_validate(conveyor_data)
+    changed(conveyor_data, "belt.bottom_cover.thickness", "10 mm")
+    with pytest.raises(ValidationError, match=r"belt\.bottom_cover\.thickness\n.*got 10 mm, but the rolls"):
+        Conveyor.model_validate(conveyor_data)
+
+
+def test_all_conflicts_are_reported_at_once(conveyor_data: dict[str, Any]) -> None:
+    changed(conveyor_data, "material.flow", "5000 t/h")
+    changed(conveyor_data, "ambient.temperature", "60 degC")
+    changed(conveyor_data, "route.feeding.skirt_width", "2 m")
+    changed(conveyor_data, "route.sections.0.carry_spacing", "0.1 m")
+    changed(conveyor_data, "idlers.return.roll.length", "1 m")
+    with pytest.raises(ValidationError) as caught:
+        Conveyor.model_validate(conveyor_data)
+    assert {".".join(map(str, item["loc"])) for item in caught.value.errors()} == {
+        "material.flow",
+        "ambient.temperature",
+        "route.feeding.skirt_width",
+        "route.sections.0.carry_spacing",
+        "idlers.return.roll.length",
+    }
+
+
+def test_advice_about_the_flow_works(conveyor_data: dict[str, Any]) -> None:
+    changed(conveyor_data, "material.flow", "3000 t/h")
+    with pytest.raises(ValidationError) as caught:
+        Conveyor.model_validate(conveyor_data)
+    message = caught.value.errors()[0]["msg"]
+    flow = re.search(r"reduce material.flow to (.*?) or less", message)
+    speed = re.search(r"raise belt.speed to (.*?) or more", message)
+    assert flow is not None
+    assert speed is not None
+    assert Conveyor.model_validate(changed(conveyor_data, "material.flow", flow[1]))
+    changed(conveyor_data, "material.flow", "3000 t/h")
+    assert Conveyor.model_validate(changed(conveyor_data, "belt.speed", speed[1]))
+
+
+def test_flow_limit_is_the_iso_5048_section(conveyor_data: dict[str, Any]) -> None:
+    # b 1.03 m, l_M 0.436 m, 45 deg, 20 deg: A = 0.0445 + 0.1357 m², printed to four digits.
+    changed(conveyor_data, "idlers.carry.roll.length", "436 mm")
+    changed(conveyor_data, "idlers.carry.trough_angle", "45 deg")
+    most = 0.1802 * 5 * 850 * 3.6
+    Conveyor.model_validate(changed(conveyor_data, "material.flow", f"{most * 0.999:.3f} t/h"))
+    with pytest.raises(ValidationError, match=r"the belt holds 0\.180[12] m"):
+        Conveyor.model_validate(changed(conveyor_data, "material.flow", f"{most * 1.001:.3f} t/h"))
+
+
+def test_empty_belt_and_five_rolls_pass(conveyor_data: dict[str, Any]) -> None:
+    Conveyor.model_validate(changed(conveyor_data, "material.flow", "0 t/h"))
+    changed(conveyor_data, "idlers.carry.rolls", 5)
+    changed(conveyor_data, "idlers.carry.roll.length", "280 mm")
+    changed(conveyor_data, "idlers.carry.load_shares", [0.1, 0.2, 0.4, 0.2, 0.1])
+    Conveyor.model_validate(conveyor_data)
+
+
+def test_length_coefficient_needs_a_long_conveyor(conveyor_data: dict[str, Any]) -> None:
+    changed(conveyor_data, "calculation", {"secondary": "C"})
+    Conveyor.model_validate(conveyor_data)
+    changed(conveyor_data, "route.sections", [{"name": "short", "length": "80 m"}])
+    with pytest.raises(
+        ValidationError, match=r'calculation\.secondary\n.*"C", but route.sections are 80 m long'
+    ):
+        Conveyor.model_validate(conveyor_data)
+
+
+def test_belt_mass_by_area_by_length_and_from_parts(conveyor_data: dict[str, Any]) -> None:
+    # Top cover without compound at the default 1150 kg/m³, bottom cover at its 1100 kg/m³, carcass 12 kg/m².
+    by_parts = (0.006 * 1150 + 0.004 * 1100 + 12) * 1.2
+    assert Conveyor.model_validate(conveyor_data).belt.line_mass == pytest.approx(by_parts, rel=1e-14)
+    by_area = Conveyor.model_validate(changed(conveyor_data, "belt.mass", "27 kg/m^2")).belt
+    by_length = Conveyor.model_validate(changed(conveyor_data, "belt.mass", "32.4 kg/m")).belt
+    assert by_area.line_mass == pytest.approx(32.4, rel=1e-15)
+    assert by_length.line_mass == 32.4
+
+
+def test_slope_and_lift_of_one_section_agree(conveyor_data: dict[str, Any]) -> None:
+    changed(conveyor_data, "route.sections", [{"name": "s", "length": "100 m", "slope": "30 deg"}])
+    by_slope = Conveyor.model_validate(conveyor_data).route
+    changed(conveyor_data, "route.sections", [{"name": "s", "length": "100 m", "lift": "50 m"}])
+    by_lift = Conveyor.model_validate(conveyor_data).route
+    assert by_slope.rise == pytest.approx(by_lift.rise, rel=1e-15)
+    assert by_slope.length == 100.0
+
+
+def test_return_rolls_run_on_the_top_cover_unless_turned_over(
+    conveyor_data: dict[str, Any], compound_data: dict[str, Any]
+) -> None:
+    line = Conveyor.model_validate(conveyor_data)
+    assert line.return_compound is line.carry_compound
+    assert line.return_cover_thickness == quantity("6 mm")
+    changed(conveyor_data, "belt.top_cover.compound", compound_data | {"name": "top rubber"})
+    line = Conveyor.model_validate(conveyor_data)
+    assert (line.carry_compound.name, line.return_compound.name) == ("test rubber", "top rubber")
+    line = Conveyor.model_validate(changed(conveyor_data, "route.turned_over", True))
+    assert line.return_compound.name == "test rubber"
+    assert line.return_cover_thickness == quantity("4 mm")
+
+
+def test_top_rubber_out_of_its_temperatures_is_named(
+    conveyor_data: dict[str, Any], compound_data: dict[str, Any]
+) -> None:
+    del compound_data["shift"]
+    changed(conveyor_data, "belt.top_cover.compound", compound_data | {"name": "top rubber"})
+    changed(conveyor_data, "ambient.temperature", "10 degC")
+    with pytest.raises(
+        ValidationError, match=r'got 10 degC, but belt.top_cover.compound is "top rubber".*no temp'
+    ):
+        Conveyor.model_validate(conveyor_data)
+
+
+def test_defaults(conveyor_data: dict[str, Any]) -> None:
+    line = Conveyor.model_validate(conveyor_data)
+    assert line.calculation.support == "confined"
+    assert (line.calculation.rtol, line.calculation.friction_factor) == (1e-6, 0.020)
+    assert si(line.calculation.gravity) == 9.81
+    assert si(line.idlers.carry.sag) == 0.01
+    assert line.idlers.carry.middle is line.idlers.carry.roll
+    assert line.route.feeding is not None
+    assert (line.route.feeding.belt_friction, line.route.feeding.skirt_friction) == (0.5, 0.7)
+    assert si(line.route.cleaners[0].pressure) == 3e4
+    assert line.ambient.belt == line.ambient.temperature
+
+
+def test_price_round_trip(conveyor_data: dict[str, Any]) -> None:
+    changed(conveyor_data, "operation", {"hours_per_year": "5500 h", "price": "0.12 EUR/kWh"})
+    line = Conveyor.model_validate(conveyor_data)
+    assert line.operation is not None
+    assert line.operation.price is not None
+    assert (line.operation.price.amount, line.operation.price.currency) == (0.12, "EUR")
+    assert line.as_data()["operation"] == {"hours_per_year": "5500 h", "price": "0.12 EUR/kWh"}
+
+
+def test_refusals_in_python_are_input_errors_by_replace(conveyor_data: dict[str, Any]) -> None:
+    line = Conveyor.model_validate(conveyor_data)
+    with pytest.raises(InputError, match=r"^ambient\.temperature: got 60 degC, but belt"):
+        line.replace(ambient=line.ambient.replace(temperature="60 degC"))
