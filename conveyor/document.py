@@ -143,7 +143,8 @@ def _composed(content: str, path: Path) -> Node | None:
     try:
         node: Node | None = YAML(typ="rt", pure=True).compose(content)
     except MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
+        unclosed = "stream" in str(error.problem)
+        mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
         advice = "; indent with spaces, not tabs" if "'\\t'" in str(error.problem) else ""
         what = " ".join(part for part in (error.context, error.problem) if part)

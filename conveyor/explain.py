@@ -75,7 +75,7 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
             + ", ".join(_tags(model, location))
         ),
         "union_tag_invalid": lambda: (
-            f"got {context['discriminator']}: {shown(context['tag'])}, allowed: {context['expected_tags']}"
+            f"got {_bare(context['discriminator'])}: {shown(context['tag'])}, allowed: {context['expected_tags']}"
         ),
         "literal_error": lambda: f"got {shown(given)}, allowed: {context['expected']}",
         "too_short": lambda: (

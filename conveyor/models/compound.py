@@ -22,6 +22,7 @@ from conveyor.units import (
     Temperature,
     TemperatureDifference,
     Time,
+    display,
     si,
     text,
 )
@@ -196,6 +197,17 @@ class RubberCompound(Model):
         """Return the shift law in SI, if the compound has one."""
         return None if self.shift is None else self.shift.at(si(self.reference_temperature))
 
+    def _refuse_extrapolation(self, temperature: float) -> None:
+        if self.range is None:
+            return
+        low, high = self.range.temperature
+        if not si(low) <= temperature <= si(high):
+            raise RangeError(
+                f'compound "{self.name}" is known from {text(low)} to {text(high)} (its range.temperature), '
+                f"not at {display(temperature, 'temperature', digits=6)}; "
+                "calculate inside this range or extend its data"
+            )
+
     def series(self, temperature: float) -> PronySeries:
         """Return the relaxation spectrum at a temperature.
 
@@ -212,10 +224,11 @@ class RubberCompound(Model):
         Raises
         ------
         RangeError
-            The shift law does not reach this temperature, or there is none.
+            The temperature is outside the compound's stated range or its shift law, or it has no law.
         """
         from conveyor.rubber import shifted
 
+        self._refuse_extrapolation(temperature)
         law = self.shift_law()
         reference = si(self.reference_temperature)
         if law is not None:
@@ -223,7 +236,7 @@ class RubberCompound(Model):
         if not math.isclose(temperature, reference, rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '
-                f"{text(self.reference_temperature)} only, not at {temperature - 273.15:.4g} degC; "
+                f"{text(self.reference_temperature)} only, not at {display(temperature, 'temperature', digits=6)}; "
                 "give it a shift law, or calculate at its reference temperature"
             )
         return self._reference_series()

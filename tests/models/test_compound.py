@@ -100,6 +100,16 @@ def test_refused(
         RubberCompound.model_validate(compound_data)
 
 
+def test_stated_range_is_not_left(compound_data: dict[str, Any]) -> None:
+    compound_data["shift"] = {"law": "wlf", "c1": 8.86, "c2": "101.6 K"}
+    compound_data["range"] = {"frequency": ["1 Hz", "1 kHz"], "temperature": ["0 degC", "40 degC"]}
+    compound = RubberCompound.model_validate(compound_data)
+    assert compound.series(313.15).times[0] < 1e-3 < compound.series(273.15).times[0]
+    for outside in (273.14, 313.16):
+        with pytest.raises(RangeError, match=r'"test rubber" is known from 0 degC to 40 degC .*, not at'):
+            compound.series(outside)
+
+
 def test_data_round_trip(compound_data: dict[str, Any]) -> None:
     compound = RubberCompound.model_validate(compound_data)
     assert RubberCompound.model_validate(compound.as_data()) == compound
