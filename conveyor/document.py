@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -14,12 +14,15 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
 
-LARGEST_FILE: Final = 1_000_000
-"""Bytes; a spec of a thousand sections with two inline compounds has a tenth of it."""
+LARGEST_FILE: Final = 500_000
+"""Bytes; a spec of a thousand sections with two inline compounds has a fifth of it."""
 MOST_NODES: Final = 100_000
 """Values after aliases are expanded: stops a file whose aliases multiply."""
 DEEPEST: Final = 50
 """Levels of nesting; a spec has 7."""
+
+MOST_LINES: Final = 100
+"""Errors listed of one file; the rest are counted."""
 
 Location = tuple[int | str, ...]
 _TAG = "tag:yaml.org,2002:"
@@ -43,6 +46,14 @@ class Finding:
     def line(self, path: str) -> str:
         """Write it as ``file:line:column field: message``."""
         return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
+
+
+def listing(path: str, findings: Sequence[Finding]) -> str:
+    """Write findings one a line, the first hundred of them."""
+    lines = [finding.line(path) for finding in findings[:MOST_LINES]]
+    if len(findings) > MOST_LINES:
+        lines.append(f"{path}: and {len(findings) - MOST_LINES} more errors")
+    return "\n".join(lines)
 
 
 @dataclass(frozen=True)

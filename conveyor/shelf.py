@@ -11,7 +11,7 @@ from typing import Final
 
 from pydantic import ValidationError
 
-from conveyor.document import read_document
+from conveyor.document import listing, read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings
 from conveyor.models.compound import RubberCompound
@@ -145,11 +145,9 @@ def _read_once(path: Path, _changed: int, _size: int) -> RubberCompound:
     try:
         read = RubberCompound.model_validate(document.data)
     except ValidationError as error:
-        raise InputError(
-            "\n".join(finding.line(document.path) for finding in findings(error, RubberCompound, document))
-        ) from None
+        raise InputError(listing(document.path, findings(error, RubberCompound, document))) from None
     if document.findings:
-        raise InputError("\n".join(finding.line(document.path) for finding in document.findings))
+        raise InputError(listing(document.path, document.findings))
     return read
 
 

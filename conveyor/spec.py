@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from conveyor import shelf
-from conveyor.document import read_document
+from conveyor.document import listing, read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings, message
 from conveyor.models import Conveyor
@@ -50,7 +50,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     except ValidationError as error:
         found = findings(error, Conveyor, document)
     if conveyor is None or found:
-        raise InputError("\n".join(finding.line(document.path) for finding in found))
+        raise InputError(listing(document.path, found))
     return conveyor
 
 

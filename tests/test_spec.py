@@ -154,6 +154,12 @@ def test_all_errors_of_a_file_at_once_in_its_order(tmp_path: Path) -> None:
     assert numbers == sorted(numbers)
 
 
+def test_very_many_errors_are_counted(tmp_path: Path) -> None:
+    lines = refusal(write(tmp_path, GOOD + "name: again\n" * 150))
+    assert len(lines) == 101
+    assert lines[-1] == f"{tmp_path}/spec.yaml: and 50 more errors"
+
+
 def test_errors_inside_an_inline_compound(tmp_path: Path) -> None:
     inline = (
         "{name: x, kind: measured, poisson_ratio: 0.7, reference_temperature: 20 degC, "
@@ -188,8 +194,8 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
         (b"\n\n  just text\n", ":3:3 file: expected a mapping of fields .* got a single value"),
         (b"a: 1\nname: M\xfcller\n", ":2:8 file: not UTF-8 text .byte 0xfc.; save it as UTF-8"),
         (b"\xff\xfea\x00", ":1:1 file: not UTF-8 text"),
-        (b"a: 1\n" * 300_000, "larger than 1,000,000 bytes"),
-        (b"a: " + b"[" * 5000, ":1:1 syntax: nested deeper than 50 levels"),
+        (b"a: 1\n" * 300_000, "larger than 500,000 bytes"),
+        (b"a: " + b"[" * 1500, ":1:1 syntax: nested deeper than 50 levels"),
         (b"a: " + b"[" * 60 + b"]" * 60, ":1:5[0-9] file: nested deeper than 50 levels"),
         (b"a: &a [*a]\n", "nested deeper than 50 levels"),
     ],
