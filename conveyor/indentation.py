@@ -1,0 +1,231 @@
+"""The bridge between a roll under a belt and the dimensionless contact, both directions side by side.
+
+Scales (paper, section 3): k = 2π/λ with λ the idler spacing, E0 the rubbery modulus,
+
+    p̃_m = 2(1-ν²) p_m/(E0 k R) = (1-ν²) w/(π E0 R)   (p_m = w/λ),      ζ_t = V τ_t k,      μ = f/w.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.contact import ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curve, solve
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.rubber import PronySeries
+
+Array = NDArray[np.float64]
+Support = Literal["confined", "free", "half-space"]
+
+
+@dataclass(frozen=True)
+class RollContact:
+    """One kind of roll under one cover at one speed and temperature.
+
+    Parameters
+    ----------
+    radius : float
+        R, of the roll [m].
+    spacing : float
+        λ, of the idler sets [m]; at least 2 R.
+    cover_thickness : float
+        h, of the cover the roll runs on [m].
+    speed : float
+        V, of the belt [m/s].
+    rubber : PronySeries
+        Relaxation spectrum of the cover at its temperature [Pa, s].
+    poisson : float
+        ν of the rubber [-].
+    support : {"confined", "free", "half-space"}
+        What holds the cover: a stiff carcass, nothing (the paper's belt), or endless rubber.
+    """
+
+    radius: float
+    spacing: float
+    cover_thickness: float
+    speed: float
+    rubber: PronySeries
+    poisson: float = 0.5
+    support: Support = "confined"
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "spacing", "cover_thickness", "speed"):
+            value = getattr(self, name)
+            if not 0.0 < value < math.inf:
+                raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+
+
+@dataclass(frozen=True, eq=False)
+class Indentation:
+    """Rolling contact under line loads, physical; arrays of the shape of `line_load`.
+
+    Attributes
+    ----------
+    line_load : ndarray
+        w, load per width [N/m].
+    resistance : ndarray
+        f = μ w, indentation resistance per width [N/m].
+    half_width, eccentricity, penetration : ndarray
+        a, e, Δ [m].
+    peak_pressure : ndarray
+        Largest contact pressure [Pa].
+    error : float
+        Estimated relative error of the resistance [-].
+    energy_error : float
+        Relative difference of the resistance by geometry and by loss compliance [-].
+    """
+
+    line_load: Array
+    resistance: Array
+    half_width: Array
+    eccentricity: Array
+    penetration: Array
+    peak_pressure: Array
+    error: float
+    energy_error: float
+
+
+def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
+    """Dimensionless problem of a roll under a line load.
+
+    Parameters
+    ----------
+    contact : RollContact
+        Roll, cover, speed and rubber.
+    line_load : float
+        w, load per width [N/m].
+
+    Returns
+    -------
+    ContactProblem
+        With the creep spectrum of the rubber normalised by E0.
+
+    Raises
+    ------
+    InputError
+        A value outside what the contact allows, e.g. rolls that overlap.
+    """
+    k = 2.0 * math.pi / contact.spacing
+    creep = contact.rubber.creep()
+    rubbery = contact.rubber.equilibrium
+    return ContactProblem(
+        support=contact.support,
+        radius=contact.radius / contact.spacing,
+        pressure=(1.0 - contact.poisson**2) * line_load / (math.pi * rubbery * contact.radius),
+        creep=CreepSpectrum(
+            instantaneous=rubbery * creep.instantaneous,
+            weights=rubbery * creep.compliances,
+            times=contact.speed * creep.times * k,
+        ),
+        thickness=math.inf if contact.support == "half-space" else k * contact.cover_thickness,
+        poisson=contact.poisson,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class IndentationCurve:
+    """Indentation of one `RollContact` between two line loads; sampled once, evaluated anywhere between."""
+
+    contact: RollContact
+    curve: LoadCurve
+    lowest: float
+    highest: float
+
+    @property
+    def stats(self) -> SolveStats:
+        """What the curve cost."""
+        return self.curve.stats
+
+    def at(self, line_load: ArrayLike) -> Indentation:
+        """Back from dimensionless to physical.
+
+        Parameters
+        ----------
+        line_load : array_like
+            w [N/m], within the curve.
+
+        Raises
+        ------
+        RangeError
+            A load outside the curve.
+        """
+        w = np.asarray(line_load, dtype=float)
+        unit = self.curve.problem.pressure / self.highest
+        found = self.curve.at(w * unit)
+        radius = self.contact.radius
+        # p = p̃ E0 k R/(2(1-ν²)), and p̃_m = p_m 2(1-ν²)/(E0 k R) with p_m = w/λ gives the scale w/λ/p̃_m
+        pascal = 1.0 / (unit * self.contact.spacing)
+        return Indentation(
+            line_load=w,
+            resistance=found.friction * w,
+            half_width=found.half_width * radius,
+            eccentricity=found.eccentricity * radius,
+            penetration=found.penetration * radius,
+            peak_pressure=found.peak_pressure * pascal,
+            error=self.curve.error,
+            energy_error=self.curve.energy_error,
+        )
+
+
+def indentation_curve(contact: RollContact, lowest: float, highest: float, rtol: float = 1e-6) -> IndentationCurve:
+    """Solve a roll's contact for every line load between two.
+
+    Parameters
+    ----------
+    contact : RollContact
+        Roll, cover, speed and rubber.
+    lowest, highest : float
+        Range of the line load w [N/m].
+    rtol : float
+        Relative error asked for [-].
+
+    Raises
+    ------
+    InputError
+        A value outside what the contact allows.
+    NoSolutionError
+        The contact splits or wraps the roll; the message names the roll and the load.
+    """
+    problem = to_problem(contact, highest)
+    try:
+        curve = load_curve(problem, problem.pressure * (lowest / highest), problem.pressure, rtol)
+    except NoSolutionError as error:
+        raise NoSolutionError(
+            f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
+            f"({contact.support}), {lowest:.4g} to {highest:.4g} N/m: {error}"
+        ) from error
+    return IndentationCurve(contact, curve, lowest, highest)
+
+
+def indentation_resistance(contact: RollContact, line_load: float, rtol: float = 1e-6) -> Indentation:
+    """Indentation of one roll under one line load w [N/m].
+
+    Raises
+    ------
+    InputError, NoSolutionError
+        As `indentation_curve`.
+
+    Examples
+    --------
+    >>> rubber = PronySeries(8e6, [4e6], [1e-3])
+    >>> roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=6e-3, speed=5.0, rubber=rubber)
+    >>> one = indentation_resistance(roll, 2000.0)
+    >>> round(float(one.resistance), 3), round(1e3 * float(one.half_width), 3)
+    (6.13, 3.201)
+    """
+    problem = to_problem(contact, line_load)
+    solution = solve(problem, rtol)
+    return Indentation(
+        line_load=np.float64(line_load),
+        resistance=np.float64(solution.friction * line_load),
+        half_width=np.float64(solution.half_width * contact.radius),
+        eccentricity=np.float64(solution.eccentricity * contact.radius),
+        penetration=np.float64(solution.penetration * contact.radius),
+        peak_pressure=np.float64(solution.peak_pressure * line_load / (contact.spacing * problem.pressure)),
+        error=solution.error_estimate,
+        energy_error=solution.energy_error,
+    )
