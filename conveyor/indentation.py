@@ -171,7 +171,9 @@ class IndentationCurve:
         )
 
 
-def indentation_curve(contact: RollContact, lowest: float, highest: float, rtol: float = 1e-6) -> IndentationCurve:
+def indentation_curve(
+    contact: RollContact, lowest: float, highest: float, rtol: float = 1e-6
+) -> IndentationCurve:
     """Solve a roll's contact for every line load between two.
 
     Parameters

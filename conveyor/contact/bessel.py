@@ -12,6 +12,8 @@ from scipy import special
 
 Array = NDArray[np.float64]
 
+_LOG_RANGE = 600.0  # e^600 = 1e260 is within double range
+_NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
 _LARGEST_SCALED_I = 1e8  # beyond it the uniform start of Amos is exact to 1e-15 and AMOS' `ive` loses digits
 
 
@@ -66,33 +68,37 @@ def bessel_j(order: int, x: Array) -> Array:
     return out.reshape((order + 1, *x.shape))
 
 
-def product_ik(order: int, b: Array) -> tuple[Array, Array]:
-    """Products of modified Bessel functions of the half-space's retardation terms.
+def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
+    """Weighted sum over retardation terms of the half-space's Bessel products, Σ_t w_t I_max(b_t) K_min(b_t).
 
     Parameters
     ----------
     order : int
         Highest order [-], at least 1.
-    b : ndarray, shape (...,)
+    b : ndarray, shape (k, t)
         Half width over retardation length, α/ζ [-], positive.
+    weights : ndarray, shape (t,)
+        w_t.
 
     Returns
     -------
-    ik : ndarray, shape (..., order + 1, order + 1)
-        I_max(b) K_min(b), max and min of (row, column).
-    deficit : ndarray, shape (..., order + 1)
-        1/(2v) - I_v(b) K_v(b), free of cancellation for b → 0; entry 0 is zero and has no meaning.
+    products : ndarray, shape (k, order + 1, order + 1)
+        Off the diagonal Σ_t w_t I_max K_min, max and min of (row, column); on it zero.
+    deficit : ndarray, shape (k, order + 1)
+        Σ_t w_t [1/(2v) - I_v K_v], free of cancellation for b → 0; entry 0 is zero and has no meaning.
 
     Notes
     -----
     With r_v = I_{v+1}/I_v and k_v = K_{v+1}/K_v: I_v K_v = 1/(b (r_v + k_v)) (Wronskian, A&S 9.6.15) and
     b (r_v + k_v) = 2v + b (r_v + 1/k_{v-1}), so the deficit is δ/(2v (2v + δ)), δ = b (r_v + 1/k_{v-1}).
+    I_hi/I_lo = exp(l_hi - l_lo), l the summed logarithms of r. Where l spans less than 600 the sum over terms is a
+    matrix product of exp(l_hi) and exp(-l_lo); for smaller b the products die out within a few diagonals.
 
     Examples
     --------
-    >>> ik, deficit = product_ik(2, np.array([1.0]))
-    >>> round(float(ik[0, 0, 1]), 12) == round(float(special.iv(1, 1.0) * special.kv(0, 1.0)), 12)
-    True
+    >>> products, _ = product_ik(2, np.array([[1.0]]), np.array([1.0]))
+    >>> round(float(products[0, 0, 1] / (special.iv(1, 1.0) * special.kv(0, 1.0))), 12)
+    1.0
     """
     r = _ratio_i(order, b)
     k = np.empty((order + 1, *b.shape))
@@ -100,17 +106,27 @@ def product_ik(order: int, b: Array) -> tuple[Array, Array]:
     for v in range(1, order + 1):
         k[v] = 1.0 / k[v - 1] + 2.0 * v / b
     diagonal = 1.0 / (b * (r + k))
-    twice = 2.0 * np.arange(1, order + 1).reshape((-1,) + (1,) * b.ndim)
+    twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
     delta = b * (r[1:] + 1.0 / k[:-1])
-    deficit = np.zeros_like(diagonal)
-    deficit[1:] = delta / (twice * (twice + delta))
-    # I_hi/I_lo as exp of summed logarithms: underflows to zero, never overflows
+    deficit = np.zeros((b.shape[0], order + 1))
+    deficit[:, 1:] = ((delta / (twice * (twice + delta))) @ weights).T
     log_i = np.zeros_like(r)
     np.cumsum(np.log(r[:-1]), axis=0, out=log_i[1:])
-    diagonal, log_i, deficit = (np.moveaxis(a, 0, -1) for a in (diagonal, log_i, deficit))
-    index = np.arange(order + 1)
-    low = np.minimum(index[:, None], index[None, :])
-    return diagonal[..., low] * np.exp(-np.abs(log_i[..., :, None] - log_i[..., None, :])), deficit
+
+    wide = (log_i[-1] > -_LOG_RANGE).all(axis=0)
+    high = np.moveaxis(np.exp(log_i[..., wide]), 0, 2)
+    low = np.moveaxis(diagonal[..., wide] * np.exp(-log_i[..., wide]), 0, 1)
+    upper = np.triu((low * weights[wide]) @ high, 1)
+    if not wide.all():
+        narrow = diagonal[..., ~wide] * weights[~wide]
+        logs = log_i[..., ~wide]
+        for step in range(1, order + 1):
+            ratio = np.exp(logs[step:] - logs[:-step])
+            if float(ratio.max()) < _NEGLIGIBLE:
+                break
+            at = np.arange(order + 1 - step)
+            upper[:, at, at + step] += (narrow[:-step] * ratio).sum(axis=2).T
+    return upper + upper.swapaxes(1, 2), deficit
 
 
 def _ratio_i(order: int, b: Array) -> Array:

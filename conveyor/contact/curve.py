@@ -24,7 +24,8 @@ from conveyor.errors import InputError, NoSolutionError, RangeError
 Array = NDArray[np.float64]
 
 _POINTS = (8, 12, 16, 24, 32, 48, 64)
-_MARGIN = 1e-3  # the sampled range of ln α goes this far beyond the loads asked for
+_ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
+_MARGIN = 2e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _NEWTON_STEPS = 40
 _SIGN_FLOOR = 1e-9
 
@@ -143,7 +144,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     if not 0.0 < lowest <= highest:
         raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
     problem = replace(problem, pressure=highest)
-    ends = [solve(replace(problem, pressure=p), rtol) for p in (lowest, highest)]
+    ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
     scene = Scene.of(problem)
     low, high = (math.log(s.half_width * problem.rho) for s in ends)
     centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
@@ -157,7 +158,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
             )
         undecided = sample.sign is Sign.UNDECIDED or sample.order_error > rtol
         if undecided and order + 1 < len(ORDERS):
-            order += 1
+            order = min(order + (2 if sample.order_error > 100.0 * rtol else 1), len(ORDERS) - 1)
         elif sample.tail > rtol and points + 1 < len(_POINTS):
             points += 1
         else:

@@ -28,14 +28,13 @@ def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: fl
     weighted = v * contact.c
     table = bessel_j(n, np.multiply.outer(contact.alpha, rule.nodes))[1:]
     phase = (-1j) ** ((v - 1) % 4)
-    spectrum = 0.5 * np.einsum("bv,vbk->bk", weighted * phase, table) / rule.nodes
+    spectrum = 0.5 * ((weighted * phase)[:, None] @ np.moveaxis(table, 0, 1))[:, 0] / rule.nodes
     total = np.einsum("bk,k->b", np.abs(spectrum) ** 2, rule.weights.imag * rule.nodes)
     if creep.weights.size:
-        ik, deficit = product_ik(n, contact.alpha[:, None] / creep.times)
-        kernel = -np.tensordot(creep.weights * creep.times, ik, axes=(0, 1))[:, 1:, 1:]
-        kernel *= (v[:, None] - v[None, :]) % 2 == 0
+        products, deficit = product_ik(n, contact.alpha[:, None] / creep.times, creep.weights * creep.times)
+        kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)
         index = np.arange(n)
-        kernel[:, index, index] = np.tensordot(creep.weights * creep.times, deficit, axes=(0, 1))[:, 1:]
-        total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted)
+        kernel[:, index, index] = deficit[:, 1:]
+        total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted, optimize=True)
     friction: Array = 2.0 * rho * total / contact.pressure
     return friction

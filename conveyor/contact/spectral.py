@@ -71,18 +71,20 @@ def assemble(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int) -> Array:
     """
     real, imaginary, retarded = _signs(n)
     table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
-    columns = table[:, 1:].swapaxes(1, 2)
-    matrix = real * ((table * rule.weights.real) @ columns)
-    matrix += imaginary * ((table * rule.weights.imag) @ columns)
+    even, odd = table[:, 0::2], table[:, 1::2]
+    gram = np.empty((alpha.size, n + 1, n + 1))  # i - v even: Re S, odd: Im S
+    gram[:, 0::2, 0::2] = (even * rule.weights.real) @ even.swapaxes(1, 2)
+    gram[:, 1::2, 1::2] = (odd * rule.weights.real) @ odd.swapaxes(1, 2)
+    gram[:, 0::2, 1::2] = (even * rule.weights.imag) @ odd.swapaxes(1, 2)
+    gram[:, 1::2, 0::2] = gram[:, 0::2, 1::2].swapaxes(1, 2)
+    matrix: Array = (real + imaginary) * gram[:, :, 1:]
     index = np.arange(n)
     half_space = np.full((alpha.size, n), -creep.instantaneous)
     if creep.weights.size:
-        ik, deficit = product_ik(n, alpha[:, None] / creep.times)
-        products = np.tensordot(creep.weights, ik, axes=(0, 1))[:, :, 1:] * retarded
-        products[:, index + 1, index] = 0.0
-        matrix += products
+        products, deficit = product_ik(n, alpha[:, None] / creep.times, creep.weights)
+        matrix += products[:, :, 1:] * retarded
         # -j0 + 2v Σ d I K = -(j∞ + Σ d (1 - 2v I K)) keeps a small j∞
-        half_space -= 2.0 * (index + 1) * np.tensordot(creep.weights, deficit, axes=(0, 1))[:, 1:]
+        half_space -= 2.0 * (index + 1) * deficit[:, 1:]
     matrix[:, index + 1, index] += half_space
     return matrix
 
@@ -166,15 +168,14 @@ def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
     alpha = contact.alpha
     table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
     v = np.arange(1, n + 1)
-    moments = np.einsum("bvk,bk,k->bv", table[:, 1:], table[:, 0], rule.weights / rule.nodes)
+    moments = (table[:, 1:] @ (table[:, 0] * (rule.weights / rule.nodes))[..., None])[..., 0]
     level = np.einsum("bv,bv->b", v * contact.c, np.real((-1j) ** ((v - 1) % 4) * moments))
     compliance = creep.instantaneous + float(creep.weights.sum())
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
     level += 0.5 * compliance * contact.c[:, 0] * alpha * logarithm
     if creep.weights.size:
-        ik, _ = product_ik(n, alpha[:, None] / creep.times)
-        retarded = np.tensordot(creep.weights * creep.times, ik, axes=(0, 1))[:, 0, 1:] * _signs(n)[2][0]
-        level += np.einsum("bv,bv->b", retarded, contact.c)
+        products, _ = product_ik(n, alpha[:, None] / creep.times, creep.weights * creep.times)
+        level += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], contact.c)
     points = 2 * n + 16
     depth: Array = level + mean_drop(alpha, contact.eps, rho, points)
     return depth
