@@ -1,1 +1,55 @@
-"""."""
+"""Belt-conveyor power from the viscoelastic rolling contact of every idler roll.
+
+>>> import conveyor
+>>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+>>> result = conveyor.analyse(line)  # doctest: +SKIP
+>>> result.to_excel("overland.xlsx")  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from conveyor.analysis import Analysis, analyse
+    from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
+    from conveyor.models import Conveyor, RubberCompound
+    from conveyor.spec import load
+
+__version__ = version("conveyor")
+
+# Imported on first use: `conveyor --help` must not pay for scipy and pandas.
+_WHERE = {
+    "Analysis": "conveyor.analysis",
+    "Conveyor": "conveyor.models",
+    "ConveyorError": "conveyor.errors",
+    "InputError": "conveyor.errors",
+    "NoSolutionError": "conveyor.errors",
+    "RangeError": "conveyor.errors",
+    "RubberCompound": "conveyor.models",
+    "ValidityWarning": "conveyor.errors",
+    "analyse": "conveyor.analysis",
+    "load": "conveyor.spec",
+}
+
+__all__ = [
+    "Analysis",
+    "Conveyor",
+    "ConveyorError",
+    "InputError",
+    "NoSolutionError",
+    "RangeError",
+    "RubberCompound",
+    "ValidityWarning",
+    "__version__",
+    "analyse",
+    "load",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _WHERE:
+        return getattr(import_module(_WHERE[name]), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -221,13 +221,14 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
     """
     problem = to_problem(contact, line_load)
     solution = solve(problem, rtol)
+    pascal = line_load / (contact.spacing * problem.pressure)
     return Indentation(
-        line_load=np.float64(line_load),
-        resistance=np.float64(solution.friction * line_load),
-        half_width=np.float64(solution.half_width * contact.radius),
-        eccentricity=np.float64(solution.eccentricity * contact.radius),
-        penetration=np.float64(solution.penetration * contact.radius),
-        peak_pressure=np.float64(solution.peak_pressure * line_load / (contact.spacing * problem.pressure)),
+        line_load=np.asarray(line_load),
+        resistance=np.asarray(solution.friction * line_load),
+        half_width=np.asarray(solution.half_width * contact.radius),
+        eccentricity=np.asarray(solution.eccentricity * contact.radius),
+        penetration=np.asarray(solution.penetration * contact.radius),
+        peak_pressure=np.asarray(solution.peak_pressure * pascal),
         error=solution.error_estimate,
         energy_error=solution.energy_error,
     )

@@ -29,7 +29,7 @@ from conveyor.resistance import (
     slope_resistance,
 )
 from conveyor.rubber import PronySeries
-from conveyor.units import si
+from conveyor.units import Quantity, si
 
 Array = NDArray[np.float64]
 Strand = Literal["carry", "return"]
@@ -198,7 +198,7 @@ def _stretch(conveyor: Conveyor, section: Section, strand: Strand) -> Stretch:
     )
 
 
-def _shares(given: tuple[object, ...] | None) -> tuple[float, ...] | None:
+def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
     return None if given is None else tuple(si(share) for share in given)
 
 

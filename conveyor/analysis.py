@@ -1,0 +1,145 @@
+"""From a conveyor to its forces, tensions and power: the whole calculation in one call."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from conveyor.balance import Balance, balance
+from conveyor.line import StretchResult, walk
+from conveyor.models import Conveyor
+from conveyor.remarks import assumptions, warnings
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def analyse(conveyor: Conveyor) -> Analysis:
+    """Calculate a conveyor.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        From `conveyor.load` or built in Python.
+
+    Returns
+    -------
+    Analysis
+        Forces, tensions, power, per section and per roll, with assumptions and warnings.
+
+    Raises
+    ------
+    NoSolutionError
+        A roll's contact has no answer, or the tensions do not settle.
+    RangeError
+        A compound is not known at the belt's temperature.
+    """
+    stretches = walk(conveyor)
+    found = balance(conveyor, stretches)
+    return Analysis(conveyor, stretches, found, assumptions(conveyor), warnings(conveyor, stretches, found))
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """Everything calculated for one conveyor.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        What was calculated.
+    stretches : tuple of StretchResult
+        Forces of every section of both strands, SI.
+    balance : Balance
+        Forces, tensions, power of the whole, SI.
+    assumptions, warnings : tuple of str
+        What every figure rests on, and where that is strained.
+    """
+
+    conveyor: Conveyor
+    stretches: tuple[StretchResult, ...]
+    balance: Balance
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    @cached_property
+    def summary(self) -> pd.Series:
+        """Figures of the whole conveyor; units in the names."""
+        from conveyor.report import tables
+
+        return tables.summary(self.conveyor, self.stretches, self.balance)
+
+    @cached_property
+    def sections(self) -> pd.DataFrame:
+        """One row a section and strand; units in the names."""
+        from conveyor.report import tables
+
+        return tables.sections(self.stretches)
+
+    @cached_property
+    def resistances(self) -> pd.DataFrame:
+        """Every force and its source; the rows add up to the effective tension."""
+        from conveyor.report import tables
+
+        return tables.resistances(self.stretches, self.balance)
+
+    @cached_property
+    def rolls(self) -> pd.DataFrame:
+        """One row a roll of every section's set; units in the names."""
+        from conveyor.report import tables
+
+        return tables.rolls(self.stretches)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON, SI or the unit in the key."""
+        forces, power = self.balance.forces, self.balance.power
+        return {
+            "name": self.conveyor.name,
+            "forces_N": {**asdict(forces), "total": forces.total},
+            "power_kW": {"belt": power.belt / 1e3, "motor": power.motor / 1e3},
+            "friction_factor": self.balance.friction_factor,
+            "tensions_N": asdict(self.balance.tensions),
+            "energy": {
+                "kWh_per_tonne_km": power.energy_per_tonne_km,
+                "kWh_per_year": power.energy_per_year,
+                "cost_per_year": power.cost_per_year,
+                "currency": power.currency,
+            },
+            "classical": {
+                "friction_factor": self.balance.classical.friction_factor,
+                "secondary_by": self.balance.classical.secondary_by,
+                "total_N": self.balance.classical.total,
+                "motor_kW": self.balance.classical.motor / 1e3,
+            },
+            "sections": [
+                {
+                    "section": r.stretch.section,
+                    "strand": r.stretch.strand,
+                    "length_m": r.stretch.length,
+                    "lift_m": r.stretch.rise,
+                    "indentation_N": r.indentation,
+                    "idler_rotation_N": r.rotation,
+                    "flexure_N": r.flexure,
+                    "tilt_N": r.tilt,
+                    "lift_N": r.lift,
+                    "total_N": r.total,
+                }
+                for r in self.stretches
+            ],
+            "error_estimate": max(roll.peak.error for r in self.stretches for roll in r.rolls),
+            "assumptions": list(self.assumptions),
+            "warnings": list(self.warnings),
+        }
+
+    def to_excel(self, path: str | Path) -> Path:
+        """Write the workbook.
+
+        Raises
+        ------
+        InputError
+            The path cannot be written.
+        """
+        from conveyor.report.excel import write
+
+        return write(self, Path(path))

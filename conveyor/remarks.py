@@ -1,0 +1,137 @@
+"""What a reader of the results must know: the assumptions behind every figure, and warnings where one is strained."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from conveyor.balance import Balance
+from conveyor.line import StretchResult, roll_at
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
+from conveyor.units import display, si, text
+
+DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
+SHORT_OF_DATA = 1.0  # the working frequency lies within the measured band or not
+
+
+def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
+    """What every figure of an analysis rests on, in words."""
+    support = {
+        "confined": "the cover is bonded to a carcass that does not give (tension and bending of a real belt: 1 to 8 %)",
+        "free": "the cover is a free layer that bends between the rolls (the paper's belt)",
+        "half-space": "the cover is endlessly thick",
+    }[conveyor.calculation.support]
+    return (
+        "Rubber is linearly viscoelastic at the strain its data were measured at; Poisson's ratio is constant.",
+        f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
+        "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones.",
+        f"Flexure of belt and bulk is {text(conveyor.calculation.flexure_share)} of the main resistance "
+        "(no model: share of the total measured at one overland site).",
+        "Roll drag does not depend on speed, load or temperature.",
+        "Bearings of the driven pulley are in the drive's efficiency; tension does not change the load of the rolls.",
+        f"Covers are at {text(conveyor.ambient.belt)} throughout.",
+    )
+
+
+def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> tuple[str, ...]:
+    """Where an assumption is strained, a default stands in, or a figure needs a second look."""
+    return tuple(
+        dict.fromkeys(
+            (
+                *_rubber(conveyor),
+                *_frequency(conveyor, results),
+                *_contact(conveyor, results),
+                *_defaults(conveyor),
+                *_loop(conveyor, found),
+            )
+        )
+    )
+
+
+def _compounds(conveyor: Conveyor) -> dict[str, RubberCompound]:
+    return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
+
+
+def _rubber(conveyor: Conveyor) -> Iterator[str]:
+    for strand, compound in _compounds(conveyor).items():
+        if compound.kind == "illustrative":
+            yield f'compound "{compound.name}" is illustrative, not measured: compare with it, do not design with it'
+        if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
+            yield f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{compound.name}"'
+        if compound.missing:
+            yield f'compound "{compound.name}": not known are {"; ".join(compound.missing)}'
+
+
+def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
+    """The band V/(2a), from the widest to the narrowest contact, against the measured band at the belt's temperature."""
+    temperature = si(conveyor.ambient.belt)
+    speed = si(conveyor.belt.speed)
+    for strand, compound in _compounds(conveyor).items():
+        law = compound.shift_law()
+        if compound.range is None:
+            continue
+        shift = 1.0 if law is None else 10.0 ** float(law.log10_a_T(temperature))
+        low, high = (si(limit) / shift for limit in compound.range.frequency)
+        widths = [roll.peak.half_width for r in results if r.stretch.strand == strand for roll in r.rolls]
+        working = [speed / (2.0 * float(width)) for width in widths]
+        if min(working) < low or max(working) > high:
+            yield (
+                f'compound "{compound.name}": the contacts work at {min(working):.3g} to {max(working):.3g} Hz, its data '
+                f"cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: the series is extrapolated"
+            )
+
+
+def _contact(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
+    support = conveyor.calculation.support
+    if support != "confined":
+        yield (
+            f'calculation.support is "{support}": a real cover is bonded to a carcass far stiffer than rubber, '
+            '"confined" is meaningful for it; use this one to compare with the paper'
+        )
+    covers = {"carry": conveyor.belt.bottom_cover.thickness, "return": conveyor.return_cover_thickness}
+    for strand, thickness in covers.items():
+        deepest = max(
+            float(roll.peak.penetration) for r in results if r.stretch.strand == strand for roll in r.rolls
+        ) / si(thickness)
+        if deepest > DEEP:
+            yield (
+                f"{strand} rolls press in by {deepest:.0%} of the cover ({text(thickness)}): "
+                "beyond small strain, the linear law is strained"
+            )
+
+
+def _defaults(conveyor: Conveyor) -> Iterator[str]:
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        for place in range(idlers.rolls):
+            roll = roll_at(idlers, place)
+            drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
+            if drag.assumed:
+                yield (
+                    f"idlers.{strand}: roll drag not given, {display(drag.force, 'force')} a roll assumed "
+                    f"({drag.source}; an upper limit, give idlers.{strand}.roll.drag)"
+                )
+        if si(idlers.tilt_angle) > 0.0:
+            yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
+    if si(conveyor.calculation.flexure_share) == FLEXURE_SHARE.value:
+        yield "calculation.flexure_share not given: 11 % assumed, measured at one overland site"
+    route = conveyor.route
+    if conveyor.calculation.secondary == "itemised":
+        if not route.pulleys:
+            yield "route.pulleys not given: wraps and pulley bearings are not in the figures"
+        elif conveyor.belt.carcass.kind == "steel cord":
+            yield "wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard"
+        if route.feeding is None and si(conveyor.material.flow) > 0.0:
+            yield "route.feeding not given: acceleration of the bulk and skirts are not in the figures"
+    if not route.cleaners:
+        yield "route.cleaners not given: no cleaner in the figures"
+
+
+def _loop(conveyor: Conveyor, found: Balance) -> Iterator[str]:
+    installed = conveyor.drive.installed_power
+    if installed is not None and abs(found.power.motor) > si(installed):
+        yield f"the motor needs {display(found.power.motor, 'power')}, installed are {text(installed)}"
+    strength = conveyor.belt.carcass.strength
+    if strength is not None:
+        safety = si(strength) * si(conveyor.belt.width) / found.tensions.largest
+        if safety < 1.0:
+            yield f"the belt's strength is exceeded: safety {safety:.2f} at {display(found.tensions.largest, 'force')}"

@@ -1,0 +1,230 @@
+"""Results as tables: pandas, units in the names, no spreadsheet in sight. Column names are stable."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from conveyor.balance import Balance
+from conveyor.line import StretchResult
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.units import si
+
+CURVE_POINTS = 25
+DECADES = (-3, 7)  # of frequency shown in the rubber table [Hz]
+PER_DECADE = 4
+
+
+def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> pd.Series:
+    """Figures of the whole conveyor, one a row."""
+    forces, power, tensions, classical = found.forces, found.power, found.tensions, found.classical
+    strength = conveyor.belt.carcass.strength
+    rows: dict[str, float | None] = {
+        "length [m]": conveyor.route.length,
+        "lift [m]": conveyor.route.rise,
+        "belt speed [m/s]": si(conveyor.belt.speed),
+        "mass flow [t/h]": si(conveyor.material.flow) * 3.6,
+        "motor power [kW]": power.motor / 1e3,
+        "belt power [kW]": power.belt / 1e3,
+        "effective tension [N]": forces.total,
+        "indentation [N]": forces.indentation,
+        "idler rotation [N]": forces.idler_rotation,
+        "flexure [N]": forces.flexure,
+        "secondary [N]": forces.secondary,
+        "special [N]": forces.special,
+        "lift force [N]": forces.lift,
+        "indentation share of main resistance [-]": forces.indentation / forces.main,
+        "equivalent DIN f [-]": found.friction_factor,
+        "tight side tension [N]": tensions.tight,
+        "slack side tension [N]": tensions.slack,
+        "tight side tension at start [N]": tensions.tight_start,
+        "smallest tension [N]": tensions.smallest,
+        "belt safety at start [-]": (
+            None if strength is None else si(strength) * si(conveyor.belt.width) / tensions.largest
+        ),
+        "energy [kWh/(t km)]": power.energy_per_tonne_km,
+        "energy per year [MWh]": None if power.energy_per_year is None else power.energy_per_year / 1e3,
+        f"cost per year [{power.currency or '-'}]": power.cost_per_year,
+        "classical f [-]": classical.friction_factor,
+        "classical effective tension [N]": classical.total,
+        "classical motor power [kW]": classical.motor / 1e3,
+        "largest error estimate of the contacts [-]": worst_error(results),
+        "largest energy error of the contacts [-]": max(
+            roll.peak.energy_error for r in results for roll in r.rolls
+        ),
+    }
+    given = {name: value for name, value in rows.items() if value is not None}
+    return pd.Series(given, name=conveyor.name, dtype=float)
+
+
+def worst_error(results: tuple[StretchResult, ...]) -> float:
+    """Largest relative error estimate of any roll's indentation."""
+    return max(roll.peak.error for result in results for roll in result.rolls)
+
+
+def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
+    """One row a stretch: geometry, masses, forces; both strands, in running direction."""
+    return pd.DataFrame(
+        [
+            {
+                "section": r.stretch.section,
+                "strand": r.stretch.strand,
+                "length [m]": r.stretch.length,
+                "lift [m]": r.stretch.rise,
+                "inclination [deg]": math.degrees(r.stretch.inclination),
+                "idler spacing [m]": r.stretch.spacing,
+                "belt mass [kg/m]": r.stretch.belt_mass,
+                "bulk mass [kg/m]": r.stretch.bulk_mass,
+                "indentation [N]": r.indentation,
+                "idler rotation [N]": r.rotation,
+                "flexure [N]": r.flexure,
+                "idler tilt [N]": r.tilt,
+                "lift force [N]": r.lift,
+                "total [N]": r.total,
+                "equivalent f [-]": r.main / r.unit_main,
+            }
+            for r in results
+        ]
+    )
+
+
+def rolls(results: tuple[StretchResult, ...]) -> pd.DataFrame:
+    """One row a roll of every stretch's set: load, contact at its highest line load, indentation."""
+    return pd.DataFrame(
+        [
+            {
+                "section": r.stretch.section,
+                "strand": r.stretch.strand,
+                "roll": roll.load.name,
+                "diameter [mm]": 2e3 * roll.curve.contact.radius,
+                "force [N]": roll.load.force,
+                "highest line load [N/m]": float(roll.peak.line_load),
+                "half width [mm]": 1e3 * float(roll.peak.half_width),
+                "eccentricity [mm]": 1e3 * float(roll.peak.eccentricity),
+                "penetration [mm]": 1e3 * float(roll.peak.penetration),
+                "penetration of cover [-]": float(roll.peak.penetration) / roll.curve.contact.cover_thickness,
+                "peak pressure [MPa]": 1e-6 * float(roll.peak.peak_pressure),
+                "transit frequency [Hz]": roll.curve.contact.speed / (2.0 * float(roll.peak.half_width)),
+                "indentation [N]": roll.resistance,
+                "error estimate [-]": roll.peak.error,
+                "energy error [-]": roll.peak.energy_error,
+            }
+            for r in results
+            for roll in r.rolls
+        ]
+    )
+
+
+def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFrame:
+    """Every newton and the law it comes from; the rows add up to the effective tension."""
+    by_strand = [
+        (
+            f"{label}, {strand}",
+            kind,
+            math.fsum(getattr(r, name) for r in results if r.stretch.strand == strand),
+            source,
+        )
+        for label, name, kind, source in (
+            ("indentation", "indentation", "main", "viscoelastic contact of every roll (docs/method.md)"),
+            ("idler rotation", "rotation", "main", "roll drag x number of rolls"),
+            ("flexure of belt and bulk", "flexure", "main", "share of the main resistance, flagged default"),
+            ("idler tilt", "tilt", "special", "ISO 5048, F_e"),
+            ("lift", "lift", "lift", "ISO 5048, F_St"),
+        )
+        for strand in ("carry", "return")
+    ]
+    singles = [(single.name, single.kind, single.force, single.source) for single in found.singles]
+    table = pd.DataFrame([*by_strand, *singles], columns=["resistance", "kind", "force [N]", "source"])
+    total = found.forces.total
+    table.insert(3, "share [-]", table["force [N]"] / total)
+    return table
+
+
+def comparison(found: Balance) -> pd.DataFrame:
+    """This calculation beside the classical one with a given f."""
+    forces, classical = found.forces, found.classical
+    return pd.DataFrame(
+        {
+            "this calculation": [
+                found.friction_factor, forces.main, forces.secondary, forces.special, forces.lift, forces.total,
+                found.power.motor / 1e3,
+            ],
+            "classical, given f": [
+                classical.friction_factor, classical.main, classical.secondary, classical.special, classical.lift,
+                classical.total, classical.motor / 1e3,
+            ],
+        },
+        index=[
+            "f [-]", "main [N]", "secondary [N]", "special [N]", "lift [N]", "effective tension [N]", "motor power [kW]",
+        ],
+    )  # fmt: skip
+
+
+def tensions(found: Balance) -> pd.DataFrame:
+    """Tension round the loop in steady running, from the drive back to it."""
+    return pd.DataFrame(
+        [
+            {
+                "place": point.place,
+                "distance from drive [m]": point.distance,
+                "tension [N]": point.tension,
+                "least for sag [N]": point.least_for_sag,
+            }
+            for point in found.points
+        ]
+    )
+
+
+def indentation_curves(results: tuple[StretchResult, ...]) -> pd.DataFrame:
+    """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
+    seen: dict[int, Any] = {}
+    for r in results:
+        for roll in r.rolls:
+            seen.setdefault(id(roll.curve), (f"{r.stretch.strand}, {2e3 * roll.curve.contact.radius:.0f} mm, "
+                                             f"{r.stretch.spacing:g} m", roll.curve))  # fmt: skip
+    blocks = []
+    for label, curve in seen.values():
+        w = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
+        found = curve.at(w)
+        block = {
+            "contact": label,
+            "line load [N/m]": w,
+            "indentation [N/m]": found.resistance,
+            "friction [-]": found.resistance / w,
+            "half width [mm]": 1e3 * found.half_width,
+            "peak pressure [MPa]": 1e-6 * found.peak_pressure,
+        }
+        blocks.append(pd.DataFrame(block))
+    return pd.concat(blocks, ignore_index=True)
+
+
+def prony(compound: RubberCompound, temperature: float) -> pd.DataFrame:
+    """Terms of a compound's relaxation spectrum, at the reference and at `temperature` [K]."""
+    terms = compound.prony.terms
+    series = compound.series(temperature)
+    order = np.argsort([si(term.time) for term in terms])
+    return pd.DataFrame(
+        {
+            "modulus [MPa]": [1e-6 * si(terms[i].modulus) for i in order],
+            "time at reference [s]": [si(terms[i].time) for i in order],
+            "time at belt temperature [s]": series.times,
+        }
+    )
+
+
+def moduli(compound: RubberCompound, temperature: float) -> pd.DataFrame:
+    """E', E'', tan δ of a compound at `temperature` [K] over frequency."""
+    frequency = np.logspace(*DECADES, (DECADES[1] - DECADES[0]) * PER_DECADE + 1)
+    series = compound.series(temperature)
+    omega = 2.0 * np.pi * frequency
+    return pd.DataFrame(
+        {
+            "frequency [Hz]": frequency,
+            "E' [MPa]": 1e-6 * series.storage(omega),
+            "E'' [MPa]": 1e-6 * series.loss(omega),
+            "tan delta [-]": series.tan_delta(omega),
+        }
+    )
