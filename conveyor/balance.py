@@ -356,9 +356,7 @@ def _power(conveyor: Conveyor, force: float) -> Power:
     return Power(
         belt=belt,
         motor=motor,
-        energy_per_tonne_km=specific_energy(motor, mass_flow=flow, length=conveyor.route.length)
-        if flow > 0.0
-        else None,
+        energy_per_tonne_km=specific,
         energy_per_year=year,
         cost_per_year=None
         if year is None or price is None

@@ -96,7 +96,7 @@ class RollResult:
     curve : IndentationCurve
         The load curve it was read from.
     peak : Indentation
-        Contact at the highest line load solved along the roll.
+        Contact at the highest line load, for a wing that of its inner end.
     resistance : float
         Indentation resistance of the roll [N].
     """
@@ -242,7 +242,7 @@ def _solve_curves(
     for stretch in route:
         for place, load in enumerate(stretch.loads):
             contact = _contact(conveyor, stretch, place, surfaces[stretch.strand])
-            occurring[contact].append(load.line_loads(points)[0])
+            occurring[contact] += [load.line_loads(points)[0], np.array([load.peak_line_load])]
     rtol = conveyor.calculation.rtol
     ranges = {contact: np.concatenate(loads) for contact, loads in occurring.items()}
     return {
@@ -289,7 +289,7 @@ def _roll(curve: IndentationCurve, load: RollLoad, conveyor: Conveyor) -> RollRe
     """Indentation of one roll, ∫ f(w(y)) dy along it."""
     line_load, weights = load.line_loads(conveyor.calculation.gauss_points)
     found = curve.at(line_load)
-    return RollResult(load, curve, curve.at(line_load.max()), float(found.resistance @ weights))
+    return RollResult(load, curve, curve.at(load.peak_line_load), float(found.resistance @ weights))
 
 
 def _set_mass(idlers: IdlerSet) -> float:

@@ -11,13 +11,12 @@ from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
 from conveyor.units import display, si, text
 
 DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
-SHORT_OF_DATA = 1.0  # the working frequency lies within the measured band or not
 
 
 def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     """What every figure of an analysis rests on, in words."""
     support = {
-        "confined": "the cover is bonded to a carcass that does not give (tension and bending of a real belt: 1 to 8 %)",
+        "confined": "the cover is bonded to a carcass that does not give (a real belt differs by 1 to 8 %)",
         "free": "the cover is a free layer that bends between the rolls (the paper's belt)",
         "half-space": "the cover is endlessly thick",
     }[conveyor.calculation.support]
@@ -42,6 +41,7 @@ def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Bala
                 *_frequency(conveyor, results),
                 *_contact(conveyor, results),
                 *_defaults(conveyor),
+                *_left_out(conveyor),
                 *_loop(conveyor, found),
             )
         )
@@ -58,12 +58,12 @@ def _rubber(conveyor: Conveyor) -> Iterator[str]:
             yield f'compound "{compound.name}" is illustrative, not measured: compare with it, do not design with it'
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
             yield f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{compound.name}"'
-        if compound.missing:
+        if compound.missing and compound.kind == "measured":
             yield f'compound "{compound.name}": not known are {"; ".join(compound.missing)}'
 
 
 def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
-    """The band V/(2a), from the widest to the narrowest contact, against the measured band at the belt's temperature."""
+    """Band V/(2a), from the widest to the narrowest contact, against the measured band at the belt's temperature."""
     temperature = si(conveyor.ambient.belt)
     speed = si(conveyor.belt.speed)
     for strand, compound in _compounds(conveyor).items():
@@ -76,8 +76,8 @@ def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterat
         working = [speed / (2.0 * float(width)) for width in widths]
         if min(working) < low or max(working) > high:
             yield (
-                f'compound "{compound.name}": the contacts work at {min(working):.3g} to {max(working):.3g} Hz, its data '
-                f"cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: the series is extrapolated"
+                f'compound "{compound.name}": the contacts work at {min(working):.3g} to {max(working):.3g} Hz, '
+                f"its data cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: the series is extrapolated"
             )
 
 
@@ -112,8 +112,11 @@ def _defaults(conveyor: Conveyor) -> Iterator[str]:
                 )
         if si(idlers.tilt_angle) > 0.0:
             yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
-    if si(conveyor.calculation.flexure_share) == FLEXURE_SHARE.value:
-        yield "calculation.flexure_share not given: 11 % assumed, measured at one overland site"
+    if "flexure_share" not in conveyor.calculation.model_fields_set:
+        yield f"calculation.flexure_share not given: {FLEXURE_SHARE.value:.0%} assumed, measured at one overland site"
+
+
+def _left_out(conveyor: Conveyor) -> Iterator[str]:
     route = conveyor.route
     if conveyor.calculation.secondary == "itemised":
         if not route.pulleys:

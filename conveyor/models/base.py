@@ -108,8 +108,19 @@ class Model(BaseModel):
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         aliases = {field.alias: name for name, field in type(self).model_fields.items() if field.alias}
         renamed = {aliases.get(name, name): value for name, value in changes.items()}
+        return self.from_data(kept | renamed)
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any]) -> Self:
+        """Build a model from plain data or from quantities.
+
+        Raises
+        ------
+        InputError
+            The data are refused; every refusal on its own line.
+        """
         try:
-            return type(self).model_validate(kept | renamed)
+            return cls.model_validate(data)
         except ValidationError as error:
             lines = [f"{field_path(item['loc'])}: {item['msg']}" for item in real_errors(error)]
             raise InputError("\n".join(lines)) from None

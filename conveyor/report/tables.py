@@ -144,7 +144,7 @@ def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFr
 
 
 def comparison(found: Balance) -> pd.DataFrame:
-    """This calculation beside the classical one with a given f."""
+    """Compare with the classical calculation with a given f."""
     forces, classical = found.forces, found.classical
     return pd.DataFrame(
         {
