@@ -225,7 +225,13 @@ def shelf(
             table.add_row(key, escape(value))
         console.print(table)
         return
-    table = Table(title=f"E' and tan delta at {at}, {frequency}", title_justify="left", box=box.SIMPLE_HEAD)
+    table = Table(
+        title=f"E' and tan delta at {at}, {frequency}",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+    )
+    table.padding = (0, 1)
     for heading in ("compound", "kind", "E' [MPa]", "tan delta", "temperatures"):
         table.add_column(heading, no_wrap=True)
     for known in store.names(shelves or ()):
@@ -250,7 +256,9 @@ def contact(
     pressure: Annotated[float, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")],
     support: Annotated[str, typer.Option(help="free, confined or half-space.")] = "confined",
     thickness: Annotated[float, typer.Option(help="k h; inf allowed.")] = float("inf"),
-    instantaneous: Annotated[float, typer.Option(help="E0/E_inf.")] = 0.1,
+    instantaneous: Annotated[
+        float | None, typer.Option(help="E0/E_inf; else 1 - sum of the weights.")
+    ] = None,
     weight: Annotated[list[float] | None, typer.Option(help="Creep weight; may be repeated.")] = None,
     time: Annotated[list[float] | None, typer.Option(help="zeta = V tau k of each weight.")] = None,
     poisson: Annotated[float, typer.Option(help="Poisson's ratio.")] = 0.5,
@@ -263,7 +271,8 @@ def contact(
     """
     from conveyor.contact import ContactProblem, CreepSpectrum, solve
 
-    creep = CreepSpectrum(instantaneous, weight or (), time or ())
+    weights = weight or []
+    creep = CreepSpectrum(1.0 - sum(weights) if instantaneous is None else instantaneous, weights, time or [])
     problem = ContactProblem(support, radius, pressure, creep, thickness, poisson)
     solution = solve(problem, rtol)
     names = ("friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation",

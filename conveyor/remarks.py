@@ -77,7 +77,8 @@ def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterat
         if min(working) < low or max(working) > high:
             yield (
                 f'compound "{compound.name}": the contacts work at {min(working):.3g} to {max(working):.3g} Hz, '
-                f"its data cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: the series is extrapolated"
+                f"its data cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: "
+                "the series is extrapolated"
             )
 
 

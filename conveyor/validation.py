@@ -71,7 +71,10 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceCase:
-    """A contact solved elsewhere; figures are those of `ContactSolution`, None for a contact that splits."""
+    """A contact solved elsewhere; figures are those of `ContactSolution`, None for a contact that splits.
+
+    `relative_change` is that of its friction with the last rise of the order: what the figure is good to.
+    """
 
     name: str
     problem: ContactProblem
@@ -80,6 +83,7 @@ class ReferenceCase:
     eccentricity: float | None
     penetration: float | None
     peak_pressure: float | None
+    relative_change: float | None
 
     @property
     def split(self) -> bool:
@@ -119,6 +123,7 @@ def reference_cases() -> tuple[ReferenceCase, ...]:
             eccentricity=case.get("eccentricity_over_R"),
             penetration=case.get("penetration_over_R"),
             peak_pressure=case.get("peak_pressure"),
+            relative_change=case.get("relative_change"),
         )
         for case in json.loads(text)["cases"]
     )

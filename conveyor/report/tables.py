@@ -158,7 +158,8 @@ def comparison(found: Balance) -> pd.DataFrame:
             ],
         },
         index=[
-            "f [-]", "main [N]", "secondary [N]", "special [N]", "lift [N]", "effective tension [N]", "motor power [kW]",
+            "f [-]", "main [N]", "secondary [N]", "special [N]", "lift [N]", "effective tension [N]",
+            "motor power [kW]",
         ],
     )  # fmt: skip
 

@@ -1,0 +1,196 @@
+"""The command line as its user meets it: what it prints, where, and with which exit code."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+OVERLAND = ROOT / "examples" / "specs" / "overland.yaml"
+
+
+def run(*arguments: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-W", "error", "-m", "conveyor.cli", *map(str, arguments)]
+    environment = {**os.environ, "COLUMNS": "200", "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run(
+        command, cwd=cwd, capture_output=True, text=True, encoding="utf-8", check=False, env=environment
+    )
+
+
+def broken(tmp_path: Path, old: str, new: str) -> Path:
+    text = OVERLAND.read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "spec.yaml"
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return path
+
+
+def test_power_json_is_clean_and_complete() -> None:
+    done = run("power", OVERLAND, "--json")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    found = json.loads(done.stdout)
+    forces = found["forces_N"]
+    assert set(forces) == {
+        "indentation", "idler_rotation", "flexure", "secondary", "special", "lift", "total",
+    }  # fmt: skip
+    assert forces["total"] == pytest.approx(
+        math.fsum(v for k, v in forces.items() if k != "total"), rel=1e-12
+    )
+    assert found["power_kW"]["belt"] == pytest.approx(forces["total"] * 5.0 / 1e3, rel=1e-12)
+    assert found["power_kW"]["motor"] == pytest.approx(found["power_kW"]["belt"] / 0.94, rel=1e-12)
+    assert {"friction_factor", "tensions_N", "sections", "warnings"} <= set(found)
+    assert len(found["sections"]) == 20
+
+
+def test_power_prints_a_summary_and_writes_the_workbook(tmp_path: Path) -> None:
+    book = tmp_path / "overland.xlsx"
+    done = run("power", OVERLAND, "-o", book)
+    assert done.returncode == 0
+    assert "motor power" in done.stdout
+    assert "indentation" in done.stdout
+    assert book.stat().st_size > 10_000
+
+
+def test_quiet_prints_nothing() -> None:
+    done = run("power", OVERLAND, "--quiet")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("width: 1200 mm", "width: 1200", "belt.width"),
+        ("width: 1200 mm", "width: 1200 kg", "belt.width"),
+        ("speed: 5 m/s", "sped: 5 m/s", "belt.sped"),
+        ("flow: 2400 t/h", "flow: 24000 t/h", "material.flow"),
+        ("lift: 1.5 m", "lift: 1500 m", "lift"),
+        ("compound: standard-cover", "compound: standart-cover", "standard-cover"),
+        ("temperature: 20 degC", "temperature: -90 degC", "ambient.temperature"),
+    ],
+)
+def test_wrong_input_names_the_place(tmp_path: Path, old: str, new: str, expected: str) -> None:
+    path = broken(tmp_path, old, new)
+    done = run("power", path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    line = next(text for text in done.stderr.splitlines() if expected in text)
+    place = line.split(" ")[0]
+    number = place.removeprefix(str(path)).split(":")[1]
+    assert path.read_text(encoding="utf-8").splitlines()[int(number) - 1].strip() != ""
+
+
+def test_all_errors_at_once(tmp_path: Path) -> None:
+    path = broken(tmp_path, "width: 1200 mm", "width: 1200")
+    path.write_text(path.read_text(encoding="utf-8").replace("speed: 5 m/s", "speed: fast"), encoding="utf-8")
+    done = run("power", path)
+    assert done.returncode == 2
+    assert "belt.width" in done.stderr
+    assert "belt.speed" in done.stderr
+
+
+def test_no_answer_is_exit_one(tmp_path: Path) -> None:
+    path = broken(tmp_path, "ambient:", "calculation: {support: free}\n\nambient:")
+    done = run("power", path)
+    assert done.returncode == 1, done.stdout
+    assert "Traceback" not in done.stderr
+    assert "confined" in done.stderr
+
+
+@pytest.mark.parametrize("name", ["missing.yaml", "."])
+def test_unreadable_specs(name: str, tmp_path: Path) -> None:
+    done = run("power", tmp_path / name)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert done.stderr.strip()
+
+
+@pytest.mark.parametrize("target", ["nowhere/report.xlsx", "report.pdf", "."])
+def test_unwritable_workbooks(target: str, tmp_path: Path) -> None:
+    done = run("power", OVERLAND, "-o", tmp_path / target)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert done.stderr.strip()
+    assert not any(tmp_path.iterdir())
+
+
+def test_contact_prints_the_reference_case() -> None:
+    arguments = (
+        "--support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1 --rtol 1e-9 --json"
+    )
+    done = run("contact", *arguments.split())
+    found = json.loads(done.stdout)
+    assert found["friction"] == pytest.approx(0.285055390817, rel=1e-9)
+    assert found["status"] == "OK"
+
+
+def test_contact_that_splits_is_exit_one_with_advice() -> None:
+    done = run(
+        "contact", *"--support free --radius 0.4 --thickness 1 --pressure 0.13 --weight 0.9 --time 3".split()
+    )
+    assert done.returncode == 1
+    assert "separates into several strips" in done.stderr
+
+
+def test_contact_refuses_overlapping_rolls() -> None:
+    done = run("contact", "--radius", "0.7", "--pressure", "0.01")
+    assert done.returncode == 2
+    assert "R/λ lies in (0, 0.5]" in done.stderr
+
+
+def test_fit_writes_a_compound_that_the_shelf_reads(tmp_path: Path) -> None:
+    target = tmp_path / "s120.yaml"
+    done = run(
+        "fit", ROOT / "materials" / "s120.dma.csv", "--at", "39.9639 degC",
+        "--shift", ROOT / "materials" / "s120.shift.csv", "-o", target, "--name", "mine",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "rms 8.4%" in done.stdout
+    shown = run("shelf", target)
+    assert shown.returncode == 0, shown.stderr
+    assert "mine" in shown.stdout
+
+
+def test_fit_refuses_a_file_that_is_no_master_curve(tmp_path: Path) -> None:
+    data = tmp_path / "x.csv"
+    data.write_text("a,b\n1,2\n", encoding="utf-8")
+    done = run("fit", data, "--at", "20 degC")
+    assert done.returncode == 2
+    assert "x.csv" in done.stderr
+
+
+def test_shelf_lists_every_compound() -> None:
+    done = run("shelf")
+    assert done.returncode == 0
+    for name in ("s100", "s120", "standard-cover", "low-rolling-resistance-cover", "cold-resistant-cover"):
+        assert name in done.stdout
+
+
+def test_shelf_unknown_name_suggests() -> None:
+    done = run("shelf", "standart-cover")
+    assert done.returncode == 2
+    assert 'did you mean "standard-cover"' in done.stderr
+
+
+def test_schema_is_json() -> None:
+    found = json.loads(run("schema").stdout)
+    assert "belt" in found["properties"]
+
+
+def test_validate_agrees() -> None:
+    done = run("validate")
+    assert done.returncode == 0, done.stdout
+    assert "FAILED" not in done.stdout
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = "import sys, conveyor.cli; print(sorted({'numpy', 'scipy', 'pandas', 'pint', 'openpyxl'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
