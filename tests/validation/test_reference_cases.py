@@ -1,0 +1,113 @@
+"""Contacts computed elsewhere (conveyor/_reference): every figure at two tolerances, and the estimate of its error."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from conveyor import validation
+from conveyor.contact import Status, solve
+from conveyor.errors import NoSolutionError
+from conveyor.validation import Check, reference_cases, run
+
+CASES = reference_cases()
+SINGLE = [case for case in CASES if not case.split]
+SPLIT = [case for case in CASES if case.split]
+PROMISED = {1e-6: 1e-6, 1e-9: 1e-8}  # rtol: error of friction; the reference is good to 1e-9
+
+
+@cache
+def solved(case, rtol):
+    return solve(case.problem, rtol=rtol)
+
+
+def by_name(cases):
+    return pytest.mark.parametrize("case", cases, ids=[case.name for case in cases])
+
+
+def test_there_are_as_many_cases_as_the_file_was_made_with():
+    assert (len(SINGLE), len(SPLIT)) == (41, 1)
+
+
+@by_name(SINGLE)
+@pytest.mark.parametrize("rtol", PROMISED)
+class TestSingleStrip:
+    def test_friction(self, case, rtol):
+        assert solved(case, rtol).friction == pytest.approx(case.friction, rel=PROMISED[rtol])
+
+    def test_place(self, case, rtol):
+        # in units of R; the tolerance asked for is that of friction, lengths converge more slowly
+        found = solved(case, rtol)
+        assert found.half_width == pytest.approx(case.half_width, abs=1e-5)
+        assert found.eccentricity == pytest.approx(case.eccentricity, abs=1e-5)
+        assert found.penetration == pytest.approx(case.penetration, abs=1e-5)
+
+    def test_error_estimate_is_within_ten_of_the_true_error(self, case, rtol):
+        found = solved(case, rtol)
+        true = abs(found.friction / case.friction - 1.0)
+        assert found.error_estimate <= rtol
+        # the reference's own error, ten times its last change, is not the solver's
+        assert true <= 10.0 * (found.error_estimate + case.relative_change)
+
+    def test_energy_error_is_small(self, case, rtol):
+        # ten times rtol is what the solver accepts: while the order is too small it is 5 to 80 times the error
+        assert solved(case, rtol).energy_error <= 10.0 * rtol
+
+    def test_peak_pressure(self, case, rtol):
+        # pressure converges more slowly than friction (3.4e-4 seen at 1e-6), and the reference is the largest
+        # of samples, up to 3e-4 below the maximum
+        assert solved(case, rtol).peak_pressure == pytest.approx(case.peak_pressure, rel=5e-4)
+
+
+@by_name(SPLIT)
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9])
+def test_a_contact_that_splits_is_refused(case, rtol):
+    assert solve(case.problem, rtol=rtol, throw=False).status is Status.SPLIT
+    with pytest.raises(NoSolutionError, match="separates into several strips"):
+        solve(case.problem, rtol=rtol)
+
+
+def test_the_tighter_tolerance_is_closer_on_the_whole():
+    worst = [
+        max(abs(solved(case, rtol).friction / case.friction - 1.0) for case in SINGLE)
+        for rtol in (1e-6, 1e-9)
+    ]
+    assert worst[1] < 1e-2 * worst[0]
+
+
+# the command's own list of checks
+
+
+def test_every_shipped_check_passes():
+    failed = [check for check in run() if not check.passed]
+    assert failed == []
+
+
+def test_shipped_checks_name_source_and_quantity():
+    checks = run()
+    assert {check.source for check in checks} == {
+        "Bessel-Galerkin prototype",
+        "Hunter (1961)",
+        "CONTACT program",
+        "ISO 5048 worked example",
+        "J*(ω) E*(ω) = 1",
+    }
+    assert len({(check.source, check.quantity) for check in checks}) == len(checks)
+
+
+@pytest.mark.parametrize(("deviation", "passed"), [(0.9e-6, True), (1e-6, True), (1.1e-6, False)])
+def test_a_check_fails_beyond_its_tolerance(deviation, passed):
+    check = Check("s", "q", expected=1.0, got=1.0 + deviation, deviation=deviation, tolerance=1e-6)
+    assert check.passed is passed
+
+
+def test_a_wrong_solver_would_fail(monkeypatch):
+    def wrong(problem, **options):
+        return solve(replace(problem, pressure=1.01 * problem.pressure), **options)
+
+    monkeypatch.setattr(validation, "solve", wrong)
+    failed = [check for check in run() if not check.passed]
+    # every friction of the reference, every Hunter figure that depends on the load
+    assert sum("friction" in check.quantity for check in failed) == len(SINGLE) + 9
