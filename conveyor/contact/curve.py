@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, energy_error, order_error, sign
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene
-from conveyor.contact.solution import SolveStats, peak
+from conveyor.contact.solution import ContactSolution, SolveStats, peak
 from conveyor.contact.solve import ORDERS, solve
 from conveyor.contact.spectral import assemble, equilibrium, penetration
 from conveyor.errors import InputError, NoSolutionError, RangeError
@@ -28,6 +28,7 @@ _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _MARGIN = 2e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _NEWTON_STEPS = 40
 _SIGN_FLOOR = 1e-9
+_WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,12 +147,17 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     problem = replace(problem, pressure=highest)
     ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
     scene = Scene.of(problem)
+    if wraps(ends[1]):
+        raise NoSolutionError(
+            f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
+            "the roll for a load curve, solve such loads one by one"
+        )
     low, high = (math.log(s.half_width * problem.rho) for s in ends)
     centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
     order = max(ORDERS.index(s.stats.order) for s in ends)
     points = 0
     while True:
-        sample = _sample(scene, centre, half, _POINTS[points], ORDERS[order])
+        sample = _sample(scene, centre, half, points=_POINTS[points], n=ORDERS[order], rtol=rtol)
         if sample.sign is Sign.PULLING:
             raise NoSolutionError(
                 f"between mean pressures {lowest:.6g} and {highest:.6g}: {Status.SPLIT.message}"
@@ -164,7 +170,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
         else:
             break
     error = max(sample.order_error, sample.tail)
-    if error > rtol or undecided:
+    if not error <= rtol or undecided:
         raise NoSolutionError(
             f"the load curve reached a relative error of {error:.1e} only: "
             "ask for a larger rtol or fewer decades of load"
@@ -221,7 +227,34 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     p = np.asarray(pressures, dtype=float)
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
+    if wraps(solve(replace(problem, pressure=float(p.max())), _ENDS)):
+        return _one_by_one(problem, p, rtol)
     return load_curve(problem, float(p.min()), float(p.max()), rtol).at(p)
+
+
+def wraps(solution: ContactSolution) -> bool:
+    """Whether a contact reaches so far round the roll that its half width no longer tells the load."""
+    return solution.outer_edge > _WRAPPED
+
+
+def _one_by_one(problem: ContactProblem, pressures: Array, rtol: float) -> LoadSolutions:
+    solved = [solve(replace(problem, pressure=float(p)), rtol) for p in pressures.ravel()]
+
+    def column(name: str) -> Array:
+        return np.array([getattr(s, name) for s in solved]).reshape(pressures.shape)
+
+    return LoadSolutions(
+        pressure=pressures,
+        friction=column("friction"),
+        half_width=column("half_width"),
+        eccentricity=column("eccentricity"),
+        penetration=column("penetration"),
+        peak_pressure=column("peak_pressure"),
+        dissipation=column("dissipation"),
+        energy_error=column("energy_error"),
+        error_estimate=column("error_estimate"),
+        stats=max((s.stats for s in solved), key=lambda stats: stats.order),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,7 +268,8 @@ class _Sample:
     sign: Sign
 
 
-def _sample(scene: Scene, centre: float, half: float, points: int, n: int) -> _Sample:
+def _sample(scene: Scene, centre: float, half: float, *, points: int, n: int, rtol: float) -> _Sample:
+    """Contacts at `points` half widths and order n; fields and interpolation only once the order suffices."""
     rho = scene.problem.rho
     t = chebyshev.chebpts1(points)
     alpha = np.exp(centre + half * t)
@@ -245,10 +279,16 @@ def _sample(scene: Scene, centre: float, half: float, points: int, n: int) -> _S
     contact = equilibrium(matrix, alpha, rho)
     if not (contact.inside.all() and (contact.pressure > 0.0).all()):
         raise NoSolutionError(Status.WRAP_LIMIT.message)
-    energy = energy_error(scene, contact)
     moving = bool((contact.friction > 0.0).all())
     exponent = np.gradient(np.log(contact.friction), np.log(contact.pressure)) if moving else None
-    order = float(np.max(np.maximum(order_error(contact, matrix, rho, exponent), energy / ENERGY_OVER_ERROR)))
+    error = float(order_error(contact, matrix, rho, exponent).max())
+    energy = math.inf
+    if error <= rtol or n == ORDERS[-1]:
+        energy = float(energy_error(scene, contact).max())
+        error = max(error, energy / ENERGY_OVER_ERROR)
+    pressed = sign(contact, max(error, _SIGN_FLOOR))
+    if error > rtol and n < ORDERS[-1]:
+        return _Sample(np.empty((0, 5)), error, math.inf, energy, pressed)
     fields = np.stack(
         [
             np.log(contact.pressure),
@@ -263,10 +303,4 @@ def _sample(scene: Scene, centre: float, half: float, points: int, n: int) -> _S
     # the interpolation error of an analytic function is of the size of its last coefficients
     last = np.abs(columns[-2:]).sum(axis=0)
     scale = np.array([1.0, max(float(np.abs(fields[:, 1]).min()), np.finfo(float).tiny)])
-    return _Sample(
-        columns,
-        order,
-        float(np.max(last[:2] / scale)),
-        float(energy.max()),
-        sign(contact, max(order, _SIGN_FLOOR)),
-    )
+    return _Sample(columns, error, float(np.max(last[:2] / scale)), energy, pressed)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +50,9 @@ SOLVE = Panels(points=16, stretch=1.7, phase=14.0, ramps=3.0)
 CHECK = Panels(points=18, stretch=1.9, phase=15.0, ramps=3.3, window=1.3)  # no node in common
 
 
+_gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
+
+
 @dataclass(frozen=True, eq=False)
 class Rule:
     """Nodes m, shape (k,), and complex weights of F/m; valid for contacts up to `half_width`.
@@ -78,7 +82,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
     end = max(2.0 * centre, layer.reach)
     edges = _panel_edges(creep, panels, span=span, width=width, end=end, ramp_end=2.0 * centre)
-    x, gauss = np.polynomial.legendre.leggauss(panels.points)
+    x, gauss = _gauss(panels.points)
     logs = np.log(edges[1:])
     half = 0.5 * np.diff(logs)
     beyond = np.exp(logs[:-1, None] + half[:, None] * (x + 1.0))

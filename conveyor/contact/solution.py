@@ -92,6 +92,11 @@ class ContactSolution:
         return float(self._need().contact.eps[0]) / self.problem.rho
 
     @property
+    def outer_edge(self) -> float:
+        """(a + |e|)/R [-], the edge farther from the roll's crown."""
+        return self.half_width + abs(self.eccentricity)
+
+    @property
     def penetration(self) -> float:
         """Δ/R [-]: mean line of the deformed surface to the roll's crown."""
         return self._need().penetration

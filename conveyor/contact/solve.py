@@ -89,7 +89,7 @@ def _solve(scene: Scene, rtol: float) -> ContactSolution:
     return _by_load(scene, rtol)
 
 
-def _by_half_width(scene: Scene, rtol: float) -> tuple[State, float] | None:
+def _by_half_width(scene: Scene, rtol: float) -> tuple[State, float, float] | None:
     """Raise the order until the estimate meets rtol, then close the load and check the energy."""
     search = LoadSearch(math.log(scene.problem.pressure), *guess(scene.problem, scene.creep))
     tight = max(1e-3 * rtol, _LOAD_FLOOR)
@@ -104,10 +104,11 @@ def _by_half_width(scene: Scene, rtol: float) -> tuple[State, float] | None:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
-            error = max(error, state.miss, float(energy_error(scene, state.contact)[0]) / ENERGY_OVER_ERROR)
+            energy = float(energy_error(scene, state.contact)[0])
+            error = max(error, state.miss, energy / ENERGY_OVER_ERROR)
             settled = error <= rtol and sign(state.contact, rtol) is not Sign.UNDECIDED
             if settled or n == ORDERS[-1]:
-                return state, error
+                return state, error, energy
         n = _next_order(n, error, rtol)
         search.renew()
 
@@ -132,11 +133,13 @@ def _by_load(scene: Scene, rtol: float) -> ContactSolution:
             return _refused(scene, Status.NOT_CONVERGED, n)
         error = float(np.abs(relative_difference(state.contact.friction, finer.contact.friction))[0])
         state = finer
-        if error <= rtol:
-            error = max(error, float(energy_error(scene, state.contact)[0]) / ENERGY_OVER_ERROR)
-            if error <= rtol and sign(state.contact, rtol) is not Sign.UNDECIDED:
-                break
-    return _checked(scene, state, error, rtol)
+        if error > rtol and n < ORDERS[-1]:
+            continue
+        energy = float(energy_error(scene, state.contact)[0])
+        error = max(error, energy / ENERGY_OVER_ERROR)
+        if error <= rtol and sign(state.contact, rtol) is not Sign.UNDECIDED:
+            break
+    return _checked(scene, state, error, energy, rtol)
 
 
 def _light(scene: Scene) -> State | None:
@@ -163,7 +166,7 @@ def _next_order(n: int, error: float, rtol: float) -> int:
     return ORDERS[min(place, len(ORDERS) - 1)]
 
 
-def _checked(scene: Scene, state: State, error: float, rtol: float) -> ContactSolution:
+def _checked(scene: Scene, state: State, error: float, energy: float, rtol: float) -> ContactSolution:
     """Accept a contact only with p ≥ 0 inside and no overlap outside; attach its errors and remarks."""
     contact, rho = state.contact, scene.problem.rho
     pressed = sign(contact, rtol)
@@ -174,7 +177,7 @@ def _checked(scene: Scene, state: State, error: float, rtol: float) -> ContactSo
     if _edge(state, scene) > _WRAPPED and overlaps(scene, contact, depth):
         return _refused(scene, Status.SPLIT, state.order)
     estimate = max(error, _ROUNDING)
-    found = Found(contact, depth, float(energy_error(scene, contact)[0]), estimate, scene.creep)
+    found = Found(contact, depth, energy, estimate, scene.creep)
     converged = estimate <= rtol and pressed is Sign.PRESSING
     status = Status.OK if converged else Status.NOT_CONVERGED
     advice = (_DEEP.format(depth),) if depth > 1.0 else ()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Literal
 
 import numpy as np
@@ -21,6 +22,8 @@ MIDDLE_SHARE_FLAT: Final = 0.5  # VDI 2341: material share of the middle of 3 ro
 MIDDLE_SHARE_PER_DEGREE: Final = 0.005  # [1/deg], VDI 2341
 MIDDLE_BELT_OVERHANG: Final = 0.02  # [m], VDI 2341: the middle roll carries a belt strip of l_M + 20 mm
 SHARE_SUM_TOLERANCE: Final = 1e-9  # shares typed as decimals; anything coarser is a slip of the pen
+
+_gauss = lru_cache(maxsize=64)(np.polynomial.legendre.leggauss)
 
 _ROLE_NAMES: Final = {
     1: ("flat",),
@@ -161,7 +164,7 @@ class RollLoad:
         ([573.205, 226.795], 120.0)
         """
         require(n >= 1, "n", n, "at least 1 point is needed")
-        nodes, weights = np.polynomial.legendre.leggauss(n)
+        nodes, weights = _gauss(n)
         slope = nodes if self.shape == "triangular" else np.zeros(n)
         line_load = (self.bulk_force * (1.0 - slope) + self.belt_force) / self.length
         return line_load, weights * (self.length / 2.0)
