@@ -230,8 +230,8 @@ def shelf(
         title_justify="left",
         box=box.SIMPLE_HEAD,
         pad_edge=False,
+        padding=(0, 1),
     )
-    table.padding = (0, 1)
     for heading in ("compound", "kind", "E' [MPa]", "tan delta", "temperatures"):
         table.add_column(heading, no_wrap=True)
     for known in store.names(shelves or ()):
@@ -299,6 +299,7 @@ def schema() -> None:
 @app.command()
 def validate() -> None:
     """Run the built-in reference cases and print what was expected and what came out."""
+    from rich import box
     from rich.console import Console
     from rich.table import Table
 
@@ -306,7 +307,9 @@ def validate() -> None:
     from conveyor.errors import NoSolutionError
 
     checks = validation.run()
-    table = Table("source", "quantity", "expected", "got", "deviation", "allowed", "")
+    table = Table("source", "quantity", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
+    for heading in ("expected", "got", "deviation", "allowed", ""):
+        table.add_column(heading, no_wrap=True, justify="right")
     for check in checks:
         table.add_row(
             check.source,

@@ -89,12 +89,12 @@ class CreepSpectrum:
         z = np.array(times, dtype=float, ndmin=1)
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
-        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
-            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
         if not np.all(np.isfinite(d) & (d > 0.0)):
             raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
         if not np.all(np.isfinite(z) & (z >= 0.0)):
             raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
+        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
+            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
         if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
             raise InputError(
                 f"instantaneous + sum(weights) = {instantaneous + d.sum():.12g}: must be 1 "
