@@ -6,36 +6,15 @@ Sign: positive power is drawn by the motor, negative power is fed back by a belt
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
-from conveyor.errors import InputError
+from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 JOULE_PER_KWH: Final = 3.6e6  # [J/kWh]
 WATT_PER_KW: Final = 1e3  # [W/kW]
 TONNE_KM: Final = 1e6  # [kg m/(t km)]
 TONNE_PER_HOUR: Final = 1.0 / 3.6  # [kg/s per t/h]
 LIFT_DIVISOR: Final = 367.0  # [t m/(h kW)], empirical route: 3600/9.81 rounded
-
-
-def _require(ok: bool, name: str, value: object, allowed: str) -> None:
-    if not ok:
-        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
-
-
-def _require_finite(**values: float) -> None:
-    for name, value in values.items():
-        _require(math.isfinite(value), name, value, "a finite number is needed")
-
-
-def _require_positive(**values: float) -> None:
-    for name, value in values.items():
-        _require(0.0 < value < math.inf, name, value, "a finite number greater than 0 is needed")
-
-
-def _require_not_negative(**values: float) -> None:
-    for name, value in values.items():
-        _require(0.0 <= value < math.inf, name, value, "a finite number of at least 0 is needed")
 
 
 def belt_power(force: float, *, belt_speed: float) -> float:
@@ -63,8 +42,8 @@ def belt_power(force: float, *, belt_speed: float) -> float:
     >>> round(belt_power(13232.32, belt_speed=4.8))
     63515
     """
-    _require_finite(force=force)
-    _require_positive(belt_speed=belt_speed)
+    require_finite(force=force)
+    require_positive(belt_speed=belt_speed)
     return force * belt_speed
 
 
@@ -93,8 +72,8 @@ def motor_power(belt_power: float, *, efficiency: float) -> float:
     >>> round(motor_power(63515.14, efficiency=0.95 * 0.97)), motor_power(-100e3, efficiency=0.9)
     (68926, -90000.0)
     """
-    _require_finite(belt_power=belt_power)
-    _require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
+    require_finite(belt_power=belt_power)
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
     return belt_power / efficiency if belt_power >= 0.0 else belt_power * efficiency
 
 
@@ -125,8 +104,8 @@ def specific_energy(motor_power: float, *, mass_flow: float, length: float) -> f
     >>> round(specific_energy(100e3, mass_flow=1000 / 3.6, length=1000.0), 9)
     0.1
     """
-    _require_finite(motor_power=motor_power)
-    _require_positive(mass_flow=mass_flow, length=length)
+    require_finite(motor_power=motor_power)
+    require_positive(mass_flow=mass_flow, length=length)
     return motor_power / (mass_flow * length) * TONNE_KM / JOULE_PER_KWH
 
 
@@ -155,8 +134,8 @@ def annual_energy_kwh(motor_power: float, *, operating_time: float) -> float:
     >>> round(annual_energy_kwh(50e3, operating_time=6000 * 3600.0), 3)
     300000.0
     """
-    _require_finite(motor_power=motor_power)
-    _require_not_negative(operating_time=operating_time)
+    require_finite(motor_power=motor_power)
+    require_not_negative(operating_time=operating_time)
     return motor_power * operating_time / JOULE_PER_KWH
 
 
@@ -185,8 +164,8 @@ def annual_cost(energy_kwh: float, *, price_per_kwh: float) -> float:
     >>> annual_cost(300e3, price_per_kwh=0.25)
     75000.0
     """
-    _require_finite(energy_kwh=energy_kwh)
-    _require_not_negative(price_per_kwh=price_per_kwh)
+    require_finite(energy_kwh=energy_kwh)
+    require_not_negative(price_per_kwh=price_per_kwh)
     return energy_kwh * price_per_kwh
 
 
@@ -236,9 +215,9 @@ def empirical_level_power(
     ... )
     28180
     """
-    _require_not_negative(mass_flow=mass_flow, width_coefficient=width_coefficient)
-    _require_positive(belt_speed=belt_speed, length_coefficient=length_coefficient)
-    _require_positive(friction_coefficient=friction_coefficient)
+    require_not_negative(mass_flow=mass_flow, width_coefficient=width_coefficient)
+    require_positive(belt_speed=belt_speed, length_coefficient=length_coefficient)
+    require_positive(friction_coefficient=friction_coefficient)
     tonnes_per_hour = width_coefficient * belt_speed + mass_flow / TONNE_PER_HOUR
     return tonnes_per_hour / (length_coefficient * friction_coefficient) * WATT_PER_KW
 
@@ -268,6 +247,6 @@ def empirical_lift_power(mass_flow: float, *, lift: float) -> float:
     >>> round(empirical_lift_power(1000 / 3.6, lift=17.9))
     48774
     """
-    _require_not_negative(mass_flow=mass_flow)
-    _require_finite(lift=lift)
+    require_not_negative(mass_flow=mass_flow)
+    require_finite(lift=lift)
     return lift * (mass_flow / TONNE_PER_HOUR) / LIFT_DIVISOR * WATT_PER_KW

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from conveyor.errors import InputError
+from conveyor.require import require, require_not_negative, require_positive
 
 Carcass = Literal["polyamide", "EP", "steel cord"]
 
@@ -25,24 +25,9 @@ LARGEST_WRAP: Final = 8.0 * math.pi  # [rad], four pulleys of a full turn: catch
 STEEL_CORD_STIFFNESS_FACTOR: Final = 72.0  # [-], EA over nominal strength, approximate
 
 
-def _require(ok: bool, name: str, value: object, allowed: str) -> None:
-    if not ok:
-        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
-
-
-def _require_positive(**values: float) -> None:
-    for name, value in values.items():
-        _require(0.0 < value < math.inf, name, value, "a finite number greater than 0 is needed")
-
-
-def _require_not_negative(**values: float) -> None:
-    for name, value in values.items():
-        _require(0.0 <= value < math.inf, name, value, "a finite number of at least 0 is needed")
-
-
 def _require_drive(friction: float, wrap_angle: float) -> None:
-    _require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "above 0 and at most 2 is needed")
-    _require(
+    require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "above 0 and at most 2 is needed")
+    require(
         0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "above 0 and at most 8 pi rad is needed"
     )
 
@@ -103,7 +88,7 @@ def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> f
     >>> round(grip_tension(13232.32, friction=0.3, wrap_angle=math.pi), 2)
     8447.96
     """
-    _require(math.isfinite(drive_force), "drive_force", drive_force, "a finite number is needed")
+    require(math.isfinite(drive_force), "drive_force", drive_force, "a finite number is needed")
     _require_drive(friction, wrap_angle)
     return abs(drive_force) / math.expm1(friction * wrap_angle)
 
@@ -141,8 +126,8 @@ def sag_tension(line_mass: float, *, spacing: float, relative_sag: float, gravit
     >>> round(sag_tension(16.44, spacing=3.0, relative_sag=0.02, gravity=9.81))
     3024
     """
-    _require_not_negative(line_mass=line_mass)
-    _require_positive(spacing=spacing, relative_sag=relative_sag, gravity=gravity)
+    require_not_negative(line_mass=line_mass)
+    require_positive(spacing=spacing, relative_sag=relative_sag, gravity=gravity)
     return line_mass * gravity * spacing / (8.0 * relative_sag)
 
 
@@ -172,8 +157,8 @@ def governing_tension(minima: Mapping[str, float]) -> tuple[str, float]:
     >>> governing_tension({"grip": 8448.0, "sag carry": 22005.0, "sag return": 3024.0})
     ('sag carry', 22005.0)
     """
-    _require(len(minima) > 0, "minima", dict(minima), "at least one condition is needed")
-    _require_not_negative(**minima)
+    require(len(minima) > 0, "minima", dict(minima), "at least one condition is needed")
+    require_not_negative(**minima)
     name = max(minima, key=lambda condition: minima[condition])
     return name, minima[name]
 
@@ -240,7 +225,7 @@ def drive_tensions(
     >>> round(t.tight, 2), round(t.slack, 2), t.governed_by
     (21680.28, 8447.96, 'grip')
     """
-    _require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
+    require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
     grip = grip_tension(start_factor * drive_force, friction=friction, wrap_angle=wrap_angle)
     governed_by, slack = governing_tension({"grip": grip, "sag": slack_for_sag})
     return DriveTensions(tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by)
@@ -271,8 +256,8 @@ def least_pulley_diameter(carcass_thickness: float, *, carcass: Carcass) -> floa
     >>> round(least_pulley_diameter(0.005, carcass="EP"), 3)
     0.54
     """
-    _require_positive(carcass_thickness=carcass_thickness)
-    _require(carcass in PULLEY_FACTOR, "carcass", carcass, f"one of {', '.join(PULLEY_FACTOR)} is needed")
+    require_positive(carcass_thickness=carcass_thickness)
+    require(carcass in PULLEY_FACTOR, "carcass", carcass, f"one of {', '.join(PULLEY_FACTOR)} is needed")
     return PULLEY_FACTOR[carcass] * carcass_thickness
 
 
@@ -299,5 +284,5 @@ def steel_cord_stiffness(nominal_strength: float) -> float:
     >>> steel_cord_stiffness(1.6e6)
     115200000.0
     """
-    _require_positive(nominal_strength=nominal_strength)
+    require_positive(nominal_strength=nominal_strength)
     return STEEL_CORD_STIFFNESS_FACTOR * nominal_strength

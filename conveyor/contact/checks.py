@@ -54,7 +54,10 @@ def order_error(contact: Contact, matrix: Array, rho: float, exponent: Array | N
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
         change.append(np.where(sub.inside, shift, 1.0))
     half, most = change
-    return np.where(half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0)))
+    error: Array = np.where(
+        half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
+    )
+    return error
 
 
 def relative_difference(value: Array, reference: Array) -> Array:

@@ -222,7 +222,7 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     >>> creep = CreepSpectrum(0.1, [0.9], [1.0])
     >>> loads = solve_loads(ContactProblem("half-space", 0.4, 0.05, creep), [0.01, 0.05])
     >>> loads.friction.round(6).tolist()
-    [0.113279, 0.192195]
+    [0.086769, 0.192195]
     """
     p = np.asarray(pressures, dtype=float)
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):

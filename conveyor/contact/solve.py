@@ -65,6 +65,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
 
     Examples
     --------
+    >>> from conveyor.contact import CreepSpectrum
     >>> creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
     >>> s = solve(ContactProblem("free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep), rtol=1e-9)
     >>> round(s.friction, 8), s.status.name

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.loading._checks import require, require_angle, require_not_negative, require_positive
+from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 EDGE_FRACTION: Final = 0.9  # ISO 5048: b = 0.9 B - 50 mm
 EDGE_MARGIN: Final = 0.05  # [m], ISO 5048, belts up to WIDE_BELT

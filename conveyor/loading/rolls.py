@@ -13,7 +13,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.loading._checks import require, require_angle, require_not_negative, require_positive
+from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 Shape = Literal["uniform", "triangular"]

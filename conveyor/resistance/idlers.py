@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.resistance._checks import require, require_not_negative, require_positive, require_slope
+from conveyor.require import require, require_not_negative, require_positive, require_slope
 from conveyor.resistance.defaults import ROLL_DRAG_LARGER, ROLL_DRAG_TO_153, ROLL_DRAG_TO_178, Default
 
 _DRAG_STEPS: Final = ((0.153, ROLL_DRAG_TO_153), (0.178, ROLL_DRAG_TO_178))  # roll diameter up to [m], limit

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from conveyor.resistance._checks import require_not_negative, require_positive
+from conveyor.require import require_not_negative, require_positive
 
 FABRIC_WRAP: Final = (9.0, 140.0)  # [-], [N/m]: ISO 5048, in 9 B (140 + 0.01 F/B) d/D
 STEEL_CORD_WRAP: Final = (12.0, 200.0)  # [-], [N/m]: general knowledge, a flagged default

@@ -5,7 +5,7 @@ Source: ISO 5048.
 
 from __future__ import annotations
 
-from conveyor.resistance._checks import require, require_not_negative, require_positive
+from conveyor.require import require, require_not_negative, require_positive
 
 
 def _require_speeds(belt_speed: float, initial_speed: float) -> None:

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.closed_forms._checks import require, require_not_negative, require_positive
+from conveyor.require import require, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
-from conveyor.contact.closed_forms._checks import require
+from conveyor.require import require
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from conveyor.contact.closed_forms._checks import require, require_positive
+from conveyor.require import require, require_positive
 
 Array = NDArray[np.float64]
 
