@@ -79,7 +79,8 @@ def energy_error(scene: Scene, contact: Contact) -> Array:
 def _sines(n: int) -> Array:
     """sin(vθ) at 4n + 1 inner angles, shape (4n+1, n)."""
     angle = np.arange(1, 4 * n + 2) * (np.pi / (4 * n + 2))
-    return np.sin(np.multiply.outer(angle, np.arange(1, n + 1)))
+    sines: Array = np.sin(np.multiply.outer(angle, np.arange(1, n + 1)))
+    return sines
 
 
 class Sign(Enum):
