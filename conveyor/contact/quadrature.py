@@ -103,6 +103,36 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
     )
 
 
+def series_rule(
+    layer: Layer, creep: CreepSpectrum, *, span: float, end: float
+) -> tuple[Array, NDArray[np.complex128]]:
+    """Nodes and weights of the plain sum Σ_{1≤m≤end} S F/m for an F that turns by `span` radians a wave number.
+
+    The same window as `build_rule`, but nothing is taken out in closed form: Σ χ S F/m + ∫ (1-χ) S F/m dm.
+
+    Raises
+    ------
+    NoSolutionError
+        More than two million nodes.
+    """
+    width = max(2.0, _ALIAS / (2.0 * math.pi - span))
+    centre = _RAMP * width
+    integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
+    edges = _panel_edges(
+        creep, SOLVE, span=span, width=width, end=max(end, 2.0 * centre), ramp_end=2.0 * centre
+    )
+    x, gauss = _gauss(SOLVE.points)
+    logs = np.log(edges[1:])
+    half = 0.5 * np.diff(logs)
+    m = np.exp(logs[:-1, None] + half[:, None] * (x + 1.0))
+    measure = (half[:, None] * gauss * m)[m >= 1.0]
+    m = m[m >= 1.0]
+    window = 0.5 * special.erfc((integers - centre) / width)
+    rest = 0.5 * special.erfc((centre - m) / width)
+    weights = [window * layer.symbol(integers, creep) / integers, measure * rest * layer.symbol(m, creep) / m]
+    return np.concatenate([integers, m]), np.concatenate(weights)
+
+
 def _panel_edges(
     creep: CreepSpectrum, panels: Panels, *, span: float, width: float, end: float, ramp_end: float
 ) -> Array:
