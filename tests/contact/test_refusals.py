@@ -1,0 +1,177 @@
+"""Every refusal: its message names what is wrong, its value and what is allowed; statuses say what to change."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve, solve_many
+from conveyor.errors import InputError, NoSolutionError
+
+CREEP = CreepSpectrum(0.1, [0.9], [1.0])
+
+
+def problem(**changes):
+    given = {"support": "free", "radius": 0.4, "thickness": 1.0, "pressure": 0.05, "creep": CREEP}
+    return ContactProblem(**(given | changes))
+
+
+SPLIT = problem(radius=0.4, pressure=0.13, creep=CreepSpectrum(0.1, [0.9], [3.0]))
+# an edge layer of width ζ j∞: order 512 does not resolve it to 1e-12
+SHARP = problem(support="half-space", creep=CreepSpectrum(0.1, [0.9], [1e-4]))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"support": "bonded"}, r"support = 'bonded': allowed are free, confined, half-space or a Layer"),
+        ({"radius": 0.0}, r"radius = 0\.0: R/λ lies in \(0, 0\.5\], rolls must not overlap"),
+        ({"radius": 0.51}, r"radius = 0\.51: R/λ lies in"),
+        ({"radius": math.nan}, r"radius = nan: R/λ lies in"),
+        ({"thickness": 0.0}, r"thickness = 0\.0: k h is positive \(infinity allowed\)"),
+        ({"thickness": -1.0}, r"thickness = -1\.0: k h is positive"),
+        ({"thickness": math.nan}, r"thickness = nan: k h is positive"),
+        ({"pressure": 0.0}, r"pressure = 0\.0: the mean pressure is finite and positive"),
+        ({"pressure": math.inf}, r"pressure = inf: the mean pressure is finite and positive"),
+        ({"pressure": math.nan}, r"pressure = nan: the mean pressure is finite and positive"),
+        ({"poisson": 0.51}, r"poisson = 0\.51: Poisson's ratio lies in \[0, 0\.5\]"),
+        ({"poisson": -0.1}, r"poisson = -0\.1: Poisson's ratio lies in"),
+        ({"poisson": math.nan}, r"poisson = nan: Poisson's ratio lies in"),
+    ],
+)
+def test_problem(changes, message):
+    with pytest.raises(InputError, match=message):
+        problem(**changes)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((0.0, [1.0], [1.0]), r"instantaneous = 0\.0: j∞ = E0/E∞ lies in \(0, 1\]"),
+        ((1.5, [], []), r"instantaneous = 1\.5: j∞ = E0/E∞ lies in"),
+        ((math.nan, [], []), r"instantaneous = nan: j∞ = E0/E∞ lies in"),
+        ((0.1, [0.9], [1.0, 2.0]), r"weights \(1,\) and times \(2,\): give two lists of equal length"),
+        ((0.1, [[0.9]], [[1.0]]), r"weights \(1, 1\) and times \(1, 1\): give two lists of equal length"),
+        (
+            (0.1, [1.0, -0.1], [1.0, 2.0]),
+            r"weights = \[1\.0, -0\.1\]: each weight is a finite positive number",
+        ),
+        ((0.1, [0.9, 0.0], [1.0, 2.0]), r"weights = \[0\.9, 0\.0\]: each weight is a finite positive number"),
+        ((0.1, [math.inf], [1.0]), r"weights = \[inf\]: each weight is a finite positive number"),
+        ((0.1, [0.9], [-1.0]), r"times = \[-1\.0\]: each ζ is finite and not negative"),
+        ((0.1, [0.9], [math.inf]), r"times = \[inf\]: each ζ is finite and not negative"),
+        (
+            (0.1, [0.8], [1.0]),
+            r"instantaneous \+ sum\(weights\) = 0\.9: must be 1 \(compliances are in units",
+        ),
+    ],
+)
+def test_creep(arguments, message):
+    with pytest.raises(InputError, match=message):
+        CreepSpectrum(*arguments)
+
+
+def test_decimals_that_users_type_need_not_add_to_the_last_digit():
+    assert CreepSpectrum(0.1, [0.3, 0.3, 0.3], [1.0, 2.0, 3.0]).weights.sum() == pytest.approx(0.9)
+
+
+def test_creep_is_a_frozen_copy():
+    weights = np.array([0.9])
+    creep = CreepSpectrum(0.1, weights, [1.0])
+    weights[0] = 0.0
+    assert creep.weights[0] == 0.9
+    with pytest.raises(ValueError, match="read-only"):
+        creep.times[0] = 2.0
+
+
+@pytest.mark.parametrize("rtol", [0.0, 1e-13, 0.1, -1.0, math.nan])
+def test_tolerance(rtol):
+    with pytest.raises(InputError, match=r"rtol = .*: the tolerance lies in \[1e-12, 1e-2\]"):
+        solve(problem(), rtol=rtol)
+
+
+FIGURES = (
+    "friction half_width eccentricity penetration dissipation energy_error error_estimate patches peak_pressure"
+).split()
+
+
+class TestSplit:
+    def test_raises_with_advice(self):
+        with pytest.raises(
+            NoSolutionError, match=r"several strips.*lower the load, thicken the layer, or use"
+        ):
+            solve(SPLIT)
+
+    def test_is_returned_for_batches(self):
+        found = solve(SPLIT, throw=False)
+        assert found.status is Status.SPLIT
+        assert found.problem is SPLIT
+        assert found.message.startswith(Status.SPLIT.message)
+        assert found.stats.matrices > 0
+
+    @pytest.mark.parametrize("figure", FIGURES)
+    def test_has_no_figures(self, figure):
+        found = solve(SPLIT, throw=False)
+        with pytest.raises(NoSolutionError, match="several strips"):
+            getattr(found, figure)
+
+    @pytest.mark.parametrize("field", ["pressure", "profile"])
+    def test_has_no_fields(self, field):
+        found = solve(SPLIT, throw=False)
+        with pytest.raises(NoSolutionError, match="several strips"):
+            getattr(found, field)([0.0])
+
+
+class TestNotConverged:
+    def test_raises_with_advice(self):
+        with pytest.raises(
+            NoSolutionError, match=r"did not reach the tolerance: see error_estimate; ask for"
+        ):
+            solve(SHARP, rtol=1e-12)
+
+    def test_has_figures_with_their_error(self):
+        found = solve(SHARP, rtol=1e-12, throw=False)
+        assert found.status is Status.NOT_CONVERGED
+        assert 1e-12 < found.error_estimate < 1e-5
+        # short memory: μ/ζ of ζ = 1e-9, to the order of ζ/α (α = 1.06)
+        shorter = solve(problem(support="half-space", creep=CreepSpectrum(0.1, [0.9], [1e-9])))
+        assert found.friction == pytest.approx(1e5 * shorter.friction, rel=1e-4)
+
+
+def test_overload_is_refused():
+    found = solve(problem(support="half-space", pressure=1e3), throw=False)
+    assert found.status in {Status.WRAP_LIMIT, Status.SPLIT}
+    with pytest.raises(NoSolutionError, match="lower the load"):
+        solve(problem(support="half-space", pressure=1e3))
+
+
+def test_wrap_limit_says_which_load_is_the_limit():
+    status = Status.WRAP_LIMIT
+    assert "half circle" in status.message
+    assert status.message == status.value
+
+
+def test_largest_load_reached_is_said():
+    found = solve(problem(support="half-space", pressure=1e3), throw=False)
+    assert "the largest mean pressure reached is" in found.message
+    # the load just below is carried
+    reached = float(found.message.rsplit(" ", 1)[1])
+    assert solve(problem(support="half-space", pressure=0.5 * reached)).status is Status.OK
+
+
+def test_every_status_but_ok_says_what_to_change():
+    for status in Status:
+        assert status.message
+        assert (status is Status.OK) != any(word in status.message for word in ("lower", "ask for"))
+
+
+def test_a_batch_goes_on_after_a_refusal():
+    found = solve_many([problem(), SPLIT, SHARP, problem(pressure=0.01)], rtol=1e-12)
+    assert [s.status.name for s in found] == ["OK", "SPLIT", "NOT_CONVERGED", "OK"]
+
+
+def test_a_batch_raises_on_request():
+    with pytest.raises(NoSolutionError, match="several strips"):
+        solve_many([problem(), SPLIT], throw=True)
