@@ -1,0 +1,149 @@
+"""Random scenes over broad ranges: how they end, how true the error estimates are, what the slowest cost.
+
+    python benchmarks/stress.py [N] [SEED]
+
+Each scene is solved to `RTOL` and, where that succeeds, once more to `FINE`: the difference is the true error.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ["OMP_NUM_THREADS"] = "1"  # before numpy: BLAS reads it once
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import math
+import sys
+import time
+import warnings
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
+from conveyor.errors import ConveyorError
+
+RTOL, FINE = 1e-6, 1e-10
+SHOWN = 8
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One scene: how it ended, what it cost, how far off it was."""
+
+    index: int
+    scene: str
+    ending: str
+    seconds: float
+    order: int = 0
+    estimate: float = 0.0
+    true_error: float = 0.0
+    energy: float = 0.0
+
+
+def random_problem(rng: np.random.Generator) -> ContactProblem:
+    """A scene; lengths, loads and times spread evenly over decades."""
+
+    def decades(low: float, high: float) -> float:
+        return float(10.0 ** rng.uniform(low, high))
+
+    terms = int(rng.choice([0, 1, 1, 2, 5, 20]))
+    instantaneous = decades(-3.0, 0.0) if terms else 1.0
+    shares = rng.dirichlet(np.ones(terms)) if terms else np.empty(0)
+    support = str(rng.choice(["free", "confined", "half-space"]))
+    return ContactProblem(
+        support,
+        radius=min(decades(-3.0, -0.3), 0.5),
+        thickness=decades(-2.5, 1.5),
+        pressure=decades(-8.0, 0.0),
+        creep=CreepSpectrum(
+            instantaneous, (1.0 - instantaneous) * shares, 10.0 ** rng.uniform(-6.0, 6.0, terms)
+        ),
+        poisson=float(rng.uniform(0.0, 0.5)),
+    )
+
+
+def describe(problem: ContactProblem) -> str:
+    """Scene in one line, enough to build it again by eye; the index gives it exactly."""
+    creep = problem.creep
+    return (
+        f"{problem.support} R/λ {problem.radius:.3g} kh {problem.thickness:.3g} p {problem.pressure:.3g} "
+        f"ν {problem.poisson:.2f} j∞ {creep.instantaneous:.2g} "
+        f"ζ {np.array2string(creep.times, precision=2, threshold=4)}"
+    )
+
+
+def run(index: int, problem: ContactProblem) -> Outcome:
+    """Solve one scene; anything but a status or a ConveyorError is a fault of the solver and ends as its name."""
+    began = time.perf_counter()
+    scene = describe(problem)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            found = solve(problem, rtol=RTOL, throw=False)
+    except ConveyorError as refused:
+        return Outcome(index, scene, f"raised: {refused}", time.perf_counter() - began)
+    except (ArithmeticError, ValueError, RuntimeError, MemoryError, Warning) as fault:
+        return Outcome(index, scene, f"FAULT {type(fault).__name__}: {fault}", time.perf_counter() - began)
+    seconds = time.perf_counter() - began
+    if found.status is not Status.OK:
+        return Outcome(index, scene, found.status.name, seconds, found.stats.order)
+    if not all(
+        math.isfinite(v) for v in (found.friction, found.half_width, found.penetration, found.peak_pressure)
+    ):
+        return Outcome(index, scene, "FAULT not finite", seconds, found.stats.order)
+    fine = solve(problem, rtol=FINE, throw=False)
+    scale = abs(found.friction) if found.friction else 1.0
+    off = abs(fine.friction - found.friction) / scale if fine.status is Status.OK else math.nan
+    return Outcome(
+        index,
+        scene,
+        "OK",
+        seconds,
+        found.stats.order,
+        found.error_estimate,
+        off,
+        found.energy_error,
+    )
+
+
+def table(title: str, outcomes: list[Outcome]) -> None:
+    print(f"\n{title}")
+    print(f"{'#':>6} {'ms':>8} {'n':>4} {'estimate':>9} {'true':>9} {'energy':>9}  ending, scene")
+    for o in outcomes[:SHOWN]:
+        print(
+            f"{o.index:6d} {1e3 * o.seconds:8.1f} {o.order:4d} {o.estimate:9.1e} {o.true_error:9.1e} "
+            f"{o.energy:9.1e}  {o.ending[:60]} | {o.scene}"
+        )
+
+
+def main(count: int, seed: int) -> int:
+    outcomes = [run(i, random_problem(np.random.default_rng([seed, i]))) for i in range(count)]
+    print(f"{count} scenes, seed {seed}, rtol {RTOL:g}, true error against rtol {FINE:g}")
+    print(f"{'ending':<16} {'count':>7} {'share':>7} {'median ms':>10} {'worst ms':>9}")
+    endings = Counter(o.ending.split(":")[0] for o in outcomes)
+    for ending, number in endings.most_common():
+        times = [1e3 * o.seconds for o in outcomes if o.ending.split(":")[0] == ending]
+        print(f"{ending:<16} {number:7d} {number / count:7.1%} {np.median(times):10.2f} {max(times):9.1f}")
+    solved = [o for o in outcomes if o.ending == "OK"]
+    known = [o for o in solved if math.isfinite(o.true_error)]
+    print(f"\nsolved {len(solved)}, with a finer solution {len(known)}")
+    beyond = sum(o.true_error > RTOL for o in known)
+    unseen = sum(o.true_error > 10.0 * o.estimate for o in known)
+    print(f"true error above rtol: {beyond}; above ten times the estimate: {unseen}")
+    table("largest true errors", sorted(known, key=lambda o: -o.true_error))
+    table("true error over estimate", sorted(known, key=lambda o: -o.true_error / max(o.estimate, 1e-12)))
+    table("no finer solution", [o for o in solved if not math.isfinite(o.true_error)])
+    table("slowest", sorted(outcomes, key=lambda o: -o.seconds))
+    table("not solved", [o for o in outcomes if o.ending == "NOT_CONVERGED"])
+    table("raised", [o for o in outcomes if o.ending.startswith("raised")])
+    faults = [o for o in outcomes if o.ending.startswith("FAULT")]
+    table("faults", faults)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(
+        main(int(sys.argv[1]) if len(sys.argv) > 1 else 300, int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    )
