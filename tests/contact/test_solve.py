@@ -397,3 +397,28 @@ def test_what_is_not_needed_is_not_paid_for():
 def test_dissipation_uses_the_first_time(solutions):
     found = solutions["free, three terms"]
     assert found.dissipation == found.friction * 0.05 * 0.02
+
+
+@pytest.mark.xfail(
+    reason="order 8 is accepted by a chance agreement of orders 6 and 8; remove this mark when it is not"
+)
+def test_estimate_of_a_chance_agreement_of_orders():
+    # found by benchmarks/stress.py (seed 2, scene 321): true error 1.1e-5, estimate 2.8e-7, energy 2.8e-6 at rtol 1e-6
+    creep = CreepSpectrum(
+        1.0 - 0.0364 - 0.1059 - 0.2339 - 0.2125 - 0.0074,
+        [0.0364, 0.1059, 0.2339, 0.2125, 0.0074],
+        [0.06055, 19073.0, 1386.0, 3690.0, 734775.0],
+    )
+    problem = ContactProblem("confined", 0.24597, 0.24936, creep, 0.056234, 0.31443)
+    found = solve(problem, rtol=1e-6)
+    assert found.friction == pytest.approx(solve(problem, rtol=1e-11).friction, rel=1e-6)
+
+
+@pytest.mark.xfail(
+    reason="far from a narrow contact the series asks for too many nodes; remove this mark when it does not"
+)
+def test_profile_between_rolls_of_a_narrow_contact():
+    found = solve(ContactProblem("half-space", 0.07, 1e-6, ONE), rtol=1e-6)
+    middle = 0.5 / found.problem.radius
+    # midway a line load Q acts: u/R = -(Q/π) ln(2 |sin(X/2)|), X = π; its retarded part is slower than that
+    assert abs(found.profile([middle])[0]) < abs(found.penetration)
