@@ -34,6 +34,7 @@ from conveyor.units import Quantity, si
 Array = NDArray[np.float64]
 Strand = Literal["carry", "return"]
 
+_CURVE_DOWN_TO = 0.25  # of the highest load: a curve to be looked at, also where all rolls bear the same
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 
 
@@ -246,7 +247,9 @@ def _solve_curves(
     rtol = conveyor.calculation.rtol
     ranges = {contact: np.concatenate(loads) for contact, loads in occurring.items()}
     return {
-        contact: indentation_curve(contact, float(w.min()), float(w.max()), rtol)
+        contact: indentation_curve(
+            contact, min(float(w.min()), _CURVE_DOWN_TO * float(w.max())), float(w.max()), rtol
+        )
         for contact, w in ranges.items()
     }
 

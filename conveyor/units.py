@@ -171,6 +171,25 @@ def is_kind(value: Quantity, kind: str) -> bool:
     return value.units in _TABLES[kind].values()
 
 
+_SI_LABELS = {
+    "length": "m", "area": "m²", "speed": "m/s", "acceleration": "m/s²", "mass": "kg", "line mass": "kg/m",
+    "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m", "pressure": "Pa", "duration": "s",
+    "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
+    "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
+}  # fmt: skip
+
+
+def si_unit(value: Quantity) -> str:
+    """Return the unit that `si` gives the value in, as reports write it.
+
+    Examples
+    --------
+    >>> si_unit(quantity("600 fpm")), si_unit(quantity("20 degC", "temperature")), si_unit(quantity("3 kN"))
+    ('m/s', 'K', 'N')
+    """
+    return next((label for kind, label in _SI_LABELS.items() if is_kind(value, kind)), "K")
+
+
 def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     """Build a quantity from an SI value, in `unit` or the SI report unit of its kind.
 

@@ -16,7 +16,9 @@ from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
 
-_SERIES_REACH = 600.0  # outside the contact the series ends at m α = 600: cut by (m α)^(-5/2) = 1e-7, at an edge by (m α)^(-3/2)
+_SERIES_REACH = (
+    600.0  # m α where the series outside ends: cut by (m α)^(-5/2) = 1e-7, at an edge (m α)^(-3/2)
+)
 _CHUNK = 4_000_000
 _PEAK_STEPS = 8
 

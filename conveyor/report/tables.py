@@ -229,3 +229,27 @@ def moduli(compound: RubberCompound, temperature: float) -> pd.DataFrame:
             "tan delta [-]": series.tan_delta(omega),
         }
     )
+
+
+def solver(results: tuple[StretchResult, ...]) -> pd.DataFrame:
+    """One row a distinct contact: its range of loads, what the curve cost, its errors."""
+    seen = {id(roll.curve): (r.stretch.strand, roll.curve) for r in results for roll in r.rolls}
+    return pd.DataFrame(
+        [
+            {
+                "strand": strand,
+                "roll [mm]": 2e3 * curve.contact.radius,
+                "spacing [m]": curve.contact.spacing,
+                "cover [mm]": 1e3 * curve.contact.cover_thickness,
+                "lowest load [N/m]": curve.lowest,
+                "highest load [N/m]": curve.highest,
+                "order": curve.stats.order,
+                "matrices": curve.stats.matrices,
+                "nodes": curve.stats.nodes,
+                "retardation terms": curve.stats.terms,
+                "error estimate [-]": curve.curve.error,
+                "energy error [-]": curve.curve.energy_error,
+            }
+            for strand, curve in seen.values()
+        ]
+    )
