@@ -142,7 +142,7 @@ def table(sheet: Worksheet, frame: pd.DataFrame, row: int, column: int = 1) -> i
             put(cell, value)
             if isinstance(value, str):
                 longest = max(longest, len(value))
-                cell.alignment = Alignment(indent=1)
+                cell.alignment = Alignment(horizontal="left", indent=1)
             elif name == "SI value":
                 cell.number_format = "General"
             else:
@@ -206,6 +206,8 @@ def _summary(book: Workbook, analysis: Analysis) -> None:
     sheet.add_chart(chart, f"D{bottom + 3}")
     _print_set_up(sheet, analysis)
     sheet.page_setup.fitToHeight = 1
+    for i in range(1, bottom + 1):  # rows are shared by the tables left and right
+        sheet.row_dimensions[i].height = None
 
 
 def _breakdown(analysis: Analysis) -> pd.DataFrame:
@@ -231,7 +233,7 @@ def _tensions(book: Workbook, analysis: Analysis) -> None:
     sheet = _sheet(
         book, "Tensions", analysis, [("Tension round the loop, steady running, from the drive", frame)]
     )
-    sheet.add_chart(charts.tension(sheet, header=2, last=2 + len(frame)), "F2")
+    sheet.add_chart(charts.tension(sheet, header=2, last=2 + len(frame)), "F4")
 
 
 def _indentation(book: Workbook, analysis: Analysis) -> None:
@@ -239,7 +241,7 @@ def _indentation(book: Workbook, analysis: Analysis) -> None:
     sheet = _sheet(
         book, "Indentation", analysis, [("Indentation against line load, one block a contact", frame)]
     )
-    sheet.add_chart(charts.indentation(sheet, frame, header=2), "H2")
+    sheet.add_chart(charts.indentation(sheet, frame, header=2), "H4")
 
 
 def _rubber(book: Workbook, analysis: Analysis) -> None:
@@ -296,7 +298,7 @@ def _notes(book: Workbook, analysis: Analysis) -> None:
             sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=9)
             put(sheet.cell(row, 1), line)
             sheet.cell(row, 1).alignment = _WRAP
-            sheet.row_dimensions[row].height = 15.0 * (1 + len(line) // 125)
+            sheet.row_dimensions[row].height = 15.0 * (1 + len(line) // 150)
         row += 2
     put(sheet.cell(row, 1), "Contact solutions, one a distinct roll, cover and spacing", _HEADING)
     row = table(sheet, tables.solver(analysis.stretches), row + 1) + 2
