@@ -17,7 +17,7 @@ from conveyor.contact.spectral import Contact, equilibrium
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
-_RIPPLES = 10.0
+_TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 _GAP_TOLERANCE = 1e-4  # of the depth; truncation of the series is 1e-7
 
 
@@ -92,14 +92,14 @@ class Sign(Enum):
 
 
 def sign(contact: Contact, rtol: float) -> Sign:
-    """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against its ripple (last coefficients)."""
+    """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against the tail of its series."""
     p = contact.c @ _sines(contact.c.shape[1]).T
     highest = p.max(axis=1)
     negative = -p.min(axis=1) / highest
-    ripple = np.abs(contact.c[:, -2:]).max(axis=1) / highest
+    tail = np.abs(contact.c[:, -(contact.c.shape[1] // 4) :]).sum(axis=1) / highest
     if np.all(negative <= rtol):
         return Sign.PRESSING
-    return Sign.PULLING if np.any(negative > np.maximum(_RIPPLES * ripple, rtol)) else Sign.UNDECIDED
+    return Sign.PULLING if np.any(negative > np.maximum(_TAILS * tail, rtol)) else Sign.UNDECIDED
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:

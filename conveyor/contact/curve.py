@@ -17,7 +17,7 @@ from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, energy_error, order
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene
 from conveyor.contact.solution import ContactSolution, SolveStats, peak
-from conveyor.contact.solve import ORDERS, solve
+from conveyor.contact.solve import ORDERS, SIGN_ORDER, solve
 from conveyor.contact.spectral import assemble, equilibrium, penetration
 from conveyor.errors import InputError, NoSolutionError, RangeError
 
@@ -162,7 +162,8 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
             raise NoSolutionError(
                 f"between mean pressures {lowest:.6g} and {highest:.6g}: {Status.SPLIT.message}"
             )
-        undecided = sample.sign is Sign.UNDECIDED or sample.order_error > rtol
+        unsigned = sample.sign is Sign.UNDECIDED and ORDERS[order] < SIGN_ORDER
+        undecided = unsigned or sample.order_error > rtol
         if undecided and order + 1 < len(ORDERS):
             order = min(order + (2 if sample.order_error > 100.0 * rtol else 1), len(ORDERS) - 1)
         elif sample.tail > rtol and points + 1 < len(_POINTS):

@@ -30,6 +30,7 @@ from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
 _SUPPORTS = ("free", "confined", "half-space")
+_THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
 _SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
 
@@ -44,6 +45,10 @@ class Status(Enum):
     WRAP_LIMIT = (
         "the load presses the roll in beyond its half circle: no contact with an edge inside the roll "
         "carries it; lower the load, or enlarge the radius"
+    )
+    TOO_THIN = (
+        "the layer is so thin against the contact that its quadrature would need more than two million nodes; "
+        "use a thicker layer, a smaller load, or a plate model"
     )
     NOT_CONVERGED = (
         "the highest order did not reach the tolerance: see error_estimate; "
@@ -152,12 +157,24 @@ class ContactProblem:
     def __post_init__(self) -> None:
         if isinstance(self.support, str) and self.support not in _SUPPORTS:
             raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if not isinstance(self.support, str) and not all(
+            hasattr(self.support, name) for name in ("reach", "symbol")
+        ):
+            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        for name in ("radius", "thickness", "pressure", "poisson"):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+                raise InputError(f"{name} = {value!r}: a number is needed")
         if not 0.0 < self.radius <= 0.5:
             raise InputError(f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap")
-        if not self.thickness > 0.0:
-            raise InputError(f"thickness = {self.thickness!r}: k h is positive (infinity allowed)")
-        if not (self.pressure > 0.0 and math.isfinite(self.pressure)):
-            raise InputError(f"pressure = {self.pressure!r}: the mean pressure is finite and positive")
+        if not self.thickness >= _THINNEST:
+            raise InputError(
+                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed)"
+            )
+        if not _LIGHTEST <= self.pressure < math.inf:
+            raise InputError(
+                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, at least {_LIGHTEST:g}"
+            )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
 

@@ -30,6 +30,10 @@ _RAMP = 6.5  # ½ erfc(6.5) = 2e-20: the window is one below m0 - 6.5 w and zero
 _MAX_NODES = 2_000_000
 
 
+class RuleTooLongError(NoSolutionError):
+    """A contact so wide against its layer, or so narrow against the spacing, that the rule would not fit in memory."""
+
+
 @dataclass(frozen=True)
 class Panels:
     """How a composite Gauss-Legendre rule is graded; each limit holds the panel error near 1e-13.
@@ -73,7 +77,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
 
     Raises
     ------
-    NoSolutionError
+    RuleTooLongError
         The layer is so thin against the contact that the rule would need more than two million nodes.
     """
     span = 2.0 * half_width
@@ -112,7 +116,7 @@ def series_rule(
 
     Raises
     ------
-    NoSolutionError
+    RuleTooLongError
         More than two million nodes.
     """
     width = max(2.0, _ALIAS / (2.0 * math.pi - span))
@@ -143,7 +147,7 @@ def _panel_edges(
     growth = math.expm1(panels.stretch)
     longest = panels.phase / span
     if (end - edge) / longest * panels.points > _MAX_NODES:
-        raise NoSolutionError(
+        raise RuleTooLongError(
             f"the contact ({span:.3g}/k wide) is too wide for so thin a layer (reach m = {end:.3g}): "
             "use a thicker layer or a smaller load"
         )

@@ -30,7 +30,7 @@ SHARP = problem(support="half-space", creep=CreepSpectrum(0.1, [0.9], [1e-4]))
         ({"radius": 0.0}, r"radius = 0\.0: R/λ lies in \(0, 0\.5\], rolls must not overlap"),
         ({"radius": 0.51}, r"radius = 0\.51: R/λ lies in"),
         ({"radius": math.nan}, r"radius = nan: R/λ lies in"),
-        ({"thickness": 0.0}, r"thickness = 0\.0: k h is positive \(infinity allowed\)"),
+        ({"thickness": 0.0}, r"thickness = 0\.0: k h is positive, at least 1e-12 \(infinity allowed\)"),
         ({"thickness": -1.0}, r"thickness = -1\.0: k h is positive"),
         ({"thickness": math.nan}, r"thickness = nan: k h is positive"),
         ({"pressure": 0.0}, r"pressure = 0\.0: the mean pressure is finite and positive"),
@@ -164,7 +164,9 @@ def test_largest_load_reached_is_said():
 def test_every_status_but_ok_says_what_to_change():
     for status in Status:
         assert status.message
-        assert (status is Status.OK) != any(word in status.message for word in ("lower", "ask for"))
+        assert (status is Status.OK) != any(
+            word in status.message for word in ("lower", "smaller", "ask for")
+        )
 
 
 def test_a_batch_goes_on_after_a_refusal():
@@ -175,3 +177,17 @@ def test_a_batch_goes_on_after_a_refusal():
 def test_a_batch_raises_on_request():
     with pytest.raises(NoSolutionError, match="several strips"):
         solve_many([problem(), SPLIT], throw=True)
+
+
+def test_a_layer_too_thin_for_memory_is_a_status_not_an_exception():
+    creep = CreepSpectrum(0.1, [0.9], [1.0])
+    found = solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7), throw=False)
+    assert found.status is Status.TOO_THIN
+    with pytest.raises(NoSolutionError, match="thicker layer"):
+        solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7))
+
+
+@pytest.mark.parametrize("value", ["x", None, True])
+def test_radius_must_be_a_number(value):
+    with pytest.raises(InputError, match="radius = .*: a number is needed"):
+        ContactProblem("confined", value, 1e-3, CreepSpectrum(1.0))

@@ -54,12 +54,12 @@ def test_figures(ratio, memory, hertz_width):
 def test_pressure(ratio, memory):
     closed = hunter_at_load(ratio, memory=memory)
     width = 1e-4
-    found = rolled(ratio, memory, hertz_width=width, radius=1e-3)
+    found = rolled(ratio, memory, hertz_width=width, radius=1e-3, rtol=1e-2 * RTOL)
     s = np.linspace(-0.99, 0.99, 41)
     x = found.eccentricity + s * found.half_width
     # Hertz' p0 at half width a is p̃ = a/(R ρ)
     expected = closed.pressure(s) * found.half_width / found.problem.rho
-    # pressure converges more slowly than friction: sqrt(rtol) of the largest
+    # friction is quadratic in the pressure's error: within sqrt(RTOL) of the largest where friction is 100 times finer
     np.testing.assert_allclose(found.pressure(x), expected, rtol=0, atol=math.sqrt(RTOL) * expected.max())
 
 
@@ -104,9 +104,6 @@ def test_slow_rolling(ratio):
     assert wider.friction == pytest.approx(found.friction, rel=2.0 * memory)
 
 
-@pytest.mark.xfail(
-    reason="an unresolved edge layer is taken for a split contact; remove this mark when the solver tells them apart"
-)
 @pytest.mark.parametrize(
     ("ratio", "memory", "rtol"),
     [(100.0, 0.03, 1e-3), (100.0, 0.01, 1e-4), (100.0, 1e-3, 1e-6), (1000.0, 0.01, 1e-6)],
