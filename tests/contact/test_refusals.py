@@ -189,5 +189,5 @@ def test_a_layer_too_thin_for_memory_is_a_status_not_an_exception():
 
 @pytest.mark.parametrize("value", ["x", None, True])
 def test_radius_must_be_a_number(value):
-    with pytest.raises(InputError, match="radius = .*: a number is needed"):
+    with pytest.raises(InputError, match=r"radius = .*: a number is needed"):
         ContactProblem("confined", value, 1e-3, CreepSpectrum(1.0))
