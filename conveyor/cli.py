@@ -27,6 +27,8 @@ app = typer.Typer(
 )
 
 Spec = Annotated[Path, typer.Argument(help="Conveyor spec, .yaml or .json.", show_default=False)]
+ZERO_CELSIUS = 273.15
+
 Shelves = Annotated[
     list[Path] | None, typer.Option("--shelf", help="Further folder of compound files; may be repeated.")
 ]
@@ -189,14 +191,13 @@ def shelf(
     """List the compounds on the shelf, or show one."""
     import math
 
-    from rich import box
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
     from conveyor import shelf as store
     from conveyor.errors import RangeError
-    from conveyor.units import display, quantity, si, text
+    from conveyor.units import quantity, si, text
 
     kelvin, hertz = si(quantity(at, "temperature")), si(quantity(frequency, "frequency"))
     console = Console(highlight=False)
@@ -228,17 +229,16 @@ def shelf(
     table = Table(
         title=f"E' and tan delta at {at}, {frequency}",
         title_justify="left",
-        box=box.SIMPLE_HEAD,
+        box=None,
         pad_edge=False,
         padding=(0, 1),
     )
-    for heading in ("compound", "kind", "E' [MPa]", "tan delta", "temperatures"):
+    for heading in ("compound", "kind", "E' [MPa]", "tan delta", "degC"):
         table.add_column(heading, no_wrap=True)
     for known in store.names(shelves or ()):
         compound = store.compound(known, extra=shelves or ())
         span = () if compound.range is None else compound.range.temperature
-        span = () if compound.range is None else compound.range.temperature
-        limits = " to ".join(display(si(t), "temperature", digits=3) for t in span).replace(" degC to", " to")
+        limits = " to ".join(f"{si(t) - ZERO_CELSIUS:.0f}" for t in span)
         try:
             series = compound.series(kelvin)
         except RangeError:
