@@ -198,9 +198,15 @@ def indentation_curve(
     except NoSolutionError as error:
         raise NoSolutionError(
             f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
-            f"({contact.support}), {lowest:.4g} to {highest:.4g} N/m: {error}"
+            f"({contact.support}), {lowest:.4g} to {highest:.4g} N/m: {error}{_advice(contact)}"
         ) from error
     return IndentationCurve(contact, curve, lowest, highest)
+
+
+def _advice(contact: RollContact) -> str:
+    if contact.support == "confined":
+        return ""
+    return '; a cover on a real carcass is "confined", not a layer that bends or has no end'
 
 
 def indentation_resistance(contact: RollContact, line_load: float, rtol: float = 1e-6) -> Indentation:
