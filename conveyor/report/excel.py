@@ -150,7 +150,13 @@ def table(sheet: Worksheet, frame: pd.DataFrame, row: int, column: int = 1) -> i
         letter = get_column_letter(j)
         needed = min(_WIDEST, max(11, longest + 3, max(map(len, str(name).split())) + 2))
         sheet.column_dimensions[letter].width = max(sheet.column_dimensions[letter].width or 0.0, needed)
-    sheet.row_dimensions[row].height = 30.0 if any(len(str(name)) > 14 for name in frame.columns) else 16.0
+    widths = [
+        sheet.column_dimensions[get_column_letter(j)].width for j in range(column, column + frame.shape[1])
+    ]
+    lines = max(
+        math.ceil((len(str(name)) + 4) / width) for name, width in zip(frame.columns, widths, strict=True)
+    )
+    sheet.row_dimensions[row].height = max(sheet.row_dimensions[row].height or 0.0, 15.0 * min(lines, 3))
     return row + len(frame)
 
 
