@@ -127,11 +127,14 @@ def _print_power(result: Analysis) -> None:
 @app.command()
 def fit(
     data: Annotated[Path, typer.Argument(help="Master curve: frequency, E', E'' with units in the header.")],
-    reference_temperature: Annotated[
-        str, typer.Option("--at", help='Temperature of the master curve, e.g. "20 degC".')
-    ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Write the compound file (.yaml).")
+    ] = None,
+    reference_temperature: Annotated[
+        str | None,
+        typer.Option(
+            "--at", help='Temperature of the master curve, e.g. "20 degC"; else the file states it.'
+        ),
     ] = None,
     name: Annotated[str | None, typer.Option(help="Name of the compound; else the file's.")] = None,
     shift: Annotated[Path | None, typer.Option(help="CSV of shift factors: temperature_degC,a_T.")] = None,
@@ -143,10 +146,10 @@ def fit(
 ) -> None:
     """Fit a Prony series to a measured master curve.
 
-    Example: conveyor fit materials/s120.dma.csv --at "39.9639 degC" --shift materials/s120.shift.csv -o s120.yaml
+    Example: conveyor fit materials/s120.dma.csv --shift materials/s120.shift.csv -o s120.yaml
     """
     from conveyor import compound_file
-    from conveyor.units import quantity, si
+    from conveyor.units import quantity, si, text
 
     held = None if equilibrium is None else si(quantity(equilibrium, "pressure"))
     compound, found = compound_file.fit_file(
@@ -160,7 +163,9 @@ def fit(
     )
     print(f"{compound.name}: {found.series.moduli.size} terms, E_e {found.series.equilibrium / 1e6:.4g} MPa, "
           f"E_inf {found.series.glassy / 1e6:.4g} MPa")  # fmt: skip
-    print(f"data window {found.window[0]:.4g} to {found.window[1]:.4g} Hz at {reference_temperature}")
+    print(
+        f"data window {found.window[0]:.4g} to {found.window[1]:.4g} Hz at {text(compound.reference_temperature)}"
+    )
     for label, misfit in (("E'", found.storage), ("E''", found.loss), ("tan delta", found.tan_delta)):
         print(
             f"{label:>9}: rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"

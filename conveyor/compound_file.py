@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +23,7 @@ def fit_file(
     data: Path,
     *,
     name: str,
-    reference_temperature: str,
+    reference_temperature: str | None = None,
     shift: Path | None = None,
     poisson_ratio: float = 0.5,
     equilibrium: float | None = None,
@@ -35,8 +37,8 @@ def fit_file(
         Master curve: frequency, E', E'' with units in the header (`conveyor.rubber.read_master_curve`).
     name : str
         Name of the compound.
-    reference_temperature : str
-        Temperature of the master curve, with unit ("20 degC").
+    reference_temperature : str, optional
+        Temperature of the master curve, with unit ("20 degC"); else the file's line ``# reference_temperature: …``.
     shift : Path, optional
         CSV with the header ``temperature_degC,a_T``; without it the compound holds at its reference only.
     poisson_ratio : float
@@ -52,6 +54,7 @@ def fit_file(
         A file is refused, or a value is outside its range.
     """
     curve = read_master_curve(data)
+    reference = reference_temperature or _stated_temperature(data, curve.metadata)
     fit = fit_prony(
         curve.frequency_Hz,
         curve.storage_Pa,
@@ -71,7 +74,7 @@ def fit_file(
         },
         "poisson_ratio": poisson_ratio,
         "strain": curve.metadata.get("strain", _UNKNOWN),
-        "reference_temperature": reference_temperature,
+        "reference_temperature": reference,
         "prony": {
             "equilibrium": f"{fit.series.equilibrium / 1e6:.{_DIGITS}g} MPa",
             "terms": [
@@ -81,7 +84,7 @@ def fit_file(
         },
         "range": {
             "frequency": [f"{limit:.{_DIGITS}g} Hz" for limit in fit.window],
-            "temperature": [reference_temperature] * 2,
+            "temperature": [reference] * 2,
         },
         "fit": {
             "storage_rms": fit.storage.rms,
@@ -100,6 +103,18 @@ def fit_file(
         described["shift"] = {"law": "table", "temperature": temperatures, "log10_aT": [y for _, y in table]}
         described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
     return RubberCompound.from_data(described), fit
+
+
+def _stated_temperature(data: Path, metadata: Mapping[str, str]) -> str:
+    """Temperature that a master curve's comment states, e.g. ``39.96 degC (where a_T = 1)``."""
+    stated = metadata.get("reference_temperature", "")
+    found = re.match(r"\s*(\S+ ?(?:degC|degF|K|°C|°F))\b", stated)
+    if found is None:
+        raise InputError(
+            f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
+            '"# reference_temperature: 20 degC" into the file'
+        )
+    return found[1]
 
 
 def read_shifts(path: Path) -> list[tuple[float, float]]:

@@ -195,3 +195,18 @@ def test_help_imports_nothing_heavy() -> None:
     code = f"import sys, conveyor.cli; print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_fit_takes_the_temperature_from_the_file() -> None:
+    done = run("fit", ROOT / "materials" / "s100.dma.csv")
+    assert done.returncode == 0, done.stderr
+    assert "at 39.9615 degC" in done.stdout
+
+
+def test_fit_asks_for_a_temperature_that_nobody_states(tmp_path: Path) -> None:
+    lines = (ROOT / "materials" / "s100.dma.csv").read_text(encoding="utf-8").splitlines()
+    data = tmp_path / "mine.csv"
+    data.write_text("\n".join(text for text in lines if not text.startswith("#")), encoding="utf-8")
+    done = run("fit", data)
+    assert done.returncode == 2
+    assert "--at" in done.stderr
