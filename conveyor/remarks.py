@@ -23,6 +23,8 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     return (
         "Rubber is linearly viscoelastic at the strain its data were measured at; Poisson's ratio is constant.",
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
+        "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
+        "at the default tolerance.",
         "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones.",
         f"Flexure of belt and bulk is {text(conveyor.calculation.flexure_share)} of the main resistance "
         "(no model: share of the total measured at one overland site).",

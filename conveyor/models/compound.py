@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
@@ -84,7 +85,8 @@ class TableShift(Model):
         """Return the law for a reference temperature [K]."""
         from conveyor.rubber import ShiftTable
 
-        return ShiftTable([si(t) for t in self.temperature], list(self.log10_a_t), reference)  # type: ignore[arg-type]
+        temperatures = np.array([si(t) for t in self.temperature])
+        return ShiftTable(temperatures, np.array(self.log10_a_t), reference)
 
 
 class WLFShift(Model):
@@ -191,7 +193,8 @@ class RubberCompound(Model):
 
         terms = self.prony.terms
         moduli = [si(term.modulus) for term in terms]
-        return PronySeries(si(self.prony.equilibrium), moduli, [si(term.time) for term in terms])  # type: ignore[arg-type]
+        times = np.array([si(term.time) for term in terms])
+        return PronySeries(si(self.prony.equilibrium), np.array(moduli), times)
 
     def shift_law(self) -> ShiftLaw | None:
         """Return the shift law in SI, if the compound has one."""
