@@ -18,9 +18,10 @@ from conveyor.contact.spectral import assemble, figures
 
 Array = NDArray[np.float64]
 
-_NEWTON_STEPS = 25
+_NEWTON_STEPS = 12
 _DIFFERENCE = 1e-6  # relative change of α for the Jacobian's column: Newton then gains six digits a step
 _FIRST_STEP, _LARGEST_STEP, _SMALLEST_STEP = 0.2, 0.7, 1e-3  # in ln p̃_m
+_PATH_STEPS = 150
 _STRAY = 0.05  # from the predicted place, in ln α and ε/ρ
 
 
@@ -90,7 +91,9 @@ def follow(scene: Scene, light: State, n: int) -> tuple[State, float]:
     place = np.array([math.log(light.contact.alpha[0]), light.contact.eps[0]])
     before: tuple[float, Array] | None = None
     state, step = light, _FIRST_STEP
-    while load < target:
+    for _ in range(_PATH_STEPS):
+        if load >= target:
+            break
         goal = min(target, load + step)
         ahead = place
         if before is not None:
