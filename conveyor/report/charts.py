@@ -7,14 +7,43 @@ from typing import Any
 import pandas as pd
 from openpyxl.chart import BarChart, Reference, ScatterChart, Series
 from openpyxl.chart.legend import Legend
+from openpyxl.chart.shapes import GraphicalProperties
+from openpyxl.chart.text import RichText
+from openpyxl.chart.title import Title
+from openpyxl.drawing.line import LineProperties
+from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphProperties, RegularTextRun
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.report.cells import ACCENT, legible
+from conveyor.report.tables import CURVE_POINTS
+
 _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
+_PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
+_DASHES = ("solid", "dash", "sysDot", "dashDot")
+_GRID = "D9D9D9"
+_PIXELS = 22_000  # width of a series' line [EMU]: 1.7 pt
 
 
-def _axes(chart: Any, title: str, x: str, y: str) -> None:
-    chart.title, chart.x_axis.title, chart.y_axis.title = title, x, y
-    chart.x_axis.delete = chart.y_axis.delete = False  # recent Excel hides axes otherwise
+def _title(words: str, *, size: int) -> Title:
+    title = Title(overlay=False)
+    look = CharacterProperties(sz=100 * size, b=size > 10, solidFill="404040")
+    run = RegularTextRun(t=legible(words), rPr=look)
+    title.tx = _text(Paragraph(pPr=ParagraphProperties(defRPr=look), r=[run]))
+    return title
+
+
+def _text(paragraph: Paragraph) -> Any:
+    from openpyxl.chart.text import Text
+
+    return Text(rich=RichText(p=[paragraph]))
+
+
+def _dress(chart: Any, title: str, x: str, y: str) -> None:
+    chart.title = _title(title, size=12)
+    for axis, words in ((chart.x_axis, x), (chart.y_axis, y)):
+        axis.title = _title(words, size=10) if words else None
+        axis.delete = False  # recent Excel hides axes otherwise
+    chart.y_axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill=_GRID))
     chart.width, chart.height = _WIDTH, _HEIGHT
 
 
@@ -22,13 +51,16 @@ def breakdown(sheet: Worksheet, *, header: int, last: int, label: int, value: in
     """Bars of the resistances of a table with labels and forces in two columns."""
     chart = BarChart()
     chart.type = "bar"
-    _axes(chart, "Resistance breakdown", "", "force [N]")
+    _dress(chart, "Resistance breakdown", "", "force [N]")
     chart.add_data(Reference(sheet, min_col=value, min_row=header, max_row=last), titles_from_data=True)
     chart.set_categories(Reference(sheet, min_col=label, min_row=header + 1, max_row=last))
+    chart.series[0].graphicalProperties.solidFill = ACCENT
+    chart.series[0].invertIfNegative = False
     chart.legend = None
     chart.gapWidth = 60
     chart.x_axis.scaling.orientation = "maxMin"
     chart.x_axis.tickLblPos = "low"  # beside negative bars too
+    chart.y_axis.crosses = "max"  # at the bottom, as the categories run downward
     chart.y_axis.number_format = "#,##0"
     return chart
 
@@ -40,19 +72,20 @@ def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     for column in (3, 4):
         _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), way)
     chart.x_axis.number_format = chart.y_axis.number_format = "#,##0"
+    chart.x_axis.scaling.min = 0.0
     return chart
 
 
 def indentation(sheet: Worksheet, frame: pd.DataFrame, *, header: int) -> ScatterChart:
-    """Indentation against line load, a curve for each block of equal first column (columns 2, 3)."""
-    chart = _scatter("Indentation against line load", "line load [N/m]", "indentation resistance [N/m]")
-    row = header + 1
-    for label, block in frame.groupby("contact", sort=False):
-        end = row + len(block) - 1
-        loads = Reference(sheet, min_col=2, min_row=row, max_row=end)
-        _line(chart, Reference(sheet, min_col=3, min_row=row, max_row=end), loads, str(label))
-        row = end + 1
-    chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "0.0"
+    """Indentation against line load, a curve for each block of rows (columns 2, 3)."""
+    chart = _scatter("Indentation against line load", "line load [N/m]", "indentation [N/m]")
+    for start in range(0, len(frame), CURVE_POINTS):
+        first, last = header + 1 + start, header + start + CURVE_POINTS
+        loads = Reference(sheet, min_col=2, min_row=first, max_row=last)
+        label = legible(str(frame["contact"].iloc[start]))
+        _line(chart, Reference(sheet, min_col=3, min_row=first, max_row=last), loads, label)
+    chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "General"
+    chart.x_axis.scaling.min = chart.y_axis.scaling.min = 0.0
     return chart
 
 
@@ -63,7 +96,7 @@ def moduli(sheet: Worksheet, name: str, *, header: int, last: int) -> ScatterCha
     for column in (6, 7):
         _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), frequency)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
-    chart.x_axis.number_format = chart.y_axis.number_format = "0E+0"
+    chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"
     chart.x_axis.tickLblPos = chart.y_axis.tickLblPos = "low"
     chart.x_axis.crosses = chart.y_axis.crosses = "min"
     return chart
@@ -72,13 +105,19 @@ def moduli(sheet: Worksheet, name: str, *, header: int, last: int) -> ScatterCha
 def _scatter(title: str, x: str, y: str) -> ScatterChart:
     chart = ScatterChart()
     chart.style, chart.scatterStyle = 2, "lineMarker"
-    _axes(chart, title, x, y)
+    _dress(chart, title, x, y)
+    chart.x_axis.majorGridlines = None
     chart.legend = Legend(legendPos="b")
     return chart
 
 
 def _line(chart: ScatterChart, values: Reference, at: Reference, title: str | None = None) -> None:
     series = Series(values, at, title=title, title_from_data=title is None)
+    k = len(chart.series)
     series.marker.symbol = "none"
     series.smooth = False
+    line = series.graphicalProperties.line
+    line.solidFill = _PALETTE[k % len(_PALETTE)]
+    line.dashStyle = _DASHES[k // len(_PALETTE) % len(_DASHES)]
+    line.width = _PIXELS
     chart.series.append(series)
