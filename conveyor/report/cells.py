@@ -29,7 +29,6 @@ _FILL = PatternFill("solid", fgColor=ACCENT)
 
 _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 _UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-_LOOKS_ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
@@ -55,15 +54,14 @@ _FORMATS = (
 
 
 def legible(words: str) -> str:
-    r"""Return text as a cell can hold it: control characters spelled out, what looks like an escape kept.
+    r"""Return text as a cell can hold it: what XML cannot hold spelled out.
 
     Examples
     --------
-    >>> legible("bell\x07"), legible("_x0041_")
-    ('bell\\x07', '_x005F_x0041_')
+    >>> legible("bell\x07")
+    'bell\\x07'
     """
     shown = _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], words)
-    shown = _LOOKS_ESCAPED.sub("_x005F_", shown)
     if len(shown) <= LONGEST:
         return shown
     mark = f" ... (cut here: {len(words)} characters)"
@@ -125,13 +123,13 @@ def table(
     for j, name in enumerate(names, start=column):
         values = frame[name].tolist()
         _head(sheet.cell(row, j), name, right=not all(v is None or isinstance(v, str) for v in values))
-        longest = max(map(len, name.split())) + 2
+        longest = _two_lines(name) + 3
         for i, value in enumerate(values):
             cell = sheet.cell(row + 1 + i, j)
             if isinstance(value, str):
                 put(cell, value)
                 lines = -(-(len(value) + 3) // widest)
-                cell.alignment = Alignment(horizontal="left", vertical="top", indent=1, wrap_text=lines > 1)
+                cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=lines > 1)
                 if lines > 1:
                     sheet.row_dimensions[row + 1 + i].height = min(_HIGHEST, 15.0 * lines)
                 longest = max(longest, len(value) + 3)
@@ -152,6 +150,13 @@ def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
     cell.fill = _FILL
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
+
+
+def _two_lines(name: str) -> int:
+    """Least width in which a name takes at most two lines [characters]."""
+    words = name.split()
+    breaks = [(" ".join(words[:i]), " ".join(words[i:])) for i in range(len(words))]
+    return min(max(map(len, lines)) for lines in breaks)
 
 
 def _length(value: Any, shown: str) -> int:
@@ -192,7 +197,7 @@ def print_set_up(sheet: Worksheet, name: str) -> None:
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins
     margins.left = margins.right = 0.5
-    margins.top = margins.bottom = 0.75
+    margins.top, margins.bottom = 0.9, 0.75
     left = _HeaderFooterPart(text=legible(name).replace("&", "&&"))
     sheet.oddHeader = HeaderFooterItem(left=left, right=_HeaderFooterPart(text="&A"))
     sheet.oddFooter = HeaderFooterItem(right=_HeaderFooterPart(text="&P / &N"))

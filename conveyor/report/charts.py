@@ -118,6 +118,6 @@ def _line(chart: ScatterChart, values: Reference, at: Reference, title: str | No
     series.smooth = False
     line = series.graphicalProperties.line
     line.solidFill = _PALETTE[k % len(_PALETTE)]
-    line.dashStyle = _DASHES[k // len(_PALETTE) % len(_DASHES)]
+    line.dashStyle = _DASHES[k % len(_DASHES)]  # equal curves stay visible under each other
     line.width = _PIXELS
     chart.series.append(series)

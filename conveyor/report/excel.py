@@ -55,14 +55,14 @@ def write(analysis: Analysis, path: Path) -> Path:
     """
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
-    content = BytesIO()
-    build(analysis).save(content)
     partial = path.with_name(f".{uuid4().hex}.part")
     try:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the name of a workbook in it")
         if not path.absolute().parent.is_dir():
             raise InputError(f"{path}: its folder does not exist; create it or choose another")
+        content = BytesIO()
+        build(analysis).save(content)
         partial.write_bytes(content.getbuffer())
         partial.replace(path)
     except OSError as error:

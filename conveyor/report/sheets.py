@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import platform
 from datetime import date
 from importlib.metadata import version
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 from openpyxl.styles import Alignment
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -59,7 +61,7 @@ def summary(sheet: Worksheet, analysis: Analysis) -> None:
     stamp = f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec {fingerprint(conveyor)[:16]}"
     put(sheet["A2"], stamp, GREY)
     put(sheet["A3"], f"{len(analysis.warnings)} warnings: see Checks and notes", LINK)
-    sheet["A3"].hyperlink = "#'Checks and notes'!A1"
+    sheet["A3"].hyperlink = Hyperlink(ref="A3", location="'Checks and notes'!A1")
     sheet["A3"].font = LINK
     widths = {"A": 41, "B": 18, "C": 3, "D": 26, "E": 20, "F": 20, "G": 20}
     for letter, width in widths.items():
@@ -109,7 +111,7 @@ def _remark(analysis: Analysis) -> str:
 
 def inputs(sheet: Worksheet, analysis: Analysis) -> None:
     """Every field: as entered, in SI, and whether the spec or a default gave it."""
-    _headed(sheet, "Inputs as entered and in SI", fields.inputs(analysis.conveyor), widest=44)
+    _headed(sheet, "Inputs as entered and in SI", fields.inputs(analysis.conveyor))
 
 
 def sections(sheet: Worksheet, analysis: Analysis) -> None:
@@ -117,7 +119,7 @@ def sections(sheet: Worksheet, analysis: Analysis) -> None:
     frame = analysis.sections
     last = _headed(sheet, "Forces of every section and strand", frame, widest=30)
     summed = [j for j, name in enumerate(frame.columns, start=1) if str(name).endswith("[N]")]
-    sums = {j: sum(frame.iloc[:, j - 1].tolist()) for j in summed}
+    sums = {j: math.fsum(frame.iloc[:, j - 1].tolist()) for j in summed}
     total(sheet, last + 1, len(frame.columns), {1: "all sections", **sums})
 
 
@@ -143,7 +145,7 @@ def tensions(sheet: Worksheet, analysis: Analysis) -> None:
     frame = tables.tensions(analysis.balance)
     last = _headed(sheet, "Tension round the loop, steady running, from the drive", frame)
     sheet.column_dimensions["E"].width = 3
-    sheet.add_chart(charts.tension(sheet, header=2, last=last), "F3")
+    sheet.add_chart(charts.tension(sheet, header=2, last=last), "F4")
 
 
 def indentation(sheet: Worksheet, analysis: Analysis) -> None:
@@ -151,7 +153,7 @@ def indentation(sheet: Worksheet, analysis: Analysis) -> None:
     frame = tables.indentation_curves(analysis.stretches)
     _headed(sheet, "Indentation against line load, one block a contact", frame)
     sheet.column_dimensions["G"].width = 3
-    sheet.add_chart(charts.indentation(sheet, frame, header=2), "H3")
+    sheet.add_chart(charts.indentation(sheet, frame, header=2), "H4")
 
 
 def rubber(sheet: Worksheet, analysis: Analysis) -> None:
@@ -192,9 +194,10 @@ def _facts(compound: RubberCompound) -> dict[str, str]:
         "temperature shift": "none" if compound.shift is None else compound.shift.law,
         "range of frequency": "not stated" if known is None else " to ".join(map(text, known.frequency)),
         "range of temperature": "not stated" if known is None else " to ".join(map(text, known.temperature)),
-        "fit": "not stated"
-        if fit is None
-        else f"{fit.method}; rms of E' {text(fit.storage_rms)}, of E'' {text(fit.loss_rms)}",
+        "fit": "" if fit is None else fit.method,
+        "rms errors of E', E\"": ""
+        if fit is None or compound.kind != "measured"
+        else f"{text(fit.storage_rms)}, {text(fit.loss_rms)}",
         "not known": "; ".join(compound.missing) or "nothing listed",
     }
     return {name: value for name, value in facts.items() if value}

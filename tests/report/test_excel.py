@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import zipfile
+from datetime import date
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import openpyxl
 import pandas as pd
 import pytest
+from openpyxl.utils import get_column_letter
 
 import conveyor
 from conveyor.errors import InputError
+from conveyor.report import tables
+from conveyor.report.cells import LONGEST
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
@@ -38,6 +45,53 @@ def test_sheets_and_charts(book):
     assert charts["Rubber"] == 2
 
 
+def test_no_chart_lies_over_cells(book):
+    for sheet in openpyxl.load_workbook(book):
+        for chart in sheet._charts:
+            corner = chart.anchor._from
+            rows = range(corner.row + 1, corner.row + 20)  # 9 cm of rows of 15 pt
+            columns = range(corner.col + 1, corner.col + 5)
+            beneath = [sheet.cell(i, j).value for i in rows for j in columns]
+            assert beneath == [None] * len(beneath), sheet.title
+
+
+def test_every_axis_is_shown_and_every_reference_holds_numbers(book):
+    """Recent Excel hides an axis that does not say delete=0; a series over text or gaps shows nothing."""
+    space = {"c": "http://schemas.openxmlformats.org/drawingml/2006/chart"}
+    read = openpyxl.load_workbook(book)
+    count = 0
+    with zipfile.ZipFile(book) as parts:
+        for name in parts.namelist():
+            if not name.startswith("xl/charts/chart"):
+                continue
+            root = ET.fromstring(parts.read(name))  # noqa: S314 our own file
+            axes = [axis for kind in ("valAx", "catAx") for axis in root.iterfind(f".//c:{kind}", space)]
+            assert len(axes) == 2
+            assert all(axis.find("c:delete", space).get("val") == "0" for axis in axes)
+            for kind in ("val", "xVal", "yVal"):
+                for reference in root.iterfind(f".//c:{kind}//c:f", space):
+                    sheet, cells = reference.text.rsplit("!", 1)
+                    block = read[sheet.strip("'")][cells.replace("$", "")]
+                    assert all(isinstance(cell.value, int | float) for row in block for cell in row)
+                    count += 1
+    assert count == 1 + 2 * (
+        2 + 4 + 2 * 2
+    )  # bars; x and y of 2 tensions, 4 contacts, 2 moduli of 2 compounds
+
+
+def test_indentation_curves_of_the_chart_are_single_contacts(book, overland):
+    """Each series covers the rows of one contact and all of them."""
+    frame = tables.indentation_curves(overland.stretches)
+    sheet = openpyxl.load_workbook(book)["Indentation"]
+    covered = []
+    for series in sheet._charts[0].series:
+        first, last = (int(part.rsplit("$", 1)[1]) for part in series.yVal.numRef.f.split("!")[1].split(":"))
+        labels = {sheet.cell(i, 1).value for i in range(first, last + 1)}
+        assert labels == {series.tx.v}
+        covered += range(first, last + 1)
+    assert covered == list(range(3, 3 + len(frame)))
+
+
 def test_no_formula_and_no_error_cell(book):
     for sheet in openpyxl.load_workbook(book):
         for row in sheet.iter_rows():
@@ -63,8 +117,79 @@ def test_tables_are_the_analysis_to_the_last_digit(book, overland, sheet, name):
 
 def test_summary_holds_every_figure(book, overland):
     sheet = openpyxl.load_workbook(book)["Summary"]
-    found = {sheet.cell(i, 1).value: sheet.cell(i, 2).value for i in range(6, 6 + len(overland.summary))}
+    found = {sheet.cell(i, 1).value: sheet.cell(i, 2).value for i in range(9, 9 + len(overland.summary))}
     assert found == pytest.approx(dict(overland.summary.items()), rel=DIGITS)
+
+
+def test_key_figures_stand_above_the_results(book, overland):
+    sheet = openpyxl.load_workbook(book)["Summary"]
+    tiles = {sheet[f"{letter}5"].value: sheet[f"{letter}6"].value for letter in "ABDEFG"}
+    for caption, figure in tiles.items():
+        name = caption.replace("indentation share", "indentation share of main resistance")
+        assert figure == pytest.approx(overland.summary[name], rel=DIGITS)
+    assert f"{len(overland.warnings)} warnings" in sheet["A3"].value
+    assert sheet["A3"].hyperlink.location == "'Checks and notes'!A1"
+
+
+def test_totals_are_the_sums_of_their_columns(book, overland):
+    read = openpyxl.load_workbook(book)
+    forces = read["Resistances"]
+    rows = len(overland.resistances)
+    assert forces.cell(rows + 3, 1).value == "effective tension"
+    above = math.fsum(forces.cell(i, 3).value for i in range(3, rows + 3))
+    assert forces.cell(rows + 3, 3).value == pytest.approx(
+        above, rel=1e-12
+    )  # sums of 1e2 terms in another order
+    sections = read["Sections"]
+    last = len(overland.sections) + 3
+    for name in ("indentation [N]", "idler rotation [N]", "flexure [N]"):
+        column = list(overland.sections.columns).index(name) + 1
+        assert sections.cell(last, column).value == pytest.approx(overland.summary[name], rel=1e-12)
+
+
+def test_comparison_is_on_the_resistances_sheet(book, overland):
+    sheet = openpyxl.load_workbook(book)["Resistances"]
+    rows = {row[0]: row[1:3] for row in sheet.iter_rows(values_only=True)}
+    for name, ours, classical in tables.comparison(overland.balance).itertuples():
+        if name != "lift [N]":  # both name a row of forces too
+            assert rows[name] == pytest.approx((ours, classical), rel=DIGITS)
+
+
+HEADERS = {
+    "Inputs": ["field", "as entered", "SI value", "SI unit", "given by"],
+    "Tensions": ["place", "distance from drive [m]", "tension [N]", "least for sag [N]"],
+    "Indentation": [
+        "contact", "line load [N/m]", "indentation [N/m]", "friction [-]", "half width [mm]", "peak pressure [MPa]",
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("sheet", HEADERS)
+def test_headers_others_read_by_do_not_move(book, sheet):
+    read = openpyxl.load_workbook(book)[sheet]
+    assert [cell.value for cell in read[2]][: len(HEADERS[sheet])] == HEADERS[sheet]
+    assert read.freeze_panes == "A3"
+    assert read.print_title_rows == "$1:$2"
+
+
+def test_every_number_fits_its_column(book):
+    """Excel shows ### where a number is wider than its column."""
+    for sheet in openpyxl.load_workbook(book):
+        for row in sheet.iter_rows():
+            for cell in row:
+                if isinstance(cell.value, float) and cell.number_format.startswith("#,##0"):
+                    digits = max(0, len(cell.number_format) - 6)
+                    shown = f"{cell.value:,.{digits}f}"
+                    width = sheet.column_dimensions[get_column_letter(cell.column)].width
+                    assert len(shown) + 1 <= width, (sheet.title, cell.coordinate)
+
+
+def test_every_page_prints_landscape_with_the_name(book, overland):
+    for sheet in openpyxl.load_workbook(book):
+        assert sheet.page_setup.orientation == "landscape"
+        assert sheet.sheet_properties.pageSetUpPr.fitToPage
+        assert sheet.page_setup.fitToWidth == 1
+        assert sheet.oddHeader.left.text == overland.conveyor.name
 
 
 def test_inputs_as_entered_and_in_si(book):
@@ -75,6 +200,28 @@ def test_inputs_as_entered_and_in_si(book):
     assert read.loc["ambient.temperature", "SI value"] == 293.15
     assert read.loc["belt.carcass.strength", "SI unit"] == "N/m"
     assert read.loc["belt.bottom_cover.compound", "as entered"] == "low-rolling-resistance-cover"
+    assert read.loc["idlers.return.spacing", "given by"] == "spec"
+    assert read.loc["calculation.rtol"].tolist() == ["1e-06", 1e-6, "-", "default"]
+    assert read.index.is_unique
+
+
+def test_inputs_hold_every_field_of_the_spec(book, overland):
+    """Every leaf of the conveyor's data, counted by a walk of its plain data, has its row."""
+
+    def leaves(data, path):
+        if isinstance(data, dict) and "prony" in data:
+            yield path
+        elif isinstance(data, dict):
+            for key, value in data.items():
+                yield from leaves(value, f"{path}.{key}".removeprefix("."))
+        elif isinstance(data, list):
+            for i, value in enumerate(data):
+                yield from leaves(value, f"{path}[{i}]")
+        elif data is not None:
+            yield path
+
+    read = pd.read_excel(book, sheet_name="Inputs", header=1)
+    assert set(leaves(overland.conveyor.as_data(), "")) <= set(read["field"])
 
 
 def test_warnings_and_provenance_are_in_it(book, overland):
@@ -83,7 +230,8 @@ def test_warnings_and_provenance_are_in_it(book, overland):
     for line in (*overland.warnings, *overland.assumptions):
         assert line in cells
     assert conveyor.__version__ in cells
-    assert any(isinstance(value, str) and len(value) == 64 for value in cells)
+    assert conveyor.spec.fingerprint(overland.conveyor) in cells
+    assert any(getattr(value, "date", lambda: None)() == date.today() for value in cells)
 
 
 @pytest.mark.parametrize("name", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)"])
@@ -101,6 +249,32 @@ def test_what_a_user_types_stays_text(overland, tmp_path, name):
 
 
 @pytest.mark.parametrize(
+    ("typed", "shown"),
+    [
+        ("bell\x07 and \uffff", "bell\\x07 and \\uffff"),  # neither may stand in XML
+        ("R&D 'belt' <1>", "R&D 'belt' <1>"),
+        ("Förderer 带式", "Förderer 带式"),
+    ],
+)
+def test_odd_characters_are_shown_not_lost(overland, tmp_path, typed, shown):
+    line = overland.conveyor.replace(name=typed)
+    read = openpyxl.load_workbook(conveyor.analyse(line).to_excel(tmp_path / "odd.xlsx"))
+    assert read["Summary"]["A1"].value == shown
+
+
+def test_endless_notes_say_where_they_are_cut(overland, tmp_path):
+    typed = "first line\n" + "x" * 40_000
+    read = openpyxl.load_workbook(
+        conveyor.analyse(overland.conveyor.replace(notes=typed)).to_excel(tmp_path / "notes.xlsx")
+    )
+    entered = next(row[1] for row in read["Inputs"].iter_rows(values_only=True) if row[0] == "notes")
+    assert len(entered) == LONGEST
+    assert entered.endswith(f"(cut here: {len(typed)} characters)")
+    whole = [row[0] for row in read["Checks and notes"].iter_rows(values_only=True)]
+    assert "".join(cell for cell in whole if isinstance(cell, str) and set(cell) == {"x"}) == "x" * 40_000
+
+
+@pytest.mark.parametrize(
     ("target", "message"),
     [
         ("report.pdf", "ends in .xlsx"),
@@ -115,15 +289,51 @@ def test_refused_paths_leave_nothing_behind(overland, tmp_path, target, message)
     assert [path.name for path in tmp_path.iterdir()] == ["folder.xlsx"]
 
 
-def test_an_older_workbook_survives_a_failed_write(overland, tmp_path, monkeypatch):
+def test_a_full_disk_leaves_the_older_workbook(overland, tmp_path):
+    """A real refusal of the system, half way through the file: its size is limited to 1 kB."""
+    resource = pytest.importorskip("resource")
     path = tmp_path / "report.xlsx"
     path.write_bytes(b"old")
-
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(openpyxl.Workbook, "save", full)
-    with pytest.raises(InputError, match="No space left"):
-        overland.to_excel(path)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+    try:
+        with pytest.raises(InputError, match=r"report\.xlsx: cannot be written \(File too large\)"):
+            overland.to_excel(path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert path.read_bytes() == b"old"
     assert [item.name for item in tmp_path.iterdir()] == ["report.xlsx"]
+
+
+def test_a_folder_that_refuses_is_named(overland, tmp_path, monkeypatch):
+    def refuse(*_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "write_bytes", refuse)
+    with pytest.raises(InputError, match=r"report\.xlsx: cannot be written \(Permission denied\)"):
+        overland.to_excel(tmp_path / "report.xlsx")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_too_long_is_refused(overland, tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        overland.to_excel(tmp_path / ("x" * 300 + ".xlsx"))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_older_workbook_is_replaced(overland, tmp_path):
+    path = tmp_path / "report.XLSX"
+    path.write_bytes(b"old")
+    assert overland.to_excel(str(path)) == path
+    assert openpyxl.load_workbook(path).sheetnames == SHEETS
+
+
+def test_two_workbooks_of_one_analysis_hold_the_same_cells(overland, tmp_path):
+    first, second = (
+        [
+            [cell.value for row in sheet.iter_rows() for cell in row]
+            for sheet in openpyxl.load_workbook(overland.to_excel(tmp_path / name))
+        ]
+        for name in ("a.xlsx", "b.xlsx")
+    )
+    assert first == second
