@@ -8,7 +8,7 @@ import pandas as pd
 from openpyxl.chart import BarChart, Reference, ScatterChart, Series
 from openpyxl.chart.legend import Legend
 from openpyxl.chart.shapes import GraphicalProperties
-from openpyxl.chart.text import RichText
+from openpyxl.chart.text import RichText, Text
 from openpyxl.chart.title import Title
 from openpyxl.drawing.line import LineProperties
 from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphProperties, RegularTextRun
@@ -21,21 +21,15 @@ _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _GRID = "D9D9D9"
-_PIXELS = 22_000  # width of a series' line [EMU]: 1.7 pt
+_LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
 
 
 def _title(words: str, *, size: int) -> Title:
     title = Title(overlay=False)
     look = CharacterProperties(sz=100 * size, b=size > 10, solidFill="404040")
     run = RegularTextRun(t=legible(words), rPr=look)
-    title.tx = _text(Paragraph(pPr=ParagraphProperties(defRPr=look), r=[run]))
+    title.tx = Text(rich=RichText(p=[Paragraph(pPr=ParagraphProperties(defRPr=look), r=[run])]))
     return title
-
-
-def _text(paragraph: Paragraph) -> Any:
-    from openpyxl.chart.text import Text
-
-    return Text(rich=RichText(p=[paragraph]))
 
 
 def _dress(chart: Any, title: str, x: str, y: str) -> None:
@@ -119,5 +113,5 @@ def _line(chart: ScatterChart, values: Reference, at: Reference, title: str | No
     line = series.graphicalProperties.line
     line.solidFill = _PALETTE[k % len(_PALETTE)]
     line.dashStyle = _DASHES[k % len(_DASHES)]  # equal curves stay visible under each other
-    line.width = _PIXELS
+    line.width = _LINE_WIDTH
     chart.series.append(series)
