@@ -42,7 +42,7 @@ _KEY_FIGURES = (
     "indentation share of main resistance [-]", "energy [kWh/(t km)]",
 )  # fmt: skip
 _CHART_ROWS = 19
-_LINE = 120  # characters of a note in one line of nine columns
+_LINE = 140  # characters of a note in one line of nine columns
 _PIECE = 1000  # characters of a note in one cell
 
 
