@@ -91,6 +91,13 @@ class Analysis:
 
         return tables.rolls(self.stretches)
 
+    @property
+    def error_estimate(self) -> float:
+        """Largest relative error estimate of any roll's indentation [-]."""
+        from conveyor.report import tables
+
+        return tables.worst_error(self.stretches)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""
         forces, power = self.balance.forces, self.balance.power
@@ -127,7 +134,7 @@ class Analysis:
                 }
                 for r in self.stretches
             ],
-            "error_estimate": max(roll.peak.error for r in self.stretches for roll in r.rolls),
+            "error_estimate": self.error_estimate,
             "assumptions": list(self.assumptions),
             "warnings": list(self.warnings),
         }

@@ -118,8 +118,7 @@ def _print_power(result: Analysis) -> None:
         cost = "" if drive.cost_per_year is None else f"{drive.cost_per_year:,.0f} {drive.currency}/a"
         table.add_row("energy per year", f"{drive.energy_per_year / 1e3:,.0f} MWh/a", "", cost)
     console.print(table)
-    worst = max(roll.peak.error for r in result.stretches for roll in r.rolls)
-    console.print(f"relative error of the contact solutions: at most {worst:.0e}")
+    console.print(f"relative error of the contact solutions: at most {result.error_estimate:.0e}")
     for warning in result.warnings:
         console.print(f"[yellow]note:[/] {escape(warning)}")
 
