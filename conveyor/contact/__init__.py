@@ -8,7 +8,7 @@ from conveyor.contact.curve import LoadCurve, LoadSolutions, load_curve, solve_l
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
-from conveyor.contact.solve import solve, solve_many
+from conveyor.contact.solve import solve, solve_many, solve_penetration
 
 __all__ = [
     "Confined",
@@ -26,4 +26,5 @@ __all__ = [
     "solve",
     "solve_loads",
     "solve_many",
+    "solve_penetration",
 ]

@@ -9,16 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.energy import friction_by_loss
+from conveyor.contact.fields import SpectralFields
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.solution import surface_series
 from conveyor.contact.spectral import Contact, equilibrium
 
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
-_GAP_TOLERANCE = 1e-4  # of the depth; truncation of the series is 1e-7
+_GAP_TOLERANCE = 1e-4  # of the depth
+_GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
+_GAP_POINTS = 24
 
 
 def order_error(contact: Contact, matrix: Array, rho: float, exponent: Array | None) -> Array:
@@ -103,12 +105,16 @@ def sign(contact: Contact, rtol: float) -> Sign:
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
-    """Whether the layer's surface lies inside the roll outside the contact (a wrong root under strong wrap)."""
+    """Whether the layer's surface lies inside the roll outside the strips; one strip an entry of `contact`.
+
+    Between strips, and out to the ends of the roll's half circle.
+    """
     rho = scene.problem.rho
-    edge = np.array([-1.0, 1.0]) * contact.alpha[0]
-    reach = np.array([-rho - contact.eps[0], rho - contact.eps[0]])
-    place = np.linspace(0.02, 1.0, 50)
-    x = np.concatenate([edge[k] + place * (reach[k] - edge[k]) for k in (0, 1)])
-    roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - ((x + contact.eps[0]) / rho) ** 2, 0.0))
-    gap = surface_series(scene.problem, scene.creep, contact, x) - roll
+    rank = np.argsort(contact.eps)
+    low, high = (contact.eps - contact.alpha)[rank], (contact.eps + contact.alpha)[rank]
+    place = np.linspace(0.0, 1.0, _GAP_POINTS + 2)[1:-1]
+    starts, ends = np.append(-rho, high), np.append(low, rho)
+    x = (starts[:, None] + place * (ends - starts)[:, None]).ravel()
+    roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0))
+    gap = SpectralFields(scene.problem.layer, scene.creep, contact).outside(x, _GAP_REACH) - roll
     return bool(gap.min() < -_GAP_TOLERANCE * abs(depth))

@@ -14,10 +14,13 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, energy_error, order_error, sign
+from conveyor.contact.fields import peak
+from conveyor.contact.orders import ORDERS
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene
-from conveyor.contact.solution import ContactSolution, SolveStats, peak
-from conveyor.contact.solve import ORDERS, SIGN_ORDER, solve
+from conveyor.contact.single import SIGN_ORDER
+from conveyor.contact.solution import ContactSolution, SolveStats
+from conveyor.contact.solve import solve
 from conveyor.contact.spectral import assemble, equilibrium, penetration
 from conveyor.errors import InputError, NoSolutionError, RangeError
 
@@ -28,6 +31,10 @@ _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _MARGIN = 2e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _NEWTON_STEPS = 40
 _SIGN_FLOOR = 1e-9
+_SPLITS = (
+    "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
+    "or solve such loads one by one"
+)
 _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
 
 
@@ -147,6 +154,8 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     problem = replace(problem, pressure=highest)
     ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
     scene = Scene.of(problem)
+    if any(len(s.patches) > 1 for s in ends):
+        raise NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
     if wraps(ends[1]):
         raise NoSolutionError(
             f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
@@ -159,9 +168,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     while True:
         sample = _sample(scene, centre, half, points=_POINTS[points], n=ORDERS[order], rtol=rtol)
         if sample.sign is Sign.PULLING:
-            raise NoSolutionError(
-                f"between mean pressures {lowest:.6g} and {highest:.6g}: {Status.SPLIT.message}"
-            )
+            raise NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
         unsigned = sample.sign is Sign.UNDECIDED and ORDERS[order] < SIGN_ORDER
         undecided = unsigned or sample.order_error > rtol
         if undecided and order + 1 < len(ORDERS):
@@ -228,9 +235,13 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     p = np.asarray(pressures, dtype=float)
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
-    if wraps(solve(replace(problem, pressure=float(p.max())), _ENDS)):
+    heaviest = solve(replace(problem, pressure=float(p.max())), _ENDS)
+    if wraps(heaviest) or len(heaviest.patches) > 1:
         return _one_by_one(problem, p, rtol)
-    return load_curve(problem, float(p.min()), float(p.max()), rtol).at(p)
+    try:
+        return load_curve(problem, float(p.min()), float(p.max()), rtol).at(p)
+    except NoSolutionError:
+        return _one_by_one(problem, p, rtol)
 
 
 def wraps(solution: ContactSolution) -> bool:

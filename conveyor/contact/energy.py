@@ -18,7 +18,13 @@ Array = NDArray[np.float64]
 
 
 def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
-    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,).
+    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,)."""
+    friction: Array = 2.0 * rho * loss(rule, creep, contact) / contact.pressure
+    return friction
+
+
+def loss(rule: Rule, creep: CreepSpectrum, contact: Contact) -> Array:
+    """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
     Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
     ζ ∫ J_v J_u/(m (1+m²ζ²)) dm = ζ (-1)^{(v-u)/2} [δ_vu/(2v) - I_max K_min].
@@ -29,12 +35,11 @@ def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: fl
     table = bessel_j(n, np.multiply.outer(contact.alpha, rule.nodes))[1:]
     phase = (-1j) ** ((v - 1) % 4)
     spectrum = 0.5 * ((weighted * phase)[:, None] @ np.moveaxis(table, 0, 1))[:, 0] / rule.nodes
-    total = np.einsum("bk,k->b", np.abs(spectrum) ** 2, rule.weights.imag * rule.nodes)
+    total: Array = np.einsum("bk,k->b", np.abs(spectrum) ** 2, rule.weights.imag * rule.nodes)
     if creep.weights.size:
         products, deficit = product_ik(n, contact.alpha[:, None] / creep.times, creep.weights * creep.times)
         kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)
         index = np.arange(n)
         kernel[:, index, index] = deficit[:, 1:]
         total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted, optimize=True)
-    friction: Array = 2.0 * rho * total / contact.pressure
-    return friction
+    return total

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.problem import ContactProblem, CreepSpectrum
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.spectral import Contact, equilibrium
 
@@ -18,6 +17,7 @@ _LOAD_STEPS = 60
 _LOAD_ACCEPTED = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
 _WIDEST = 1.0 - 1e-9
 _CLOSED = 1e-10
+_GUESSES = 48
 _DISTINCT = 1e-9  # half widths closer than this carry no slope
 
 
@@ -34,12 +34,13 @@ class LoadSearch:
     eps: Array | None = None
     exponent: Array | None = None
 
-    def accept(self, contact: Contact) -> float:
+    def accept(self, contact: Contact, log_pressure: float) -> float:
         """Take the load at the present half width, move to the next one; returns the mismatch ln p - target.
 
         Learns d ln p/d ln α (the next step) and d ln μ/d ln p (`exponent`, for the error at fixed load) on the way.
+        Where a depth is held, read Δ for p.
         """
-        log_pressure, friction = math.log(contact.pressure[0]), float(contact.friction[0])
+        friction = float(contact.friction[0])
         miss = log_pressure - self.target
         if self.last is not None and abs(self.log_alpha - self.last[0]) > _DISTINCT:
             rise = log_pressure - self.last[1]
@@ -86,7 +87,7 @@ def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State |
             if search.high - search.low < _CLOSED:
                 break
             continue
-        miss = abs(search.accept(contact))
+        miss = abs(search.accept(contact, scene.measure(contact)))
         if best is None or miss < best.miss:
             best = State(contact, matrix, miss)
         if miss <= tolerance:
@@ -94,16 +95,25 @@ def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State |
     return best if best is not None and best.miss <= _LOAD_ACCEPTED else None
 
 
-def guess(problem: ContactProblem, creep: CreepSpectrum) -> tuple[float, float]:
-    """First ln α and d ln p̃_m/d ln α: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
-    rho = problem.rho
-    narrow = rho * math.sqrt(problem.pressure * creep.instantaneous)
+def guess(scene: Scene) -> tuple[float, float]:
+    """First ln α and d ln p̃_m/d ln α: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α.
+
+    A depth is that load times the displacement under a pressure spread over the contact, 2 Σ_{m<1/α} |S_m|/m.
+    """
+    problem, creep, rho = scene.problem, scene.creep, scene.problem.rho
+    held = problem.pressure if scene.depth is None else scene.depth
+    narrow = rho * math.sqrt(held * creep.instantaneous) * (1.0 if scene.depth is None else 0.1)
     widest = 0.8 * rho
     if narrow >= widest:
         return math.log(widest), 2.0
-    alpha = np.geomspace(narrow, widest, 48)
+    alpha = np.geomspace(narrow, widest, _GUESSES)
     compliance = np.abs(problem.layer.symbol(1.0 / alpha, creep))
     log_alpha = np.log(alpha)
-    log_pressure = np.maximum.accumulate(2.0 * np.log(alpha / (2.0 * rho)) - np.log(compliance))
-    at = float(np.interp(math.log(problem.pressure), log_pressure, log_alpha))
+    log_held = 2.0 * np.log(alpha / (2.0 * rho)) - np.log(compliance)
+    if scene.depth is not None:
+        m = np.geomspace(1.0, 1.0 / narrow, _GUESSES)
+        spread = np.abs(problem.layer.symbol(m, creep))
+        below = np.concatenate([[0.0], np.cumsum(0.5 * (spread[1:] + spread[:-1]) * np.diff(np.log(m)))])
+        log_held += np.log(2.0 * (spread[0] + np.interp(1.0 / alpha, m, below)))
+    at = float(np.interp(scene.target, np.maximum.accumulate(log_held), log_alpha))
     return at, 2.0

@@ -38,10 +38,6 @@ class Status(Enum):
     """Why a solve stopped; the value says what to change."""
 
     OK = "converged to the tolerance asked for"
-    SPLIT = (
-        "the contact separates into several strips: one strip would need tension between belt and roll; "
-        "lower the load, thicken the layer, or use the confined support"
-    )
     WRAP_LIMIT = (
         "the load presses the roll in beyond its half circle: no contact with an edge inside the roll "
         "carries it; lower the load, or enlarge the radius"
@@ -51,7 +47,7 @@ class Status(Enum):
         "use a thicker layer, a smaller load, or a plate model"
     )
     NOT_CONVERGED = (
-        "the highest order did not reach the tolerance: see error_estimate; "
+        "the highest order, or the finest grid of a split contact, did not reach the tolerance: see error_estimate; "
         "ask for a larger rtol, or resolve a sharp retardation time by more terms"
     )
 

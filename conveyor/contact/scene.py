@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,29 +10,45 @@ from numpy.typing import NDArray
 
 from conveyor.contact.problem import ContactProblem, CreepSpectrum
 from conveyor.contact.quadrature import Rule, build_rule
-from conveyor.contact.spectral import Contact, assemble
+from conveyor.contact.spectral import Contact, assemble, penetration
 
 Array = NDArray[np.float64]
 
 
 @dataclass
 class Scene:
-    """A problem while it is solved: creep as the solver sees it, quadrature rules made once, counters."""
+    """A problem while it is solved: creep as the solver sees it, quadrature rules made once, counters.
+
+    `depth` is the Δ/R held in place of the problem's load.
+    """
 
     problem: ContactProblem
     creep: CreepSpectrum
+    depth: float | None = None
     rules: dict[str, Rule] = field(default_factory=dict)
     matrices: int = 0
 
     @classmethod
-    def of(cls, problem: ContactProblem) -> Scene:
+    def of(cls, problem: ContactProblem, depth: float | None = None) -> Scene:
         """Scene of a problem; terms with ζ = 0 are instantaneous."""
         given = problem.creep
         lasting = given.times > 0.0
         relaxed = given.instantaneous + float(given.weights[~lasting].sum())
         if lasting.all():
-            return cls(problem, given)
-        return cls(problem, CreepSpectrum(relaxed, given.weights[lasting], given.times[lasting]))
+            return cls(problem, given, depth)
+        return cls(problem, CreepSpectrum(relaxed, given.weights[lasting], given.times[lasting]), depth)
+
+    @property
+    def target(self) -> float:
+        """Ln of what is held: the load p̃_m, or the depth Δ/R."""
+        return math.log(self.problem.pressure if self.depth is None else self.depth)
+
+    def measure(self, contact: Contact) -> float:
+        """Ln of the same of a contact."""
+        if self.depth is None:
+            return math.log(contact.pressure[0])
+        rule = self.rule(float(contact.alpha[0]))
+        return math.log(penetration(rule, self.creep, contact, self.problem.rho)[0])
 
     def rule(self, alpha: float) -> Rule:
         """Quadrature rule good for half width `alpha`; remade with room when a contact outgrows it."""

@@ -11,7 +11,7 @@ the short sum of quadrature.py: a weighted Gram product of one Bessel table. Eve
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -121,7 +121,14 @@ def figures(
     """Coefficients, load and friction of contacts of known place; `inverse` is that of rows 1 … n, shape (b, n, n)."""
     n = inverse.shape[1]
     slope, _ = slope_coefficients(alpha, eps, rho, n + 2)
-    c = (inverse @ slope[:, 1 : n + 1, None])[..., 0]
+    contact = pressed((inverse @ slope[:, 1 : n + 1, None])[..., 0], slope, (alpha, eps), rho)
+    return contact if inside is None else replace(contact, inside=inside)
+
+
+def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: float) -> Contact:
+    """Load and friction of contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
+    alpha, eps = place
+    n = c.shape[1]
     # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
     work = np.einsum("bv,bv->b", c, slope[:, :n] - slope[:, 2 : n + 2]) + c[:, 0] * slope[:, 0]
     return Contact(
@@ -130,7 +137,7 @@ def figures(
         c=c,
         pressure=0.25 * alpha * c[:, 0],
         friction=-0.5 * rho * work / c[:, 0],
-        inside=np.ones(alpha.size, dtype=bool) if inside is None else inside,
+        inside=np.ones(alpha.size, dtype=bool),
     )
 
 
@@ -159,23 +166,28 @@ def _eccentricity(row: Array, alpha: Array, rho: float, start: Array) -> tuple[A
 
 
 def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
-    """Δ/R = 1 + W_0 - v_0: depth of the roll's crown below the mean line of the deformed surface, shape (b,).
+    """Δ/R = 1 + W_0 - v_0: depth of the roll's crown below the mean line of the deformed surface, shape (b,)."""
+    depth: Array = level(rule, creep, contact.alpha, contact.c) + mean_drop(
+        contact.alpha, contact.eps, rho, 2 * contact.c.shape[1] + 16
+    )
+    return depth
+
+
+def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
+    """T_0 coefficient W_0 of a contact's own displacement, shape (b,).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
     ∫_δ^∞ J_1 J_0/x² dx = ½ (ln 2 - γ - ln δ); each retardation term from w_t - ζ w_t' = d w_el.
     """
-    n = contact.c.shape[1]
-    alpha = contact.alpha
+    n = c.shape[1]
     table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
     v = np.arange(1, n + 1)
     moments = (table[:, 1:] @ (table[:, 0] * (rule.weights / rule.nodes))[..., None])[..., 0]
-    level = np.einsum("bv,bv->b", v * contact.c, np.real((-1j) ** ((v - 1) % 4) * moments))
+    out: Array = np.einsum("bv,bv->b", v * c, np.real((-1j) ** ((v - 1) % 4) * moments))
     compliance = creep.instantaneous + float(creep.weights.sum())
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
-    level += 0.5 * compliance * contact.c[:, 0] * alpha * logarithm
+    out += 0.5 * compliance * c[:, 0] * alpha * logarithm
     if creep.weights.size:
         products, _ = product_ik(n, alpha[:, None] / creep.times, creep.weights * creep.times)
-        level += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], contact.c)
-    points = 2 * n + 16
-    depth: Array = level + mean_drop(alpha, contact.eps, rho, points)
-    return depth
+        out += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], c)
+    return out

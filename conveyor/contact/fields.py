@@ -1,0 +1,143 @@
+"""Pressure and surface of a solved contact, anywhere, computed when asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.bessel import bessel_j
+from conveyor.contact.grid import GridContact
+from conveyor.contact.layers import Layer
+from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.quadrature import series_rule
+from conveyor.contact.spectral import Contact
+
+Array = NDArray[np.float64]
+
+SERIES_REACH = 600.0  # m α where the series outside ends: cut by (m α)^(-5/2) = 1e-7, at an edge (m α)^(-3/2)
+_FAR = 64.0
+_CHUNK = 4_000_000
+_PEAK_STEPS = 8
+
+
+class Fields(Protocol):
+    """What a contact looks like; X about the roll's axis."""
+
+    def pressure(self, x: Array) -> Array:
+        """p̃ at X, zero outside the strips; shape of x."""
+
+    def outside(self, x: Array) -> Array:
+        """u/R about the mean line at X outside the strips, shape (p,)."""
+
+    def peak(self) -> float:
+        """Largest p̃."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpectralFields:
+    """Fields of one or more strips from their Chebyshev coefficients; `contact.eps` holds the strips' centres."""
+
+    layer: Layer
+    creep: CreepSpectrum
+    contact: Contact
+
+    def pressure(self, x: Array) -> Array:
+        """Sum over the strips of p̃ = Σ c_v sin(vθ), X = X_l + α_l cos θ."""
+        v = np.arange(1, self.contact.c.shape[1] + 1)
+        out = np.zeros(x.shape)
+        for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self.contact.c, strict=True):
+            s = (x - centre) / alpha
+            angle = np.arccos(np.clip(s, -1.0, 1.0))
+            out += np.where(np.abs(s) < 1.0, np.sin(np.multiply.outer(angle, v)) @ c, 0.0)
+        return out
+
+    def outside(self, x: Array, reach: float = SERIES_REACH) -> Array:
+        """Fourier series up to m α = `reach`: cut off at about 1e-7 of the depth, 3e-5 at the very edges."""
+        out = np.zeros(x.shape)
+        for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self.contact.c, strict=True):
+            away = x - centre
+            away -= 2.0 * math.pi * np.round(away / (2.0 * math.pi))
+            out += surface_series(self.layer, self.creep, (float(alpha), c), away, reach)
+        return out
+
+    def peak(self) -> float:
+        """Largest pressure of any strip."""
+        return float(peak(self.contact.c).max())
+
+
+@dataclass(frozen=True, eq=False)
+class GridFields:
+    """Fields of a contact that is known on the grid only, between nodes by straight lines."""
+
+    grid: GridContact
+
+    def pressure(self, x: Array) -> Array:
+        """Piecewise linear."""
+        step = float(self.grid.x[1] - self.grid.x[0])
+        at = np.concatenate([[self.grid.x[0] - step], self.grid.x, [self.grid.x[-1] + step]])
+        out: Array = np.interp(x, at, np.concatenate([[0.0], self.grid.pressure, [0.0]]))
+        return out
+
+    def outside(self, x: Array) -> Array:
+        """Displacement at the nodes, straight between them."""
+        step = 2.0 * math.pi / self.grid.points
+        place = np.arange(self.grid.points + 1) * step
+        w = self.grid.surface
+        out: Array = np.interp(np.mod(x, 2.0 * math.pi), place, np.append(w, w[0]))
+        return out
+
+    def peak(self) -> float:
+        """Largest pressure of a node."""
+        return float(self.grid.pressure.max())
+
+
+def peak(c: Array) -> Array:
+    """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
+    n = c.shape[1]
+    v = np.arange(1.0, n + 1.0)
+    angle = np.linspace(0.0, np.pi, 8 * n + 17)
+    sampled = c @ np.sin(np.multiply.outer(v, angle))
+    best = np.argmax(sampled, axis=1)
+    theta = angle[best]
+    for _ in range(_PEAK_STEPS):
+        turn = np.multiply.outer(theta, v)
+        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
+        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
+        curved = second < 0.0
+        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
+        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
+    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
+    highest: Array = np.maximum(refined, sampled.max(axis=1))
+    return highest
+
+
+def surface_series(
+    layer: Layer, creep: CreepSpectrum, strip: tuple[float, Array], x: Array, reach: float = SERIES_REACH
+) -> Array:
+    """u/R of one strip at X = x about its centre, |x| ≤ π, shape (p,): w = 2 Re Σ S_m p̃̂_m e^{imX}/m, m α ≤ `reach`.
+
+    `strip` is its half width α and its coefficients c.
+    """
+    alpha, c = strip
+    if x.size == 0:
+        return np.empty(0)
+    v = np.arange(1, c.size + 1)
+    amplitudes = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
+    out = np.zeros(x.size)
+    # far from the contact the series' tail cancels: a wave number turns |x| radians, and 64 x 600 are enough
+    octave = np.floor(np.log2(np.maximum(np.abs(x) / alpha, 1.0)))
+    for group in np.unique(octave):
+        chosen = octave == group
+        far = float(np.abs(x[chosen]).max())
+        end = reach / alpha * min(1.0, _FAR * alpha / far)
+        m, weights = series_rule(layer, creep, span=alpha + far, end=end)
+        step = max(1, _CHUNK // max(int(chosen.sum()), c.size))
+        for i in range(0, m.size, step):
+            part = m[i : i + step]
+            wave = 2.0 * weights[i : i + step] * (amplitudes @ bessel_j(c.size, part * alpha)[1:]) / part
+            out[chosen] += np.real(np.exp(1j * np.multiply.outer(x[chosen], part)) @ wave)
+    return out

@@ -1,0 +1,160 @@
+"""Any number of strips: found on the grid, polished spectrally.
+
+The grid is refined until two of them show the same strips, each wide enough to be seen; from these `strips.settle`
+converges to the spectral contact, which must press inside every strip and touch nowhere else. Strips too close for
+the spectral window keep the grid's answer with the grid's error.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, overlaps, sign
+from conveyor.contact.fields import GridFields, SpectralFields
+from conveyor.contact.grid import GridContact, solve_grid
+from conveyor.contact.orders import ORDERS, next_order
+from conveyor.contact.problem import Status
+from conveyor.contact.scene import Scene
+from conveyor.contact.single import LOAD_FLOOR, ROUNDING, SIGN_ORDER, remarks
+from conveyor.contact.solution import Found, Outcome
+from conveyor.contact.strips import Strips, friction_by_loss, settle
+from conveyor.errors import NoSolutionError
+
+_COARSEST = 64  # nodes on the roll of the first grid
+_FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
+_MOST_POINTS = 1 << 20
+_STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
+_LIMIT = "the largest mean pressure that ends on the roll is about {:.3g}"
+_LIMIT_GRID, _LIMIT_STEPS = 512, 24  # bisections of its logarithm over ten decades: 1e-6
+_LIMIT_DECADES = 10.0
+_ON_GRID = "the strips are known on a grid of {} nodes only"
+
+
+def by_strips(scene: Scene, rtol: float) -> Outcome:
+    """The contact with as many strips as it has."""
+    points = max(64, 1 << math.ceil(math.log2(_COARSEST * math.pi / scene.problem.rho)))
+    grids: list[GridContact] = []
+    for doubling in range(_FINEST + 1):
+        if points > _MOST_POINTS:
+            break
+        try:
+            grids.append(solve_grid(scene.problem, points, grids[-1] if grids else None, depth=scene.depth))
+        except NoSolutionError:
+            if grids:
+                break
+            raise
+        if grids[-1].at_roll_end and doubling >= _WRAP_LEVEL:
+            return Outcome(Status.WRAP_LIMIT, grid=points, advice=(_limit(scene),))
+        if doubling >= _FIRST_POLISH and _seen(grids[-1]) and len(grids[-1].strips) == len(grids[-2].strips):
+            outcome = _polished(scene, grids[-1], rtol)
+            if outcome is not None:
+                return outcome
+        points *= 2
+    return _on_grid(grids, rtol)
+
+
+def _seen(grid: GridContact) -> bool:
+    """Whether every strip, and every gap between two, spans a few nodes."""
+    step = 2.0 * math.pi / grid.points
+    widths = grid.strips[:, 1] - grid.strips[:, 0]
+    gaps = grid.strips[1:, 0] - grid.strips[:-1, 1]
+    return bool((widths > _STRIP_NODES * step).all() and (gaps > _GAP_NODES * step).all())
+
+
+def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
+    """The grid's strips spectrally, the order raised until friction settles; None where they are not the contact."""
+    centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
+    tight = max(1e-3 * rtol, LOAD_FLOOR)
+    n, before = ORDERS[0], None
+    while True:
+        strips = settle(scene, n, centre, alpha, tight)
+        if strips is None:
+            return None
+        error = 1.0
+        if before is not None:
+            scale = abs(strips.friction) if strips.friction else 1.0
+            error = abs(before.friction - strips.friction) / scale
+        pressing = sign(strips.contact, rtol)
+        if pressing is Sign.PULLING:
+            return None
+        if error <= rtol or n == ORDERS[-1]:
+            by_loss = friction_by_loss(scene, strips)
+            energy = abs(by_loss - strips.friction) / (abs(strips.friction) or 1.0)
+            error = max(error, energy / ENERGY_OVER_ERROR, ROUNDING)
+            decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
+            if (error <= rtol and decided) or n == ORDERS[-1]:
+                if overlaps(scene, strips.contact, strips.depth):
+                    return None
+                fields = SpectralFields(scene.problem.layer, scene.creep, strips.contact)
+                return Outcome(
+                    status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
+                    found=_found(strips, fields, error, energy),
+                    order=n,
+                    grid=grid.points,
+                    advice=remarks(strips.depth, pressing),
+                )
+        before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
+        n = next_order(n, min(error, 0.9), rtol) if n > ORDERS[0] else ORDERS[1]
+
+
+def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) -> Found:
+    contact = strips.contact
+    edges = np.stack([contact.eps - contact.alpha, contact.eps + contact.alpha], axis=1)
+    edges = edges[np.argsort(edges[:, 0])]
+    low, high = float(edges[0, 0]), float(edges[-1, 1])
+    alone = contact.alpha.size == 1
+    return Found(
+        friction=strips.friction,
+        mean_pressure=strips.pressure,
+        half_width=float(contact.alpha[0]) if alone else 0.5 * (high - low),
+        centre=float(contact.eps[0]) if alone else 0.5 * (high + low),
+        strips=edges,
+        penetration=strips.depth,
+        energy_error=energy,
+        error_estimate=error,
+        fields=fields,
+    )
+
+
+def _on_grid(grids: list[GridContact], rtol: float) -> Outcome:
+    """The finest grid's contact; its error from the change at the last two doublings and from the energy."""
+    grid = grids[-1]
+    scale = abs(grid.friction) if grid.friction else 1.0
+    energy = abs(grid.friction_by_loss - grid.friction) / scale
+    change = max((abs(g.friction - grid.friction) for g in grids[-3:-1]), default=scale) / scale
+    error = max(change, energy, ROUNDING)
+    low, high = float(grid.strips[0, 0]), float(grid.strips[-1, 1])
+    return Outcome(
+        status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
+        found=Found(
+            friction=grid.friction,
+            mean_pressure=grid.mean_pressure,
+            half_width=0.5 * (high - low),
+            centre=0.5 * (high + low),
+            strips=grid.strips,
+            penetration=grid.depth,
+            energy_error=energy,
+            error_estimate=error,
+            fields=GridFields(grid),
+        ),
+        grid=grid.points,
+        advice=(*remarks(grid.depth, Sign.PRESSING), _ON_GRID.format(grid.points)),
+    )
+
+
+def _limit(scene: Scene) -> str:
+    """The load at which the contact reaches the end of the roll's half circle, on a coarse grid."""
+    problem = scene.problem
+    points = max(_LIMIT_GRID, 1 << math.ceil(math.log2(_COARSEST * math.pi / problem.rho)))
+    high = math.log(problem.pressure)
+    if scene.depth is not None:
+        high = math.log(solve_grid(problem, points, depth=scene.depth).mean_pressure)
+    low = high - _LIMIT_DECADES * math.log(10.0)
+    for _ in range(_LIMIT_STEPS):
+        middle = 0.5 * (low + high)
+        grid = solve_grid(replace(problem, pressure=math.exp(middle)), points)
+        low, high = (low, middle) if grid.at_roll_end else (middle, high)
+    return _LIMIT.format(math.exp(low))

@@ -1,0 +1,316 @@
+"""The contact without any assumption on its strips: a real-space grid and nonsymmetric complementarity.
+
+Pressure is piecewise linear on a uniform grid over one period, displacement is collocated at its nodes. With the roll's
+drop s = 1 - sqrt(1 - (X/ρ)²) below its crown and the depth Δ of the crown, for every node on the roll
+
+    p ≥ 0,   gap = w + s - Δ ≥ 0,   p · gap = 0,   mean p = p̃_m   (or Δ given).
+
+The hat's transform and its aliases make w = Σ_j t_{i-j} p_j a circulant, T_m = Σ_l S_{m+lN} sinc²(π(m+lN)/N)/|m+lN|.
+The symmetric part of the operator, Re S_m/|m|, is positive, so the solution is unique and the principal block pivoting
+of Júdice and Pires (Computers & Operations Research 21 (1994) 587) ends: all infeasible nodes change sides at once
+(which is the primal-dual active set method), one at a time where that does not lessen their number. Equations of the
+active set are solved densely when few, else by GMRES with FFT products and the inverse symbol as preconditioner.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+from scipy import linalg, special
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from conveyor.contact.problem import ContactProblem
+from conveyor.contact.scene import Scene
+from conveyor.errors import InputError, NoSolutionError
+
+Array = NDArray[np.float64]
+
+_ALIASES = 6  # explicit ones; beyond, S varies by less than 1e-2 and the sum is a Hurwitz zeta function
+_ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
+_DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
+_PIVOTS = 300
+_PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
+_ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
+_KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 20
+_CHUNK = 1 << 16
+
+
+@dataclass(frozen=True, eq=False)
+class GridContact:
+    """Contact on a grid; arrays over the nodes on the roll, X = k x about the roll's axis.
+
+    Attributes
+    ----------
+    x, pressure : ndarray, shape (m,)
+        Nodes X and pressure p̃ at them [-].
+    depth : float
+        Δ/R [-].
+    mean_pressure : float
+        p̃_m [-].
+    friction, friction_by_loss : float
+        μ [-] by geometry and by the loss compliance.
+    strips : ndarray, shape (l, 2)
+        Edges of the strips, X; between nodes by p ∝ sqrt(distance).
+    points : int
+        Nodes in a period.
+    pivots : int
+        Exchanges of the active set.
+    surface : ndarray, shape (points,)
+        Displacement u/R about the mean line at X = 2πj/points [-].
+    """
+
+    x: Array
+    pressure: Array
+    depth: float
+    mean_pressure: float
+    friction: float
+    friction_by_loss: float
+    strips: Array
+    points: int
+    pivots: int
+    surface: Array
+
+    @property
+    def at_roll_end(self) -> bool:
+        """Whether the contact reaches the last node on the roll: the load wraps its half circle."""
+        return bool(self.pressure[0] > 0.0 or self.pressure[-1] > 0.0)
+
+
+def solve_grid(
+    problem: ContactProblem, points: int, start: GridContact | None = None, *, depth: float | None = None
+) -> GridContact:
+    """Solve a contact on a grid of `points` nodes in a period.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Layer, roll, load and rubber, dimensionless.
+    points : int
+        Nodes in a period, even, at least 16; at least three must lie on the roll.
+    start : GridContact, optional
+        Contact on another grid, whose strips are the first active set.
+    depth : float, optional
+        Δ/R [-] to be held in place of the load.
+
+    Raises
+    ------
+    InputError
+        `points` odd, too small, or too few for the roll.
+    NoSolutionError
+        The active set or GMRES did not settle within its steps.
+
+    Examples
+    --------
+    >>> from conveyor.contact import CreepSpectrum
+    >>> problem = ContactProblem("free", 0.4, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0)
+    >>> grid = solve_grid(problem, 512)
+    >>> round(grid.friction, 4), len(grid.strips)
+    (0.358, 2)
+    """
+    reach = math.floor(problem.rho * _ROLL * points / (2.0 * math.pi)) if points > 0 else 0
+    if points < 16 or points % 2 or reach < 1:
+        raise InputError(f"points = {points!r}: an even number of nodes, three or more of them on the roll")
+    index = np.arange(-reach, reach + 1)[: points - 1]
+    x = np.asarray(index * (2.0 * math.pi / points), dtype=np.float64)
+    turn = x / problem.rho
+    drop = turn * turn / (1.0 + np.sqrt(1.0 - turn * turn))
+    surface = _Surface.of(problem, points, index)
+    active = np.abs(turn) < 0.5 if start is None else _inside(x, start.strips)
+    p, delta, pivots = _pivot(surface, drop, active, problem.pressure, depth)
+    mean = float(p.sum()) / points
+    return GridContact(
+        x=x,
+        pressure=p,
+        depth=delta,
+        mean_pressure=mean,
+        friction=float(p @ (turn / np.sqrt(1.0 - turn * turn))) / points / mean,
+        friction_by_loss=surface.loss(p) * problem.rho / mean,
+        strips=_edges(x, p),
+        points=points,
+        pivots=pivots,
+        surface=surface.whole(p) - surface.lift * mean,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """Displacement of the nodes on the roll per pressure at them.
+
+    The mean of the pressure lifts no Fourier component; a compliance of the mean is added all the same (`lift`), which
+    makes every principal submatrix positive definite and shifts the depth by lift x mean pressure.
+    """
+
+    index: NDArray[np.int_]
+    transform: NDArray[np.complex128]  # T_m, m = 0 … N/2
+    loss_transform: Array
+    row: Array  # t_d, d = 0 … N-1
+    lift: float
+
+    @classmethod
+    def of(cls, problem: ContactProblem, points: int, index: NDArray[np.int_]) -> _Surface:
+        transform, loss = _transform(problem, points)
+        lift = float(np.abs(transform[1]))
+        transform[0] = lift
+        return cls(index, transform, loss, np.fft.irfft(transform, points), lift)
+
+    @property
+    def points(self) -> int:
+        return int(self.row.size)
+
+    def dense(self, nodes: NDArray[np.int_]) -> Array:
+        at = self.index[nodes]
+        matrix: Array = self.row[np.subtract.outer(at, at) % self.points]
+        return matrix
+
+    def lifted(self, p: Array) -> Array:
+        """W + lift x mean p at the nodes of `index`."""
+        return self.whole(p)[self.index]
+
+    def whole(self, p: Array) -> Array:
+        """W + lift x mean p at every node."""
+        return self._apply(p, self.transform)
+
+    def pressed(self, w: Array) -> Array:
+        """The pressure of a displacement on all the grid: the preconditioner."""
+        return self._apply(w, 1.0 / self.transform)[self.index]
+
+    def _apply(self, values: Array, transform: NDArray[np.complex128]) -> Array:
+        full = np.zeros(self.points)
+        full[self.index] = values
+        out: Array = np.fft.irfft(np.fft.rfft(full) * transform, self.points)
+        return out
+
+    def loss(self, p: Array) -> float:
+        """2 Σ_{m≥1} Im S_m |p̂_m|² of the piecewise linear pressure."""
+        full = np.zeros(self.points)
+        full[self.index] = p
+        amplitude = np.fft.rfft(full) / self.points
+        return 2.0 * float(np.sum(self.loss_transform * np.abs(amplitude) ** 2))
+
+
+def _transform(problem: ContactProblem, points: int) -> tuple[NDArray[np.complex128], Array]:
+    """T_m for m = 0 … N/2 (T_0 = 0), and Σ_l Im S sinc⁴ of the same."""
+    layer, creep = problem.layer, Scene.of(problem).creep
+    m = np.arange(1.0, points // 2 + 1.0)
+    total = np.empty(m.size, dtype=complex)
+    loss = np.empty(m.size)
+    for i in range(0, m.size, _CHUNK):
+        part = m[i : i + _CHUNK]
+        symbol = layer.symbol(part, creep)
+        total[i : i + _CHUNK] = symbol / part**3
+        loss[i : i + _CHUNK] = symbol.imag / part**4
+    # the aliases are smooth in m/N: a polynomial of degree 20 over half a period carries them to 1e-13
+    nodes = chebyshev.chebpts1(21)
+    at = 0.25 * points * (nodes + 1.0)
+    alias, alias_loss = np.zeros(nodes.size, dtype=complex), np.zeros(nodes.size)
+    for turn in range(1, _ALIASES + 1):
+        above, below = turn * points + at, turn * points - at
+        up, down = layer.symbol(above, creep), np.conj(layer.symbol(below, creep))
+        alias += up / above**3 + down / below**3
+        alias_loss += up.imag / above**4 + down.imag / below**4
+    far = layer.symbol(np.array([(_ALIASES + 2.0) * points]), creep)[0].real
+    tail = special.zeta(3.0, _ALIASES + 1.0 + at / points) + special.zeta(3.0, _ALIASES + 1.0 - at / points)
+    alias += far * tail / float(points) ** 3
+    place = 4.0 * m / points - 1.0
+    aliases = np.stack([alias.real, alias.imag, alias_loss], axis=1)
+    real, imaginary, lost = chebyshev.chebval(place, chebyshev.chebfit(nodes, aliases, 20))
+    total += real + 1j * imaginary
+    loss += lost
+    sine = (np.sin(math.pi * m / points) * (points / math.pi)) ** 2
+    total *= sine
+    total[-1] = total[-1].real
+    transform = np.concatenate([[0.0j], total])
+    transform_loss = np.concatenate([[0.0], loss * sine * sine])
+    transform_loss[-1] = 0.0
+    return transform, transform_loss
+
+
+def _pivot(
+    surface: _Surface, drop: Array, active: NDArray[np.bool_], mean: float, depth: float | None
+) -> tuple[Array, float, int]:
+    """Principal block pivoting; pressure at the nodes, depth, and the exchanges it took."""
+    active = active.copy()
+    if not active.any():
+        active[np.argmin(drop)] = True
+    fewest, patience = drop.size + 1, _PATIENCE
+    for pivots in range(1, _PIVOTS + 1):
+        p, raised = _equations(surface, drop, np.flatnonzero(active), mean, depth)
+        gap = surface.lifted(p) + drop - raised
+        closed = _ROUNDING * max(abs(raised), float(drop.max()))
+        wrong = np.where(active, p < 0.0, gap < -closed)
+        count = int(wrong.sum())
+        if count == 0:
+            return p, raised - surface.lift * float(p.sum()) / surface.points, pivots
+        if count < fewest:
+            fewest, patience = count, _PATIENCE
+        elif patience > 0:
+            patience -= 1
+        else:
+            last = np.flatnonzero(wrong)[-1]
+            wrong = np.arange(wrong.size) == last
+        active ^= wrong
+        if not active.any():
+            active[np.argmin(drop)] = True
+    raise NoSolutionError(f"the active set of the grid did not settle in {_PIVOTS} exchanges")
+
+
+def _equations(
+    surface: _Surface, drop: Array, nodes: NDArray[np.int_], mean: float, depth: float | None
+) -> tuple[Array, float]:
+    """Pressure with w + s = Δ at the active nodes, and the raised depth Δ + lift x mean pressure."""
+    right = np.stack([-drop[nodes], np.ones(nodes.size)], axis=1)
+    shape, level = _solved(surface, nodes, right).T
+    # p = shape + (Δ + lift x mean) level
+    if depth is None:
+        raised = (mean * surface.points - shape.sum()) / level.sum()
+    else:
+        share = surface.lift / surface.points
+        raised = (depth + share * shape.sum()) / (1.0 - share * level.sum())
+    p = np.zeros(drop.size)
+    p[nodes] = shape + raised * level
+    return p, float(raised)
+
+
+def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
+    if nodes.size <= _DENSE:
+        return np.asarray(linalg.solve(surface.dense(nodes), right, check_finite=False), dtype=np.float64)
+    full = np.zeros(surface.index.size)
+
+    def spread(values: Array) -> Array:
+        full[:] = 0.0
+        full[nodes] = values
+        return full
+
+    size = (nodes.size, nodes.size)
+    product = LinearOperator(size, lambda v: surface.lifted(spread(v))[nodes], dtype=np.float64)
+    inverse = LinearOperator(size, lambda v: surface.pressed(spread(v))[nodes], dtype=np.float64)
+    out = np.empty_like(right)
+    for k in range(right.shape[1]):
+        out[:, k], failed = gmres(
+            product, right[:, k], rtol=_KRYLOV, restart=_RESTART, maxiter=_CYCLES, M=inverse
+        )
+        if failed:
+            raise NoSolutionError(f"GMRES did not settle on {nodes.size} active nodes of the grid")
+    return out
+
+
+def _inside(x: Array, strips: Array) -> NDArray[np.bool_]:
+    return np.asarray(((x[:, None] >= strips[:, 0]) & (x[:, None] <= strips[:, 1])).any(axis=1))
+
+
+def _edges(x: Array, p: Array) -> Array:
+    """Strips of positive pressure; the edge lies beyond its last node by h p1²/(p2² - p1²), at most one node."""
+    step = x[1] - x[0]
+    change = np.diff(np.concatenate([[0], (p > 0.0).astype(int), [0]]))
+    out = []
+    for first, last in zip(np.flatnonzero(change == 1), np.flatnonzero(change == -1) - 1, strict=True):
+        beyond = []
+        for edge, inner in ((first, first + 1), (last, last - 1)):
+            rise = p[inner] ** 2 - p[edge] ** 2 if last > first else 0.0
+            beyond.append(step * min(1.0, p[edge] ** 2 / rise) if rise > 0.0 else 0.5 * step)
+        out.append((x[first] - beyond[0], x[last] + beyond[1]))
+    return np.array(out)

@@ -1,0 +1,216 @@
+"""Several strips under one roll, spectrally: each its own Chebyshev basis, zero stress intensity at every edge.
+
+Strip l has centre X_l about the roll's axis and half width α_l. Its own block is that of spectral.py; the block of
+test strip l and source strip r is
+
+    g_i = (2-δ_i0) Σ_v v c_v Σ_{m≥1} Re[i^{q+2} S_m e^{im(X_l-X_r)}] J_v(mα_r) J_i(mα_l)/m,   q = i - v,
+
+whose kernel is smooth because the strips do not touch: the flat-topped window ½ erfc((m-m0)/w), m0 = 6.5 w, cuts the
+sum off at exp(-(w gap)²/4), and w = 12.5/gap leaves 1e-17 of it. Unknown are the places; row 0 of every strip, equal
+heights of the one rigid roll and the load (or its depth) determine them: Newton from the grid's strips.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from conveyor.contact.bessel import bessel_j
+from conveyor.contact.circle import mean_drop, slope_coefficients
+from conveyor.contact.energy import loss
+from conveyor.contact.quadrature import CHECK, Rule, build_rule
+from conveyor.contact.scene import Scene
+from conveyor.contact.spectral import Contact, assemble, level, pressed
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+_ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
+_LONGEST = 40_000  # terms of the window: gaps below 13 x 12.5/40,000 = 0.004 stay on the grid
+_CHUNK = 4_000_000
+_NEWTON_STEPS = 12
+_DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
+_LARGEST_STEP = 0.5  # of the narrowest half width
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Strips in equilibrium under one roll; `contact` holds one strip an entry, eps = X_l."""
+
+    contact: Contact
+    depth: float
+
+    @property
+    def order(self) -> int:
+        """Galerkin order n of each strip."""
+        return int(self.contact.c.shape[1])
+
+    @property
+    def pressure(self) -> float:
+        """p̃_m [-]."""
+        return float(self.contact.pressure.sum())
+
+    @property
+    def friction(self) -> float:
+        """μ [-]."""
+        return float(self.contact.friction @ self.contact.pressure) / self.pressure
+
+
+def smallest_gap(centre: Array, alpha: Array) -> float:
+    """Smallest distance X between strips, those of the next roll included; the period where there is one strip."""
+    if alpha.size == 1:
+        return 2.0 * math.pi
+    rank = np.argsort(centre)
+    low, high = (centre - alpha)[rank], (centre + alpha)[rank]
+    return float(np.min(np.append(low[1:], low[0] + 2.0 * math.pi) - high))
+
+
+def too_close(centre: Array, alpha: Array) -> bool:
+    """Whether the strips' window would need more than 40,000 terms."""
+    return _LONGEST * smallest_gap(centre, alpha) < 2.0 * _RAMP * _ALIAS
+
+
+def settle(scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float) -> Strips | None:
+    """Newton in (X_l, ln α_l) for the scene's load or depth; None where it does not settle.
+
+    Parameters
+    ----------
+    centre, alpha : ndarray, shape (l,)
+        Strips to start from, X about the roll's axis [-].
+    tolerance : float
+        Change of ln α_l, and of X_l in half widths, at which Newton ends [-].
+    """
+    count, rho = alpha.size, scene.problem.rho
+    place = np.concatenate([centre, np.log(alpha)])
+    done = False
+    for _ in range(_NEWTON_STEPS):
+        x, a = place[:count], np.exp(place[count:])
+        if np.any(a + np.abs(x) >= rho) or smallest_gap(x, a) <= 0.0 or too_close(x, a):
+            return None
+        if done:
+            return _strips(scene, n, x, a)
+        change = _DIFFERENCE * np.concatenate([a, np.ones(count)])
+        places = np.vstack([place, place + np.diag(change)])
+        residual = _Places(scene, n, places[:, :count], np.exp(places[:, count:])).residual()
+        if residual is None:
+            return None
+        jacobian = ((residual[1:] - residual[0]) / change[:, None]).T
+        step = np.linalg.solve(jacobian, residual[0])
+        largest = float(np.abs(step / np.concatenate([a, np.ones(count)])).max())
+        done = largest <= tolerance
+        place = place - step * min(1.0, _LARGEST_STEP / largest) if largest > 0.0 else place
+    return None
+
+
+def _strips(scene: Scene, n: int, centre: Array, alpha: Array) -> Strips:
+    return _Places(scene, n, centre[None], alpha[None]).strips()
+
+
+class _Places:
+    """Strips at several trial places at once: their coefficients and what is not yet in balance.
+
+    Shapes: k places, l strips, order n.
+    """
+
+    def __init__(self, scene: Scene, n: int, centre: Array, alpha: Array) -> None:
+        self.scene, self.n, self.centre, self.alpha = scene, n, centre, alpha
+        rho = scene.problem.rho
+        k, count = alpha.shape
+        self.rule: Rule = scene.rule(float(alpha.max()))
+        own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
+        scene.matrices += k * count
+        slope, _ = slope_coefficients(alpha.ravel(), centre.ravel(), rho, n + 2)
+        self.slope = slope.reshape(k, count, n + 2)
+        full = np.zeros((k, count, n + 1, count, n))
+        heights = np.zeros((k, count, count, n))
+        if count > 1:
+            full, heights = _couple(scene, n, centre, alpha)
+        strip = np.arange(count)
+        full[:, strip, :, strip, :] = np.moveaxis(own, 1, 0)
+        self.first = full[:, :, 0]
+        rows = full[:, :, 1:].reshape(k, count * n, count * n)
+        right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
+        self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
+        lifted = level(self.rule, scene.creep, alpha.ravel(), self.c.reshape(k * count, n)).reshape(k, count)
+        lifted += np.einsum("klrv,krv->kl", heights, self.c)
+        drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
+        self.depth = lifted + drop
+
+    def residual(self) -> Array | None:
+        """Row 0 of each strip, differences of height, and what is held, shape (k, 2l); None under no load."""
+        loads = 0.25 * self.alpha * self.c[:, :, 0]
+        total = loads.sum(axis=1)
+        if not (total > 0.0).all():
+            return None
+        row = np.einsum("klrv,krv->kl", self.first, self.c) - self.slope[:, :, 0]
+        heights = np.diff(self.depth, axis=1)
+        depth = self.scene.depth
+        held = (
+            np.log(total / self.scene.problem.pressure) if depth is None else self.depth[:, 0] / depth - 1.0
+        )
+        return np.concatenate([row, heights, held[:, None]], axis=1)
+
+    def strips(self) -> Strips:
+        """The first place as a contact."""
+        contact = pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
+        return Strips(contact, float(self.depth[0].mean()))
+
+
+def _window(scene: Scene, gap: float, widen: float = 1.0) -> tuple[Array, ComplexArray]:
+    """Wave numbers and χ S/m of the strips' window."""
+    width = widen * _ALIAS / min(gap, math.pi)
+    m = np.arange(1.0, math.ceil(2.0 * _RAMP * width) + 1.0)
+    return m, 0.5 * special.erfc((m - _RAMP * width) / width) * scene.problem.layer.symbol(m, scene.creep) / m
+
+
+def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
+    """Slopes and heights of strip l per coefficient of strip r; shapes (k, l, n+1, l, n) and (k, l, l, n).
+
+    Blocks l = r are formed too and mean nothing: the slope's is replaced, the height's set to zero.
+    """
+    k, count = alpha.shape
+    gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
+    m, weights = _window(scene, gap)
+    i = np.arange(n + 1)
+    turn = (1j) ** (i % 4)
+    slopes = np.zeros((k, count * (n + 1), count * n))
+    heights = np.zeros((k, count, count * n))
+    step = max(64, _CHUNK // (k * count * (n + 1)))
+    for start in range(0, m.size, step):
+        part, weight = m[start : start + step], weights[start : start + step]
+        table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, part)), 0, 2)
+        wave = np.exp(1j * np.multiply.outer(centre, part))[:, :, None]
+        test = turn[:, None] * table * wave
+        source = np.conj(test[:, :, 1:]) * weight
+        tests = test.reshape(k, count * (n + 1), part.size)
+        sources = source.reshape(k, count * n, part.size).swapaxes(1, 2)
+        slopes -= tests.real @ sources.real - tests.imag @ sources.imag
+        heights += np.real((1j * test[:, :, 0] / part) @ sources)
+    v = np.arange(1.0, n + 1.0)
+    slopes = slopes.reshape(k, count, n + 1, count, n) * v
+    slopes[:, :, 1:] *= 2.0
+    heights = heights.reshape(k, count, count, n) * v
+    strip = np.arange(count)
+    heights[:, strip, strip] = 0.0
+    return slopes, heights
+
+
+def friction_by_loss(scene: Scene, strips: Strips) -> float:
+    """μ from the loss compliance, with rule and window of its own."""
+    contact = strips.contact
+    rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
+    total = float(loss(rule, scene.creep, contact).sum())
+    if contact.alpha.size > 1:
+        m, weights = _window(scene, smallest_gap(contact.eps, contact.alpha), CHECK.window)
+        n = strips.order
+        v = np.arange(1, n + 1)
+        table = bessel_j(n, np.multiply.outer(contact.alpha, m))[1:]
+        amplitude = np.einsum("lv,vlm->lm", 0.5 * v * contact.c * (-1j) ** ((v - 1) % 4), table) / m
+        wave = amplitude * np.exp(-1j * np.multiply.outer(contact.eps, m))
+        together = np.abs(wave.sum(axis=0)) ** 2 - np.sum(np.abs(wave) ** 2, axis=0)
+        total += float(np.sum(weights.imag * m * together))
+    return 2.0 * scene.problem.rho * total / strips.pressure
