@@ -26,6 +26,7 @@ from conveyor.errors import NoSolutionError
 _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
+_LAST_TRY = 64
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the largest mean pressure that ends on the roll is about {:.3g}"
 _LIMIT_GRID, _LIMIT_STEPS = 512, 24  # bisections of its logarithm over ten decades: 1e-6
@@ -72,7 +73,12 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
     while True:
         strips = settle(scene, n, centre, alpha, tight)
         if strips is None:
-            return None
+            # a low order may have no contact near the grid's
+            if n >= _LAST_TRY:
+                return None
+            centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
+            n, before = next_order(n, 0.0, rtol), None
+            continue
         error = 1.0
         if before is not None:
             scale = abs(strips.friction) if strips.friction else 1.0
@@ -97,7 +103,7 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
                     advice=remarks(strips.depth, pressing),
                 )
         before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
-        n = next_order(n, min(error, 0.9), rtol) if n > ORDERS[0] else ORDERS[1]
+        n = next_order(n, error if error < 1.0 else 0.0, rtol)
 
 
 def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) -> Found:
