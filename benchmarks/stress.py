@@ -48,18 +48,19 @@ def random_problem(rng: np.random.Generator) -> ContactProblem:
     def decades(low: float, high: float) -> float:
         return float(10.0 ** rng.uniform(low, high))
 
-    terms = int(rng.choice([0, 1, 1, 2, 5, 20]))
-    instantaneous = decades(-3.0, 0.0) if terms else 1.0
+    terms = int(rng.choice([0, 1, 1, 2, 5, 15, 60]))
+    instantaneous = decades(-6.0, 0.0) if terms else 1.0
     shares = rng.dirichlet(np.ones(terms)) if terms else np.empty(0)
+    centre, spread = rng.uniform(-12.0, 12.0), rng.uniform(0.0, 15.0)
+    times = 10.0 ** np.clip(centre + rng.uniform(-spread, spread, terms), -12.0, 12.0)
+    times[rng.random(terms) < 0.02] = 0.0
     support = str(rng.choice(["free", "confined", "half-space"]))
     return ContactProblem(
         support,
-        radius=min(decades(-3.0, -0.3), 0.5),
-        thickness=decades(-2.5, 1.5),
-        pressure=decades(-8.0, 0.0),
-        creep=CreepSpectrum(
-            instantaneous, (1.0 - instantaneous) * shares, 10.0 ** rng.uniform(-6.0, 6.0, terms)
-        ),
+        radius=min(decades(-4.0, -0.3), 0.5),
+        thickness=decades(-3.0, 3.0),
+        pressure=decades(-12.0, 0.0),
+        creep=CreepSpectrum(instantaneous, (1.0 - instantaneous) * shares, times),
         poisson=float(rng.uniform(0.0, 0.5)),
     )
 

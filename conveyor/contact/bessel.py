@@ -77,7 +77,7 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
         Highest order [-], at least 1.
     b : ndarray, shape (k, t)
         Half width over retardation length, α/ζ [-], positive.
-    weights : ndarray, shape (t,)
+    weights : ndarray, shape (t,) or (k, t)
         w_t.
 
     Returns
@@ -108,17 +108,20 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
     diagonal = 1.0 / (b * (r + k))
     twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
     delta = b * (r[1:] + 1.0 / k[:-1])
+    weights = np.broadcast_to(weights, b.shape)
     deficit = np.zeros((b.shape[0], order + 1))
-    deficit[:, 1:] = ((delta / (twice * (twice + delta))) @ weights).T
+    deficit[:, 1:] = np.einsum("vkt,kt->kv", delta / (twice * (twice + delta)), weights)
     log_i = np.zeros_like(r)
     np.cumsum(np.log(r[:-1]), axis=0, out=log_i[1:])
 
     wide = (log_i[-1] > -_LOG_RANGE).all(axis=0)
-    high = np.moveaxis(np.exp(log_i[..., wide]), 0, 2)
-    low = np.moveaxis(diagonal[..., wide] * np.exp(-log_i[..., wide]), 0, 1)
-    upper = np.triu((low * weights[wide]) @ high, 1)
-    if not wide.all():
-        narrow = diagonal[..., ~wide] * weights[~wide]
+    all_wide = bool(wide.all())
+    logs, scaled = (log_i, diagonal) if all_wide else (log_i[..., wide], diagonal[..., wide])
+    high = np.exp(logs)
+    low = scaled * (weights if all_wide else weights[:, wide]) / high
+    upper = np.triu(np.moveaxis(low, 0, 1) @ np.moveaxis(high, 0, 2), 1)
+    if not all_wide:
+        narrow = diagonal[..., ~wide] * weights[:, ~wide]
         logs = log_i[..., ~wide]
         for step in range(1, order + 1):
             ratio = np.exp(logs[step:] - logs[:-step])

@@ -23,7 +23,7 @@ _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
 _GAP_POINTS = 24
 
 
-def order_error(contact: Contact, matrix: Array, rho: float, exponent: Array | None) -> Array:
+def order_error(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> Array:
     """Relative error of friction by order, from the nested matrices of order n/2 and 3n/4 at the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
@@ -37,7 +37,7 @@ def order_error(contact: Contact, matrix: Array, rho: float, exponent: Array | N
         Contacts of the full order, batch of b.
     matrix : ndarray, shape (b, n+1, n)
         Their matrices.
-    rho : float
+    rho : float or ndarray, shape (b,)
         k R [-].
     exponent : ndarray, shape (b,), optional
         β.

@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-@lru_cache(maxsize=64)
+_NEGLIGIBLE = 39.2  # -ln 1e-17: coefficients beyond are rounding
+_SPARE = 8  # Chebyshev nodes beyond the coefficients, against aliasing
+_NEAR = 0.5  # of ρ: eccentricities within the rest are sought with few coefficients first
+_NEWTON_STEPS = 60
+
+
+@lru_cache(maxsize=256)
 def _cosines(count: int, half: int) -> tuple[Array, Array]:
     """Chebyshev nodes s > 0, shape (half,), and the cosine transform, shape (count, half)."""
     angle = (np.arange(half) + 0.5) * (0.5 * np.pi / half)
@@ -23,51 +29,123 @@ def _cosines(count: int, half: int) -> tuple[Array, Array]:
     return np.cos(angle), transform
 
 
-def slope_coefficients(alpha: Array, eps: Array, rho: float, count: int) -> tuple[Array, Array]:
-    """T_i coefficients of the slope w'(X) over the contact, and their derivative by ε.
+def _shown(nearest: float, count: int) -> int:
+    """How many of `count` coefficients exceed rounding; the slope's branch points lie at |s| = `nearest` > 1.
 
-    Even and odd parts are formed apart, so that a contact almost centred (ε → 0) keeps the relative precision of
-    its even coefficients.
+    Coefficients fall like (|s| + sqrt(s² - 1))^-i (Bernstein).
+    """
+    rate = np.arccosh(max(nearest, 1.0))
+    return count if rate * (count - 2) <= _NEGLIGIBLE else max(4, int(_NEGLIGIBLE / rate) + 2)
+
+
+def _parts(y: Array, e: Array, rho: Array) -> tuple[Array, Array, Array, Array]:
+    """Even and odd part of t/sqrt(1-t²) at t = (±y + e)/ρ, times two, and their derivatives by e.
+
+    Formed apart, so that a contact almost centred (e → 0) keeps the relative precision of its even part.
+    """
+    t1, t2 = (y + e) / rho, (y - e) / rho
+    c1, c2 = 1.0 - t1 * t1, 1.0 - t2 * t2
+    r1, r2 = 1.0 / np.sqrt(c1), 1.0 / np.sqrt(c2)
+    h1, h2 = t1 * r1, t2 * r2
+    odd = h1 + h2
+    # h1 - h2 without cancellation where both have one sign: (h1² - h2²)/(h1 + h2)
+    same = y > np.abs(e)
+    total = np.where(same, odd, 1.0)
+    even = np.where(same, 4.0 * y * e / (rho * rho * c1 * c2 * total), h1 - h2)
+    d1, d2 = r1 / (c1 * rho), r2 / (c2 * rho)
+    return even, odd, d1 + d2, d1 - d2
+
+
+def slope_coefficients(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
+    """T_i coefficients of the slope w'(X) over the contact.
 
     Parameters
     ----------
     alpha, eps : ndarray, shape (b,)
         Half width and eccentricity [-]; α + |ε| < ρ.
-    rho : float
+    rho : float or ndarray, shape (b,)
         k R [-].
     count : int
         Number of coefficients.
 
     Returns
     -------
-    ndarray, shape (b, count), twice
-        g_i and dg_i/dε.
+    ndarray, shape (b, count)
+        g_i.
     """
-    s, transform = _cosines(count, count + count % 2 + 8)
-    y = alpha[:, None] * s
-    e = eps[:, None]
-    t1, t2 = (y + e) / rho, (y - e) / rho
-    c1, c2 = 1.0 - t1 * t1, 1.0 - t2 * t2
-    h1, h2 = t1 / np.sqrt(c1), t2 / np.sqrt(c2)
-    # h1 - h2 without cancellation where both have one sign: (h1² - h2²)/(h1 + h2)
-    same = y > np.abs(e)
-    total = np.where(same, h1 + h2, 1.0)
-    even = np.where(same, 4.0 * y * e / (rho * rho * c1 * c2 * total), h1 - h2)
-    odd = h1 + h2
-    d1, d2 = c1**-1.5 / rho, c2**-1.5 / rho
-    scale = -0.5 / rho
-    value = np.empty((alpha.size, count))
-    slope = np.empty((alpha.size, count))
-    for start, part, change in ((0, even, d1 + d2), (1, odd, d1 - d2)):
-        kernel = transform[start::2].T * scale
-        value[:, start::2] = part @ kernel
-        slope[:, start::2] = change @ kernel
-    return value, slope
+    radius = np.broadcast_to(rho, alpha.shape)
+    few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
+    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
+    even, odd, _, _ = _parts(alpha[:, None] * s, eps[:, None], radius[:, None])
+    value = np.zeros((alpha.size, count))
+    for start, part in ((0, even), (1, odd)):
+        value[:, start:few:2] = (part @ (transform[start::2].T * -0.5)) / radius[:, None]
+    return value
 
 
-def mean_drop(alpha: Array, eps: Array, rho: float, points: int) -> Array:
+def eccentricity(
+    row: Array, alpha: Array, rho: Array | float, start: Array
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Row 0 of the Galerkin equations, Σ_v row_v g_v(ε) = g_0(ε), as one scalar Newton equation per contact.
+
+    Parameters
+    ----------
+    row : ndarray, shape (b, n)
+        Row 0 times the inverse of rows 1 … n.
+    alpha, start : ndarray, shape (b,)
+        Half widths and where to start [-].
+    rho : float or ndarray, shape (b,)
+        k R [-].
+
+    Returns
+    -------
+    eps : ndarray, shape (b,)
+    inside : ndarray of bool, shape (b,)
+        False where no eccentricity with α + |ε| < ρ was found.
+    """
+    radius = np.broadcast_to(rho, alpha.shape)
+    room = radius - alpha
+    fits = room > 0.0
+    room = np.where(fits, room, radius)
+    alpha = np.where(fits, alpha, 0.0)
+    eps = np.where(np.abs(start) < 0.9 * room, start, np.sign(start) * 0.9 * room)
+    count = row.shape[1] + 1
+    few = _shown(float((_NEAR * radius / np.maximum(alpha, np.finfo(float).tiny)).min()), count)
+    found, settled = _newton(row, (alpha, eps, radius), room, few)
+    if few < count and not (settled & (np.abs(found) <= (1.0 - _NEAR) * radius)).all():
+        found, settled = _newton(row, (alpha, eps, radius), room, count)
+    return found, settled & fits
+
+
+def _newton(
+    row: Array, place: tuple[Array, Array, Array], room: Array, few: int
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Newton on the first `few` coefficients; their sum is taken once, as weights of the transform's nodes."""
+    alpha, eps, radius = place
+    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
+    even_weights = row[:, 1 : few - 1 : 2] @ transform[2::2] - transform[0]
+    odd_weights = row[:, 0 : few - 1 : 2] @ transform[1::2]
+    y, radii = alpha[:, None] * s, radius[:, None]
+    settled = np.zeros(alpha.size, dtype=bool)
+    for _ in range(_NEWTON_STEPS):
+        even, odd, even_change, odd_change = _parts(y, eps[:, None], radii)
+        miss = np.einsum("bk,bk->b", even_weights, even) + np.einsum("bk,bk->b", odd_weights, odd)
+        rise = np.einsum("bk,bk->b", even_weights, even_change) + np.einsum(
+            "bk,bk->b", odd_weights, odd_change
+        )
+        target = eps - miss / rise
+        outside = np.abs(target) >= room
+        target = np.where(outside, 0.5 * (eps + np.sign(target) * room), target)
+        settled = ~outside & (np.abs(target - eps) <= 1e-13 * np.abs(target))
+        eps = target
+        if settled.all():
+            break
+    return eps, settled
+
+
+def mean_drop(alpha: Array, eps: Array, rho: Array | float, points: int) -> Array:
     """1 - v_0: T_0 coefficient over the contact of 1 - sqrt(1 - t²) = t²/(1 + sqrt(1 - t²)), shape (b,)."""
     s = np.cos((np.arange(points) + 0.5) * (np.pi / points))
-    t2 = ((alpha[:, None] * s + eps[:, None]) / rho) ** 2
+    t2 = ((alpha[:, None] * s + eps[:, None]) / np.broadcast_to(rho, alpha.shape)[:, None]) ** 2
     drop: Array = np.mean(t2 / (1.0 + np.sqrt(1.0 - t2)), axis=1)
     return drop

@@ -10,20 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.bessel import bessel_j, product_ik
-from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.spectral import Contact
 
 Array = NDArray[np.float64]
 
 
-def friction_by_loss(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
+def friction_by_loss(
+    rule: Rule, creep: CreepSpectrum | Creeps, contact: Contact, rho: Array | float
+) -> Array:
     """μ = τ̃_m/p̃_m from the loss compliance, shape (b,)."""
     friction: Array = 2.0 * rho * loss(rule, creep, contact) / contact.pressure
     return friction
 
 
-def loss(rule: Rule, creep: CreepSpectrum, contact: Contact) -> Array:
+def loss(rule: Rule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
     """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
     Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
@@ -32,10 +34,11 @@ def loss(rule: Rule, creep: CreepSpectrum, contact: Contact) -> Array:
     n = contact.c.shape[1]
     v = np.arange(1, n + 1)
     weighted = v * contact.c
-    table = bessel_j(n, np.multiply.outer(contact.alpha, rule.nodes))[1:]
+    table = bessel_j(n, contact.alpha[:, None] * rule.nodes)[1:]
     phase = (-1j) ** ((v - 1) % 4)
     spectrum = 0.5 * ((weighted * phase)[:, None] @ np.moveaxis(table, 0, 1))[:, 0] / rule.nodes
-    total: Array = np.einsum("bk,k->b", np.abs(spectrum) ** 2, rule.weights.imag * rule.nodes)
+    power = spectrum.real**2 + spectrum.imag**2
+    total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:
         products, deficit = product_ik(n, contact.alpha[:, None] / creep.times, creep.weights * creep.times)
         kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)

@@ -117,6 +117,31 @@ class CreepSpectrum:
         return out
 
 
+@dataclass(frozen=True, eq=False)
+class Creeps:
+    """Creep spectra of several scenes side by side (internal to the solver): terms of weight zero fill the gaps.
+
+    Shapes: `instantaneous` (b,), `weights` and `times` (b, t), every time positive.
+    """
+
+    instantaneous: Array
+    weights: Array
+    times: Array
+
+    def compliance(self, m: Array) -> NDArray[np.complex128]:
+        """j(m) of each scene at its wave numbers m, shape (b, k)."""
+        x = m[:, :, None] * self.times[:, None, :]
+        real = 1.0 / (1.0 + x * x)
+        out = np.empty(m.shape, dtype=complex)
+        out.real = (real @ self.weights[:, :, None])[..., 0] + self.instantaneous[:, None]
+        real *= x
+        out.imag = (real @ self.weights[:, :, None])[..., 0]
+        return out
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Creeps:
+        return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])
+
+
 @dataclass(frozen=True)
 class ContactProblem:
     """A viscoelastic layer rolling over periodic rigid cylinders, pressed on by a mean pressure.

@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.bessel import bessel_j, product_ik
-from conveyor.contact.circle import mean_drop, slope_coefficients
-from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients
+from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 
 Array = NDArray[np.float64]
-_NEWTON_STEPS = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +52,7 @@ def _signs(n: int) -> tuple[Array, Array, Array]:
     return real, imaginary, retarded
 
 
-def assemble(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int) -> Array:
+def assemble(rule: Rule, creep: CreepSpectrum | Creeps, alpha: Array, n: int) -> Array:
     """Galerkin matrix, rows T_0 … T_n, columns c_1 … c_n, shape (b, n+1, n).
 
     Matrices are nested: that of a lower order is a leading block.
@@ -61,25 +60,27 @@ def assemble(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int) -> Array:
     Parameters
     ----------
     rule : Rule
-        Nodes valid for the largest of `alpha`.
-    creep : CreepSpectrum
-        Every ζ_t positive.
+        Nodes valid for the largest of `alpha`; one for all, or one for each.
+    creep : CreepSpectrum or Creeps
+        Every ζ_t positive; one for all, or one for each.
     alpha : ndarray, shape (b,)
         Half widths k a [-].
     n : int
         Order, at least 2.
     """
     real, imaginary, retarded = _signs(n)
-    table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
+    table = np.moveaxis(bessel_j(n, alpha[:, None] * rule.nodes), 0, 1)
     even, odd = table[:, 0::2], table[:, 1::2]
+    dense, lossy = rule.weights.real[..., None, :], rule.weights.imag[..., None, :]
     gram = np.empty((alpha.size, n + 1, n + 1))  # i - v even: Re S, odd: Im S
-    gram[:, 0::2, 0::2] = (even * rule.weights.real) @ even.swapaxes(1, 2)
-    gram[:, 1::2, 1::2] = (odd * rule.weights.real) @ odd.swapaxes(1, 2)
-    gram[:, 0::2, 1::2] = (even * rule.weights.imag) @ odd.swapaxes(1, 2)
+    gram[:, 0::2, 0::2] = (even * dense) @ even.swapaxes(1, 2)
+    gram[:, 1::2, 1::2] = (odd * dense) @ odd.swapaxes(1, 2)
+    gram[:, 0::2, 1::2] = (even * lossy) @ odd.swapaxes(1, 2)
     gram[:, 1::2, 0::2] = gram[:, 0::2, 1::2].swapaxes(1, 2)
     matrix: Array = (real + imaginary) * gram[:, :, 1:]
     index = np.arange(n)
-    half_space = np.full((alpha.size, n), -creep.instantaneous)
+    half_space = np.zeros((alpha.size, n))
+    half_space -= np.asarray(creep.instantaneous)[..., None]
     if creep.weights.size:
         products, deficit = product_ik(n, alpha[:, None] / creep.times, creep.weights)
         matrix += products[:, :, 1:] * retarded
@@ -89,7 +90,7 @@ def assemble(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int) -> Array:
     return matrix
 
 
-def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = None) -> Contact:
+def equilibrium(matrix: Array, alpha: Array, rho: Array | float, eps: Array | None = None) -> Contact:
     """Pressure and eccentricity of contacts of given half width.
 
     Parameters
@@ -98,7 +99,7 @@ def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = Non
         From `assemble`, or a leading block of it.
     alpha : ndarray, shape (b,)
         Half widths [-].
-    rho : float
+    rho : float or ndarray, shape (b,)
         k R [-].
     eps : ndarray, shape (b,), optional
         Start of Newton's iteration; the parabola's eccentricity without it.
@@ -110,22 +111,22 @@ def equilibrium(matrix: Array, alpha: Array, rho: float, eps: Array | None = Non
     """
     inverse = np.asarray(np.linalg.inv(matrix[:, 1:, :]), dtype=np.float64)
     row = (matrix[:, :1, :] @ inverse)[:, 0]
-    eps, inside = _eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
+    eps, inside = eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
     safe = np.where(inside, alpha, 0.5 * rho)
     return figures(inverse, safe, np.where(inside, eps, 0.0), rho, inside)
 
 
 def figures(
-    inverse: Array, alpha: Array, eps: Array, rho: float, inside: NDArray[np.bool_] | None = None
+    inverse: Array, alpha: Array, eps: Array, rho: Array | float, inside: NDArray[np.bool_] | None = None
 ) -> Contact:
     """Coefficients, load and friction of contacts of known place; `inverse` is that of rows 1 … n, shape (b, n, n)."""
     n = inverse.shape[1]
-    slope, _ = slope_coefficients(alpha, eps, rho, n + 2)
+    slope = slope_coefficients(alpha, eps, rho, n + 2)
     contact = pressed((inverse @ slope[:, 1 : n + 1, None])[..., 0], slope, (alpha, eps), rho)
     return contact if inside is None else replace(contact, inside=inside)
 
 
-def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: float) -> Contact:
+def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
     """Load and friction of contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
     n = c.shape[1]
@@ -139,30 +140,6 @@ def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: float) -> C
         friction=-0.5 * rho * work / c[:, 0],
         inside=np.ones(alpha.size, dtype=bool),
     )
-
-
-def _eccentricity(row: Array, alpha: Array, rho: float, start: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Row 0 as one scalar equation in ε per contact: Newton, kept inside α + |ε| < ρ."""
-    room = rho - alpha
-    fits = room > 0.0
-    room = np.where(fits, room, rho)
-    alpha = np.where(fits, alpha, 0.0)
-    eps = np.where(np.abs(start) < 0.9 * room, start, np.sign(start) * 0.9 * room)
-    n = row.shape[1]
-    settled = np.zeros(alpha.size, dtype=bool)
-    for _ in range(_NEWTON_STEPS):
-        g, dg = slope_coefficients(alpha, eps, rho, n + 2)
-        step = (np.einsum("bv,bv->b", row, g[:, 1 : n + 1]) - g[:, 0]) / (
-            dg[:, 0] - np.einsum("bv,bv->b", row, dg[:, 1 : n + 1])
-        )
-        target = eps + step
-        outside = np.abs(target) >= room
-        target = np.where(outside, 0.5 * (eps + np.sign(target) * room), target)
-        settled = ~outside & (np.abs(target - eps) <= 1e-13 * np.abs(target))
-        eps = target
-        if settled.all() or not (settled | fits).any():
-            break
-    return eps, settled & fits
 
 
 def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:

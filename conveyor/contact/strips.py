@@ -123,7 +123,7 @@ class _Places:
         self.rule: Rule = scene.rule(float(alpha.max()))
         own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
         scene.matrices += k * count
-        slope, _ = slope_coefficients(alpha.ravel(), centre.ravel(), rho, n + 2)
+        slope = slope_coefficients(alpha.ravel(), centre.ravel(), rho, n + 2)
         self.slope = slope.reshape(k, count, n + 2)
         full = np.zeros((k, count, n + 1, count, n))
         heights = np.zeros((k, count, count, n))
