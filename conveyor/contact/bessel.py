@@ -6,22 +6,28 @@ Sources: Abramowitz & Stegun 9.1.27 (J recurrence), 9.6.26 (I, K recurrences); A
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
 Array = NDArray[np.float64]
 
-_LOG_RANGE = 600.0  # e^600 = 1e260 is within double range
+_FAR_DOWN = 2
+_SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
-_LARGEST_SCALED_I = 1e8  # beyond it the uniform start of Amos is exact to 1e-15 and AMOS' `ive` loses digits
+_UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
+_DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
 
 
 def bessel_j(order: int, x: Array) -> Array:
     """Table of J_0 … J_order.
 
-    Orders above x come from the ratio J_{v+1}/J_v (backward recurrence, stable there), orders below x from the
-    forward recurrence, so values may underflow to zero but never overflow.
+    Where no argument lies far above the order: J_v = (x/2)^v/v! f_v, f_{v-1} = f_v - (x/2)²/(v(v+1)) f_{v+1} downward
+    (stable, and f stays near one for small x), scaled by the larger of J_0 and J_1. Else orders above x come from the
+    ratio J_{v+1}/J_v (backward recurrence), orders below x from the forward recurrence. Values may underflow to zero
+    but never overflow.
 
     Parameters
     ----------
@@ -40,6 +46,34 @@ def bessel_j(order: int, x: Array) -> Array:
     >>> bessel_j(2, np.array([1.0]))[:, 0].round(12).tolist()
     [0.765197686558, 0.440050585745, 0.114903484932]
     """
+    top = float(x.max(initial=0.0))
+    # f_start = 1 is forgotten where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
+    start = max(order + 6, int(top + 6.0 * top ** (1.0 / 3.0)) + 2)
+    return _downward(order, start, x) if start <= _FAR_DOWN * order + 40 else _by_ratios(order, x)
+
+
+def _downward(order: int, start: int, x: Array) -> Array:
+    quarter = 0.25 * x * x
+    above, level = np.ones_like(x), np.ones_like(x)
+    table = np.empty((order + 1, *x.shape))
+    work = np.empty_like(x)
+    for v in range(start, 0, -1):
+        np.multiply(quarter, 1.0 / (v * (v + 1.0)), out=work)
+        work *= above
+        above = level
+        level = np.subtract(level, work, out=table[v - 1] if v <= order + 1 else np.empty_like(x))
+    half = 0.5 * x
+    first, second = special.j0(x), special.j1(x)
+    larger = np.abs(first) > np.abs(second)
+    scale = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
+    for v in range(order + 1):
+        table[v] *= scale
+        scale = scale * half
+        scale *= 1.0 / (v + 1.0)
+    return table
+
+
+def _by_ratios(order: int, x: Array) -> Array:
     flat = x.ravel()
     rank = np.argsort(flat, kind="stable")
     sorted_x = flat[rank]
@@ -68,6 +102,11 @@ def bessel_j(order: int, x: Array) -> Array:
     return out.reshape((order + 1, *x.shape))
 
 
+@lru_cache(maxsize=32)
+def _above_diagonal(size: int) -> Array:
+    return np.triu(np.ones((size, size)), 1)
+
+
 def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
     """Weighted sum over retardation terms of the half-space's Bessel products, Σ_t w_t I_max(b_t) K_min(b_t).
 
@@ -91,8 +130,8 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
     -----
     With r_v = I_{v+1}/I_v and k_v = K_{v+1}/K_v: I_v K_v = 1/(b (r_v + k_v)) (Wronskian, A&S 9.6.15) and
     b (r_v + k_v) = 2v + b (r_v + 1/k_{v-1}), so the deficit is δ/(2v (2v + δ)), δ = b (r_v + 1/k_{v-1}).
-    I_hi/I_lo = exp(l_hi - l_lo), l the summed logarithms of r. Where l spans less than 600 the sum over terms is a
-    matrix product of exp(l_hi) and exp(-l_lo); for smaller b the products die out within a few diagonals.
+    I_hi/I_lo = P_hi/P_lo, P_v the product of the ratios r up to v. Where P stays above 1e-260 the sum over terms is a
+    matrix product of P_hi and 1/P_lo; for smaller b the products die out within a few diagonals.
 
     Examples
     --------
@@ -111,18 +150,23 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
     weights = np.broadcast_to(weights, b.shape)
     deficit = np.zeros((b.shape[0], order + 1))
     deficit[:, 1:] = np.einsum("vkt,kt->kv", delta / (twice * (twice + delta)), weights)
-    log_i = np.zeros_like(r)
-    np.cumsum(np.log(r[:-1]), axis=0, out=log_i[1:])
+    high = np.ones_like(r)  # I_v/I_0
+    np.cumprod(r[:-1], axis=0, out=high[1:])
 
-    wide = (log_i[-1] > -_LOG_RANGE).all(axis=0)
+    wide = (high[-1] > _SMALLEST).all(axis=0)
     all_wide = bool(wide.all())
-    logs, scaled = (log_i, diagonal) if all_wide else (log_i[..., wide], diagonal[..., wide])
-    high = np.exp(logs)
-    low = scaled * (weights if all_wide else weights[:, wide]) / high
-    upper = np.triu(np.moveaxis(low, 0, 1) @ np.moveaxis(high, 0, 2), 1)
+    if all_wide:
+        low = diagonal * weights / high
+    else:
+        low = diagonal[..., wide] * weights[:, wide] / high[..., wide]
+        high = high[..., wide]
+    # contiguous, or the product is not left to BLAS
+    left, right = np.ascontiguousarray(np.moveaxis(low, 0, 1)), np.ascontiguousarray(np.moveaxis(high, 0, 1))
+    upper = (left @ right.swapaxes(1, 2)) * _above_diagonal(order + 1)
     if not all_wide:
         narrow = diagonal[..., ~wide] * weights[:, ~wide]
-        logs = log_i[..., ~wide]
+        logs = np.zeros_like(diagonal[..., ~wide])
+        np.cumsum(np.log(r[:-1, :, ~wide]), axis=0, out=logs[1:])
         for step in range(1, order + 1):
             ratio = np.exp(logs[step:] - logs[:-step])
             if float(ratio.max()) < _NEGLIGIBLE:
@@ -133,17 +177,29 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
 
 
 def _ratio_i(order: int, b: Array) -> Array:
-    """I_{v+1}(b)/I_v(b), shape (order + 1, ...): backward continued fraction from order + 24."""
-    start = order + 24  # damps the start value by (1 + sqrt 2)^-48 = 1e-18 for b <= order
-    r = b / (start + 0.5 + np.hypot(start + 1.5, b))
-    wide = (b > order) & (b < _LARGEST_SCALED_I)
-    if wide.any():
-        r[wide] = special.ive(start + 1, b[wide]) / special.ive(start, b[wide])
-    out = np.empty((order + 1, *b.shape))
+    """I_{v+1}(b)/I_v(b), shape (order + 1, ...).
+
+    Continued fraction downward from Amos' bound, whose error is damped by (I_start/I_order)² = exp(-(start²-order²)/b);
+    where b is so large that this takes long, the recurrence upward from I_1/I_0, which grows rounding by
+    exp(order²/b) only.
+    """
+    far = max(_UPWARD * order * order, 1.0)
+    upward = b > far
+    longest = min(float(b.max(initial=0.0)), far)
+    start = order + 6 + int(np.sqrt(order * order + _DAMPED * longest) - order)
     two_over_b = 2.0 / b
+    r = b / (start + 0.5 + np.hypot(start + 1.5, b))
+    out = np.empty((order + 1, *b.shape))
     for v in range(start, 0, -1):
         if v <= order:
             out[v] = r
         r = 1.0 / (v * two_over_b + r)
     out[0] = r
+    if upward.any():
+        step = two_over_b[upward]
+        rising = special.i1e(b[upward]) / special.i0e(b[upward])
+        out[0][upward] = rising
+        for v in range(1, order + 1):
+            rising = 1.0 / rising - v * step
+            out[v][upward] = rising
     return out

@@ -95,13 +95,19 @@ class Sign(Enum):
 
 def sign(contact: Contact, rtol: float) -> Sign:
     """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against the tail of its series."""
+    pulling, pressing = pulling_and_pressing(contact, rtol)
+    if pressing.all():
+        return Sign.PRESSING
+    return Sign.PULLING if pulling.any() else Sign.UNDECIDED
+
+
+def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which contacts are PULLING and which PRESSING, shape (b,) twice."""
     p = contact.c @ _sines(contact.c.shape[1]).T
     highest = p.max(axis=1)
     negative = -p.min(axis=1) / highest
     tail = np.abs(contact.c[:, -(contact.c.shape[1] // 4) :]).sum(axis=1) / highest
-    if np.all(negative <= rtol):
-        return Sign.PRESSING
-    return Sign.PULLING if np.any(negative > np.maximum(_TAILS * tail, rtol)) else Sign.UNDECIDED
+    return negative > np.maximum(_TAILS * tail, rtol), negative <= rtol
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
@@ -116,5 +122,5 @@ def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
     starts, ends = np.append(-rho, high), np.append(low, rho)
     x = (starts[:, None] + place * (ends - starts)[:, None]).ravel()
     roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0))
-    gap = SpectralFields(scene.problem.layer, scene.creep, contact).outside(x, _GAP_REACH) - roll
+    gap = SpectralFields(scene.problem.layer, scene.creep, contact, rho).outside(x, _GAP_REACH) - roll
     return bool(gap.min() < -_GAP_TOLERANCE * abs(depth))

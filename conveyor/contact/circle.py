@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 _NEGLIGIBLE = 39.2  # -ln 1e-17: coefficients beyond are rounding
-_SPARE = 8  # Chebyshev nodes beyond the coefficients, against aliasing
+_SPARE = 4  # Chebyshev nodes beyond the coefficients, against aliasing
 _NEAR = 0.5  # of ρ: eccentricities within the rest are sought with few coefficients first
 _NEWTON_STEPS = 60
 

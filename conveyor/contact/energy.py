@@ -12,20 +12,21 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import bessel_j, product_ik
 from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
+from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.spectral import Contact
 
 Array = NDArray[np.float64]
 
 
 def friction_by_loss(
-    rule: Rule, creep: CreepSpectrum | Creeps, contact: Contact, rho: Array | float
+    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact, rho: Array | float
 ) -> Array:
     """μ = τ̃_m/p̃_m from the loss compliance, shape (b,)."""
     friction: Array = 2.0 * rho * loss(rule, creep, contact) / contact.pressure
     return friction
 
 
-def loss(rule: Rule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
+def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
     """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
     Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
@@ -44,5 +45,5 @@ def loss(rule: Rule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
         kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)
         index = np.arange(n)
         kernel[:, index, index] = deficit[:, 1:]
-        total += 0.25 * np.einsum("bv,bvu,bu->b", weighted, kernel, weighted, optimize=True)
+        total += 0.25 * np.sum((kernel @ weighted[:, :, None])[:, :, 0] * weighted, axis=1)
     return total

@@ -13,8 +13,8 @@ from conveyor.contact.bessel import bessel_j
 from conveyor.contact.grid import GridContact
 from conveyor.contact.layers import Layer
 from conveyor.contact.problem import CreepSpectrum
-from conveyor.contact.quadrature import series_rule
-from conveyor.contact.spectral import Contact
+from conveyor.contact.quadrature import build_rule, series_rule
+from conveyor.contact.spectral import Contact, penetration
 
 Array = NDArray[np.float64]
 
@@ -36,14 +36,29 @@ class Fields(Protocol):
     def peak(self) -> float:
         """Largest p̃."""
 
+    def depth(self) -> float:
+        """Δ/R."""
+
 
 @dataclass(frozen=True, eq=False)
 class SpectralFields:
-    """Fields of one or more strips from their Chebyshev coefficients; `contact.eps` holds the strips' centres."""
+    """Fields of one or more strips from their Chebyshev coefficients; `contact.eps` holds the strips' centres.
+
+    `known_depth` is Δ/R where the solve had to know it.
+    """
 
     layer: Layer
     creep: CreepSpectrum
     contact: Contact
+    rho: float
+    known_depth: float | None = None
+
+    def depth(self) -> float:
+        """Δ/R, formed now unless known."""
+        if self.known_depth is not None:
+            return self.known_depth
+        rule = build_rule(self.layer, self.creep, float(self.contact.alpha[0]))
+        return float(penetration(rule, self.creep, self.contact, self.rho)[0])
 
     def pressure(self, x: Array) -> Array:
         """Sum over the strips of p̃ = Σ c_v sin(vθ), X = X_l + α_l cos θ."""
@@ -93,6 +108,10 @@ class GridFields:
     def peak(self) -> float:
         """Largest pressure of a node."""
         return float(self.grid.pressure.max())
+
+    def depth(self) -> float:
+        """Δ/R."""
+        return self.grid.depth
 
 
 def peak(c: Array) -> Array:

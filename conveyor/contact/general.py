@@ -48,7 +48,7 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
                 break
             raise
         if grids[-1].at_roll_end and doubling >= _WRAP_LEVEL:
-            return Outcome(Status.WRAP_LIMIT, grid=points, advice=(_limit(scene),))
+            return Outcome(Status.WRAP_LIMIT, grid=points, remarks=(_limit(scene),))
         if doubling >= _FIRST_POLISH and _seen(grids[-1]) and len(grids[-1].strips) == len(grids[-2].strips):
             outcome = _polished(scene, grids[-1], rtol)
             if outcome is not None:
@@ -94,13 +94,15 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
             if (error <= rtol and decided) or n == ORDERS[-1]:
                 if overlaps(scene, strips.contact, strips.depth):
                     return None
-                fields = SpectralFields(scene.problem.layer, scene.creep, strips.contact)
+                fields = SpectralFields(
+                    scene.problem.layer, scene.creep, strips.contact, scene.problem.rho, strips.depth
+                )
                 return Outcome(
                     status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
                     found=_found(strips, fields, error, energy),
                     order=n,
                     grid=grid.points,
-                    advice=remarks(strips.depth, pressing),
+                    remarks=remarks(pressing),
                 )
         before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
         n = next_order(n, error if error < 1.0 else 0.0, rtol)
@@ -118,7 +120,6 @@ def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) 
         half_width=float(contact.alpha[0]) if alone else 0.5 * (high - low),
         centre=float(contact.eps[0]) if alone else 0.5 * (high + low),
         strips=edges,
-        penetration=strips.depth,
         energy_error=energy,
         error_estimate=error,
         fields=fields,
@@ -141,13 +142,12 @@ def _on_grid(grids: list[GridContact], rtol: float) -> Outcome:
             half_width=0.5 * (high - low),
             centre=0.5 * (high + low),
             strips=grid.strips,
-            penetration=grid.depth,
             energy_error=energy,
             error_estimate=error,
             fields=GridFields(grid),
         ),
         grid=grid.points,
-        advice=(*remarks(grid.depth, Sign.PRESSING), _ON_GRID.format(grid.points)),
+        remarks=(_ON_GRID.format(grid.points),),
     )
 
 

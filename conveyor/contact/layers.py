@@ -84,6 +84,33 @@ class Confined:
         return confined_symbol(m * self.thickness, self.poisson) * creep.compliance(m)
 
 
+@dataclass(frozen=True, eq=False)
+class Layers:
+    """Layers of one kind side by side (internal to the solver); `thickness` k h and `poisson` of shape (b,)."""
+
+    support: str
+    thickness: Array
+    poisson: Array
+
+    def reach(self, depth: float) -> Array:
+        """Wave numbers beyond q = m k h = `depth`, shape (b,); zero for the half-space."""
+        return np.zeros(self.thickness.size) if self.support == "half-space" else depth / self.thickness
+
+    def factor(self, m: Array) -> Array:
+        """L(m k h), shape (b, k)."""
+        if self.support == "half-space":
+            return np.ones((self.thickness.size, m.shape[1]))
+        q = m * self.thickness[:, None]
+        return free_symbol(q) if self.support == "free" else confined_symbol(q, self.poisson[:, None])
+
+    def factor_less_one(self, m: Array) -> Array:
+        """L(m k h) - 1, shape (b, k)."""
+        return self.factor(m) - 1.0
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Layers:
+        return Layers(self.support, self.thickness[chosen], self.poisson[chosen])
+
+
 def free_symbol(q: Array) -> Array:
     """L(q) = (sinh 2q + 2q)/(cosh 2q - 1 - 2q²); 6/q³ (Kirchhoff plate) for q → 0, 1 for q → ∞.
 
@@ -105,7 +132,7 @@ def free_symbol(q: Array) -> Array:
     return numerator / (2.0 * _sinh_minus_scaled(q) * grown)
 
 
-def confined_symbol(q: Array, poisson: float = 0.5) -> Array:
+def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:
     """L(q) = (2κ sinh 2q - 4q)/(2κ cosh 2q + 4q² + 1 + κ²), κ = 3 - 4ν; 2q³/3 (ν = ½) for q → 0, 1 for q → ∞.
 
     Parameters

@@ -15,6 +15,15 @@ from conveyor.contact.spectral import Contact, assemble, penetration
 Array = NDArray[np.float64]
 
 
+def instantly_relaxed(creep: CreepSpectrum) -> CreepSpectrum:
+    """The same creep with the terms of ζ = 0 in the instantaneous compliance."""
+    lasting = creep.times > 0.0
+    if lasting.all():
+        return creep
+    relaxed = creep.instantaneous + float(creep.weights[~lasting].sum())
+    return CreepSpectrum(relaxed, creep.weights[lasting], creep.times[lasting])
+
+
 @dataclass
 class Scene:
     """A problem while it is solved: creep as the solver sees it, quadrature rules made once, counters.
@@ -31,12 +40,7 @@ class Scene:
     @classmethod
     def of(cls, problem: ContactProblem, depth: float | None = None) -> Scene:
         """Scene of a problem; terms with ζ = 0 are instantaneous."""
-        given = problem.creep
-        lasting = given.times > 0.0
-        relaxed = given.instantaneous + float(given.weights[~lasting].sum())
-        if lasting.all():
-            return cls(problem, given, depth)
-        return cls(problem, CreepSpectrum(relaxed, given.weights[lasting], given.times[lasting]), depth)
+        return cls(problem, instantly_relaxed(problem.creep), depth)
 
     @property
     def target(self) -> float:

@@ -17,9 +17,8 @@ LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
-_WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
+WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
-_DEEP = "the penetration is {:.2f} R, far outside small strain"
 
 
 def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
@@ -33,9 +32,11 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
     if pressing is Sign.PULLING:
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
-    depth = float(penetration(scene.rule(alpha), scene.creep, contact, rho)[0])
-    if alpha + abs(eps) > _WRAPPED * rho and overlaps(scene, contact, depth):
-        return None
+    depth = None
+    if alpha + abs(eps) > WRAPPED * rho:
+        depth = float(penetration(scene.rule(alpha), scene.creep, contact, rho)[0])
+        if overlaps(scene, contact, depth):
+            return None
     estimate = max(error, ROUNDING)
     return Outcome(
         status=Status.OK if estimate <= rtol else Status.NOT_CONVERGED,
@@ -45,22 +46,18 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
             half_width=alpha,
             centre=eps,
             strips=np.array([[eps - alpha, eps + alpha]]),
-            penetration=depth,
             energy_error=energy,
             error_estimate=estimate,
-            fields=SpectralFields(scene.problem.layer, scene.creep, contact),
+            fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
         order=state.order,
-        advice=remarks(depth, pressing),
+        remarks=remarks(pressing),
     )
 
 
-def remarks(depth: float, pressing: Sign) -> tuple[str, ...]:
-    """What a reader of the solution must know of its validity."""
-    advice = [_DEEP.format(depth)] if depth > 1.0 else []
-    if pressing is Sign.UNDECIDED:
-        advice.append(_EDGE_LAYER)
-    return tuple(advice)
+def remarks(pressing: Sign) -> tuple[str, ...]:
+    """What a reader of the solution must know of its pressure."""
+    return (_EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
 def _converged(scene: Scene, rtol: float) -> tuple[State, float, float] | None:

@@ -15,6 +15,8 @@ from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
 
+_DEEP = "the penetration is {:.2f} R, far outside small strain"
+
 
 @dataclass(frozen=True)
 class SolveStats:
@@ -36,7 +38,6 @@ class Found:
     half_width: float
     centre: float
     strips: Array
-    penetration: float
     energy_error: float
     error_estimate: float
     fields: Fields
@@ -50,7 +51,10 @@ class Outcome:
     found: Found | None = None
     order: int = 0
     grid: int = 0
-    advice: tuple[str, ...] = ()
+    matrices: int = 0
+    nodes: int = 0
+    terms: int = 0
+    remarks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +70,6 @@ class ContactSolution:
         What was solved.
     status : Status
         Why the solve stopped.
-    advice : tuple of str
-        Remarks on validity, e.g. a penetration beyond small strain.
     stats : SolveStats
         What it cost.
     """
@@ -75,13 +77,20 @@ class ContactSolution:
     problem: ContactProblem
     status: Status
     stats: SolveStats
-    advice: tuple[str, ...] = ()
+    _remarks: tuple[str, ...] = ()
     _found: Found | None = field(default=None, repr=False)
 
     def _need(self) -> Found:
         if self._found is None:
             raise NoSolutionError(self.message)
         return self._found
+
+    @cached_property
+    def advice(self) -> tuple[str, ...]:
+        """Remarks on validity, e.g. a penetration beyond small strain."""
+        if self._found is None or self.penetration <= 1.0:
+            return self._remarks
+        return (_DEEP.format(self.penetration), *self._remarks)
 
     @property
     def message(self) -> str:
@@ -108,10 +117,10 @@ class ContactSolution:
         """(a + |e|)/R [-], the edge farther from the roll's crown."""
         return self.half_width + abs(self.eccentricity)
 
-    @property
+    @cached_property
     def penetration(self) -> float:
         """Δ/R [-]: mean line of the deformed surface to the roll's crown."""
-        return self._need().penetration
+        return self._need().fields.depth()
 
     @property
     def mean_shift(self) -> float:
@@ -178,7 +187,7 @@ class ContactSolution:
         touching = ((at[..., None] >= self.patches[:, 0]) & (at[..., None] <= self.patches[:, 1])).any(
             axis=-1
         )
-        out = np.asarray(found.penetration - 1.0 + np.sqrt(1.0 - np.where(touching, at, 0.0) ** 2))
+        out = np.asarray(self.penetration - 1.0 + np.sqrt(1.0 - np.where(touching, at, 0.0) ** 2))
         out[~touching] = found.fields.outside(at[~touching] * self.problem.rho)
         return out
 

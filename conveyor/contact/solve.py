@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.contact.general import by_strips
+from conveyor.contact.narrow import solve_narrow
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import RuleTooLongError
 from conveyor.contact.scene import Scene
@@ -51,7 +52,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     >>> round(s.friction, 8), s.status.name
     (0.28505539, 'OK')
     """
-    return _solved(Scene.of(problem), rtol, throw)
+    return solve_many([problem], rtol, throw=throw)[0]
 
 
 def solve_penetration(
@@ -90,35 +91,58 @@ def solve_penetration(
     """
     if not (math.isfinite(penetration) and penetration > 0.0):
         raise InputError(f"penetration = {penetration!r}: Δ/R is finite and positive")
+    _within(rtol)
     return _solved(Scene.of(problem, depth=penetration), rtol, throw)
-
-
-def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:
-    if not 1e-12 <= rtol <= 1e-2:
-        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")
-    try:
-        outcome = by_half_width(scene, rtol) or by_strips(scene, rtol)
-    except RuleTooLongError:
-        outcome = Outcome(Status.TOO_THIN)
-    problem = scene.problem
-    if scene.depth is not None and outcome.found is not None:
-        problem = replace(problem, pressure=outcome.found.mean_pressure)
-    rule = scene.rules.get("solve")
-    stats = SolveStats(
-        order=outcome.order,
-        matrices=scene.matrices,
-        nodes=rule.nodes.size if rule else 0,
-        terms=scene.creep.weights.size,
-        grid=outcome.grid,
-    )
-    solution = ContactSolution(problem, outcome.status, stats, outcome.advice, outcome.found)
-    if throw and solution.status is not Status.OK:
-        raise NoSolutionError(solution.message)
-    return solution
 
 
 def solve_many(
     problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
 ) -> list[ContactSolution]:
-    """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised."""
-    return [solve(problem, rtol, throw=throw) for problem in problems]
+    """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised.
+
+    Narrow contacts, those of conveyors, are solved side by side: scenes of one support share every step.
+
+    Raises
+    ------
+    InputError
+        rtol outside its range.
+    NoSolutionError
+        As `solve`, of the first scene without an answer (throw=True).
+    """
+    _within(rtol)
+    return [
+        _solution(problem, outcome, throw) if outcome is not None else _solved(Scene.of(problem), rtol, throw)
+        for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
+    ]
+
+
+def _within(rtol: float) -> None:
+    if not 1e-12 <= rtol <= 1e-2:
+        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")
+
+
+def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:
+    """One strip by its half width; any number of strips where that is not the answer."""
+    try:
+        outcome = by_half_width(scene, rtol) or by_strips(scene, rtol)
+    except RuleTooLongError:
+        outcome = Outcome(Status.TOO_THIN)
+    rule = scene.rules.get("solve")
+    outcome = replace(
+        outcome,
+        matrices=scene.matrices,
+        nodes=rule.nodes.size if rule else 0,
+        terms=scene.creep.weights.size,
+    )
+    problem = scene.problem
+    if scene.depth is not None and outcome.found is not None:
+        problem = replace(problem, pressure=outcome.found.mean_pressure)
+    return _solution(problem, outcome, throw)
+
+
+def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:
+    stats = SolveStats(outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid)
+    solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
+    if throw and solution.status is not Status.OK:
+        raise NoSolutionError(solution.message)
+    return solution

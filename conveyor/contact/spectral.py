@@ -21,6 +21,7 @@ from conveyor.contact.bessel import bessel_j, product_ik
 from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients
 from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
+from conveyor.contact.short_rule import ShortRule
 
 Array = NDArray[np.float64]
 
@@ -52,14 +53,14 @@ def _signs(n: int) -> tuple[Array, Array, Array]:
     return real, imaginary, retarded
 
 
-def assemble(rule: Rule, creep: CreepSpectrum | Creeps, alpha: Array, n: int) -> Array:
+def assemble(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array, n: int) -> Array:
     """Galerkin matrix, rows T_0 … T_n, columns c_1 … c_n, shape (b, n+1, n).
 
     Matrices are nested: that of a lower order is a leading block.
 
     Parameters
     ----------
-    rule : Rule
+    rule : Rule or ShortRule
         Nodes valid for the largest of `alpha`; one for all, or one for each.
     creep : CreepSpectrum or Creeps
         Every ζ_t positive; one for all, or one for each.

@@ -41,7 +41,8 @@ def test_j_table_keeps_the_shape_and_any_order_of_arguments():
     assert table.shape == (7, 3, 2)
     for row, column in np.ndindex(3, 2):
         single = bessel_j(6, x[row, column : column + 1])[:, 0]
-        np.testing.assert_array_equal(table[:, row, column], single)
+        # the start of the recurrence depends on the largest argument of the batch: rounding differs
+        np.testing.assert_allclose(table[:, row, column], single, rtol=0, atol=1e-15)
 
 
 def test_j_squares_add_to_one():

@@ -1,0 +1,314 @@
+"""Narrow contacts, many scenes at once: what real conveyors are, without a Python loop over scenes.
+
+One strip by its half width, as in single.py, with stacked linear algebra and the short rules: the half width is found
+at order 8 and closed at the order that meets rtol. Whatever is not plainly a narrow single strip (wide or wrapped
+contacts, pressure that may turn negative, orders above 48, extremely thin layers) is handed back as None for the
+general ways.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.checks import (
+    ENERGY_OVER_ERROR,
+    order_error,
+    pulling_and_pressing,
+    relative_difference,
+)
+from conveyor.contact.energy import friction_by_loss
+from conveyor.contact.fields import SpectralFields
+from conveyor.contact.layers import Layers
+from conveyor.contact.problem import ContactProblem, Creeps, CreepSpectrum, Status
+from conveyor.contact.scene import instantly_relaxed
+from conveyor.contact.short_rule import (
+    COARSE,
+    COARSE_FROM,
+    FINE,
+    WIDEST,
+    ShortRule,
+    panels_beyond,
+    short_rule,
+)
+from conveyor.contact.single import LOAD_FLOOR, ROUNDING, WRAPPED
+from conveyor.contact.solution import Found, Outcome
+from conveyor.contact.spectral import Contact, assemble, equilibrium
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int_]
+
+_SEARCH, _ORDERS = 8, (16, 24, 32, 48)
+_LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
+_SAMPLES, _RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
+_OUTSIDE = 1.3  # of that range: farther, the guess was wrong
+_ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
+_NEWTON_STEPS = 5
+_CLOSING_STEPS = 5
+_LOAD_SHARE = 0.1  # of rtol: mismatch of load that may be left; friction feels a third of it
+_TIMES = 1e100  # squares of larger retardation numbers overflow
+_MOST_PANELS = 12
+_CHUNK = 64  # scenes whose tables stay in the processor's cache
+_GUESSES = 14
+_GUESS = 1.15  # of the Hertz guess: the middle of 1,000 conveyor contacts
+
+
+@dataclass(eq=False)
+class _Group:
+    """Scenes of one support side by side, and what is known of each."""
+
+    problems: list[ContactProblem]
+    given: list[CreepSpectrum]  # as the solver sees them: terms without time are instantaneous
+    layers: Layers
+    creeps: Creeps
+    rho: Array
+    target: Array
+
+    @classmethod
+    def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> _Group:
+        terms = max([1, *(creep.weights.size for creep in given)])
+        weights, times = np.zeros((len(given), terms)), np.ones((len(given), terms))
+        for row, creep in enumerate(given):
+            weights[row, : creep.weights.size] = creep.weights
+            times[row, : creep.times.size] = creep.times
+        support = str(problems[0].support)
+        return cls(
+            problems,
+            given,
+            Layers(
+                "half-space" if np.isinf(problems[0].thickness) else support,
+                np.array([p.thickness for p in problems]),
+                np.array([p.poisson for p in problems]),
+            ),
+            Creeps(np.array([c.instantaneous for c in given]), weights, times),
+            np.array([p.rho for p in problems]),
+            np.log([p.pressure for p in problems]),
+        )
+
+    def __getitem__(self, chosen: Index) -> _Group:
+        return _Group(
+            [self.problems[i] for i in chosen],
+            [self.given[i] for i in chosen],
+            self.layers[chosen],
+            self.creeps[chosen],
+            self.rho[chosen],
+            self.target[chosen],
+        )
+
+
+def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | None]:
+    """Outcome of every scene that is a plain narrow contact, None of the others; in their order."""
+    outcomes: list[Outcome | None] = [None] * len(problems)
+    kinds: dict[tuple[str, bool], list[int]] = {}
+    creeps = [instantly_relaxed(p.creep) for p in problems]
+    for i, problem in enumerate(problems):
+        if isinstance(problem.support, str) and creeps[i].times.max(initial=0.0) < _TIMES:
+            kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
+    grades = COARSE if rtol >= COARSE_FROM else FINE
+    for members in kinds.values():
+        group = _Group.of([problems[i] for i in members], [creeps[i] for i in members])
+        alpha = _guess(group)
+        half_width = _ROOM * alpha
+        panels = panels_beyond(group.layers.reach(grades[0].depth), half_width, grades[0])
+        fits = np.flatnonzero(
+            (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
+        )
+        fits = fits[np.lexsort((half_width[fits], panels[fits]))]
+        for start in range(0, fits.size, _CHUNK):
+            chosen = fits[start : start + _CHUNK]
+            part = group[chosen]
+            rule = short_rule(part.layers, part.creeps, half_width[chosen], grades[0])
+            search = _Search(part, rule, alpha[chosen])
+            for row, outcome in _closed(search, rtol).items():
+                outcomes[members[chosen[row]]] = outcome
+    return outcomes
+
+
+def _guess(group: _Group) -> Array:
+    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
+    narrow = group.rho * np.sqrt(np.exp(group.target) * group.creeps.instantaneous)
+    span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
+    log_alpha = np.log(narrow)[:, None] + np.linspace(0.0, 1.0, _GUESSES) * span[:, None]
+    alpha = np.exp(log_alpha)
+    compliance = np.abs(group.layers.factor(1.0 / alpha) * group.creeps.compliance(1.0 / alpha))
+    log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
+    log_load = np.maximum.accumulate(log_load, axis=1)
+    # a load beyond the table is no narrow contact: its place is the table's end and it is handed back
+    above = np.clip((log_load < group.target[:, None]).sum(axis=1), 1, _GUESSES - 1)
+    row = np.arange(group.rho.size)
+    rise = log_load[row, above] - log_load[row, above - 1]
+    run = log_alpha[row, above] - log_alpha[row, above - 1]
+    rising = rise > 0.0
+    share = np.where(rising, (group.target - log_load[row, above - 1]) / np.where(rising, rise, 1.0), 1.0)
+    place = log_alpha[row, above - 1] + np.maximum(share, 0.0) * run
+    guess: Array = _GUESS * np.exp(place)
+    return guess
+
+
+@lru_cache(maxsize=1)
+def _points() -> tuple[Array, Array]:
+    """Chebyshev points of the search in units of its half range, and from values there to polynomial coefficients."""
+    t = np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))
+    return t, np.linalg.inv(np.vander(t, increasing=True)).T
+
+
+class _Search:
+    """Half widths on their way to the load, one scene a row.
+
+    At order 8 the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher order
+    it differs by an offset that hardly depends on α, so that each evaluation there gives the next place.
+    """
+
+    def __init__(self, group: _Group, rule: ShortRule, alpha: Array) -> None:
+        self.group, self.rule = group, rule
+        self.middle = np.log(alpha)
+        t, transform = _points()
+        size = alpha.size
+        sampled = np.exp(self.middle[:, None] + _RANGE * t).ravel()
+        every = np.repeat(np.arange(size), _SAMPLES)
+        rho = group.rho[every]
+        contact = equilibrium(assemble(rule[every], group.creeps[every], sampled, _SEARCH), sampled, rho)
+        good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
+        self.load = (
+            np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform
+        )
+        self.shift = (contact.eps / sampled).reshape(size, -1) @ transform
+        lossy = (contact.friction != 0.0).reshape(size, _SAMPLES).all(axis=1)
+        log_mu = np.log(np.abs(np.where(contact.friction != 0.0, contact.friction, 1.0)))
+        self.drag = log_mu.reshape(size, -1) @ transform
+        self.lossy = lossy
+        self.place = np.zeros(size)
+        self.offset = np.zeros(size)
+        self.alive = np.array(good, dtype=bool)
+        self.matrices = np.ones(size, dtype=int)
+        self.move(np.flatnonzero(good))
+
+    def move(self, rows: Index) -> None:
+        """Newton on the cubic and its offset, to the place where the load is met; rows far outside are given up."""
+        cubic = self.load[rows]
+        wanted = self.group.target[rows] - self.offset[rows]
+        t = self.place[rows]
+        for _ in range(_NEWTON_STEPS):
+            value = cubic[:, 0] + t * (cubic[:, 1] + t * (cubic[:, 2] + t * cubic[:, 3]))
+            rise = cubic[:, 1] + t * (2.0 * cubic[:, 2] + t * 3.0 * cubic[:, 3])
+            rising = rise > 0.0
+            t = np.where(rising, t - (value - wanted) / np.where(rising, rise, 1.0), _OUTSIDE)
+            t = np.clip(t, -_OUTSIDE, _OUTSIDE)
+        self.place[rows] = t
+        self.alive[rows] &= np.abs(t) < _OUTSIDE
+
+    def exponent(self, rows: Index) -> Array:
+        """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
+        t = self.place[rows]
+        drag, load = self.drag[rows], self.load[rows]
+        rise = load[:, 1] + t * (2.0 * load[:, 2] + t * 3.0 * load[:, 3])
+        out: Array = np.where(
+            self.lossy[rows], (drag[:, 1] + t * (2.0 * drag[:, 2] + t * 3.0 * drag[:, 3])) / rise, 0.0
+        )
+        return out
+
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array]:
+        """Contacts of some rows at order n, their matrices, and ln p - target; moves on to the next places."""
+        t = self.place[rows]
+        alpha = np.exp(self.middle[rows] + _RANGE * t)
+        matrix = assemble(self.rule[rows], self.group.creeps[rows], alpha, n)
+        shift = self.shift[rows]
+        start = alpha * (shift[:, 0] + t * (shift[:, 1] + t * (shift[:, 2] + t * shift[:, 3])))
+        contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
+        self.matrices[rows] += 1
+        good = np.asarray(contact.inside & (contact.pressure > 0.0))
+        self.alive[rows] &= good
+        miss = np.log(np.where(good, contact.pressure, 1.0)) - self.group.target[rows]
+        self.offset[rows] += np.where(good, miss, 0.0)
+        self.move(rows[good])
+        return contact, matrix, miss
+
+
+def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
+    """Raise the order until each scene meets rtol."""
+    tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
+    error = np.ones(search.place.size)
+    done: dict[int, Outcome] = {}
+    waiting = np.flatnonzero(search.alive)
+    for n in _ORDERS[0 if rtol >= _LOW_ORDER_FROM else 1 :]:
+        rows, waiting = waiting, np.empty(0, dtype=int)
+        for step in range(_CLOSING_STEPS):
+            if rows.size == 0:
+                break
+            exponent = search.exponent(rows)
+            contact, matrix, miss = search.evaluate(rows, n)
+            if step == 0:
+                error[rows] = order_error(contact, matrix, search.group.rho[rows], exponent)
+            alive = search.alive[rows]
+            fine = (error[rows] <= rtol) & alive
+            near = fine & (np.abs(miss) <= tight)
+            missed = np.zeros(rows.size, dtype=bool)
+            at = np.flatnonzero(near)
+            if at.size:
+                left = np.abs(miss[at]) * np.where(search.lossy[rows[at]], np.abs(exponent[at]), 1.0)
+                accepted = _accept(search, rows[at], _chosen(contact, at), error[rows[at]] + left, rtol)
+                done.update(accepted)
+                missed[at] = [r not in accepted for r in rows[at].tolist()]
+            waiting = np.append(waiting, rows[(alive & ~fine) | missed])
+            rows = rows[fine & ~near]
+        if waiting.size == 0:
+            break
+    return done
+
+
+def _accept(
+    search: _Search,
+    rows: Index,
+    contact: Contact,
+    error: Array,
+    rtol: float,
+) -> dict[int, Outcome]:
+    """Check energy, sign and place of contacts whose order and load suffice; the good ones by their row."""
+    group = search.group
+    grade = (COARSE if rtol >= COARSE_FROM else FINE)[1]
+    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade)
+    rho = group.rho[rows]
+    by_loss = friction_by_loss(check, group.creeps[rows], contact, rho)
+    energy = np.abs(relative_difference(by_loss, contact.friction))
+    estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), ROUNDING)
+    _, pressing = pulling_and_pressing(contact, rtol)
+    good = (estimate <= rtol) & pressing & (contact.alpha + np.abs(contact.eps) <= WRAPPED * rho)
+    n = int(contact.c.shape[1])
+    done: dict[int, Outcome] = {}
+    for k in np.flatnonzero(good):
+        row = int(rows[k])
+        one = _chosen(contact, np.array([k]))
+        alpha, eps = float(one.alpha[0]), float(one.eps[0])
+        done[row] = Outcome(
+            Status.OK,
+            Found(
+                friction=float(one.friction[0]),
+                mean_pressure=float(one.pressure[0]),
+                half_width=alpha,
+                centre=eps,
+                strips=np.array([[eps - alpha, eps + alpha]]),
+                energy_error=float(energy[k]),
+                error_estimate=float(estimate[k]),
+                fields=SpectralFields(group.problems[row].layer, group.given[row], one, float(rho[k])),
+            ),
+            order=n,
+            matrices=int(search.matrices[row]),
+            nodes=int(search.rule.nodes.shape[1]),
+            terms=group.given[row].weights.size,
+        )
+    return done
+
+
+def _chosen(contact: Contact, at: Index) -> Contact:
+    return Contact(
+        contact.alpha[at],
+        contact.eps[at],
+        contact.c[at],
+        contact.pressure[at],
+        contact.friction[at],
+        contact.inside[at],
+    )

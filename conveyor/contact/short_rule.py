@@ -1,0 +1,225 @@
+"""The correction's quadrature for narrow contacts, many scenes at once: as few nodes as the contact can tell apart.
+
+quadrature.py sums window and panels node by node. Where the contact is narrow, f = F/m turns by a few radians over the
+whole window [0, 2 m0] only, so the functional
+
+    Σ_{m≥1} χ S f  -  ∫_0^1 j f dm  +  ∫_1^{2m0} [(1-χ) S - j] f dm
+
+is carried over to K Gauss nodes by interpolation: one weight a node, the symbol's integers, window, poles and decades
+of slow retardation terms all inside the weights. On [0, 1] a term with ζ > ¼ is integrated exactly against Legendre
+polynomials, ∫ P_l/(1-imζ) dm = 2 Q_l(z)/(iζ), z = -1 - 2i/ζ (Neumann's integral, A&S 8.8.3). Beyond the window the
+layer's part (L-1) j is left, on Gauss panels of each scene's own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from conveyor.contact.layers import Layers
+from conveyor.contact.problem import Creeps
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+WIDEST = 0.5  # half width α up to which the window's width below meets the alias exp(-(w(2π-2α))²/4) = 1e-17
+_RAMP = 6.5  # as in quadrature.py
+_UNIT = 10  # nodes on [0, 1]: f of half width 0.5 is a polynomial of degree 9 there to 1e-17
+_SLOW = 0.25
+_NEAR = 1.7  # |z + sqrt(z²-1)| below which Q_l is recurred upward: 1.7^18 = 1e4 units of rounding
+_DOWN = 30  # levels of the downward ratio recurrence: 1.7^-60 = 1e-14
+
+
+@dataclass(frozen=True)
+class Grade:
+    """How fine a rule is: window width w, Gauss points and coarse nodes beyond what the phase needs.
+
+    `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
+    which L = 1 is taken, |L-1| < 4 q² exp(-2q).
+    """
+
+    width: float
+    points: int
+    spare: int
+    stretch: float
+    phase: float
+    depth: float
+
+
+# to rounding, and to 1e-9 of the largest entry; the rules of a pair have no node in common
+FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0), Grade(2.8, 18, 14, 1.9, 15.0, 20.0))
+COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5), Grade(2.8, 13, 6, 1.8, 13.0, 14.0))
+COARSE_FROM = 1e-7  # rtol down to which the coarse pair serves
+
+
+@dataclass(frozen=True, eq=False)
+class ShortRule:
+    """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,)."""
+
+    nodes: Array
+    weights: ComplexArray
+    half_width: Array
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
+        return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen])
+
+
+@dataclass(frozen=True, eq=False)
+class _Window:
+    """What does not depend on the scene: places in the window and their interpolation to K coarse nodes."""
+
+    integers: Array
+    ramp: Array  # χ at the integers
+    panels: Array
+    measure: Array
+    rest: Array  # 1-χ at the panels' nodes
+    end: float
+    coarse: Array
+    spread: Array  # (10 + integers + panels, K)
+    legendre: Array  # (10, 10): Legendre moments to weights on [0, 1]
+    unit: Array
+    unit_weights: Array
+
+
+_gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
+
+
+@lru_cache(maxsize=64)
+def _window(grade: Grade, count: int) -> _Window:
+    """Window of a grade with `count` coarse nodes."""
+    centre = _RAMP * grade.width
+    end = float(math.ceil(2.0 * centre))
+    integers = np.arange(1.0, end + 1.0)
+    x, gauss = _gauss(grade.points)
+    edges = np.concatenate([[1.0, 3.0], np.linspace(0.28, 1.0, 4) * end])
+    half = 0.5 * np.diff(edges)[:, None]
+    panels = (edges[:-1, None] + half * (x + 1.0)).ravel()
+    measure = (half * gauss).ravel()
+    unit_x, unit_gauss = _gauss(_UNIT)
+    unit, unit_weights = 0.5 * (unit_x + 1.0), 0.5 * unit_gauss
+    degrees = np.arange(_UNIT)
+    values = special.eval_legendre(degrees[:, None], unit_x)
+    coarse_x, coarse_gauss = _gauss(count)
+    fine = np.concatenate([unit, integers, panels]) * (2.0 / end) - 1.0
+    all_degrees = np.arange(count)
+    spread = (special.eval_legendre(all_degrees, fine[:, None]) * (all_degrees + 0.5)) @ (
+        special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
+    )
+    return _Window(
+        integers=integers,
+        ramp=0.5 * special.erfc((integers - centre) / grade.width),
+        panels=panels,
+        measure=measure,
+        rest=0.5 * special.erfc((centre - panels) / grade.width),
+        end=end,
+        coarse=0.5 * end * (coarse_x + 1.0),
+        spread=spread,
+        legendre=(2.0 * degrees[:, None] + 1.0) * values * unit_weights,
+        unit=unit,
+        unit_weights=unit_weights,
+    )
+
+
+def short_rule(layers: Layers, creeps: Creeps, half_width: Array, grade: Grade) -> ShortRule:
+    """Rules of b scenes, each valid for contacts up to its half width α [-], at most 0.5.
+
+    All scenes take as many nodes as the one that needs most: hand over like with like.
+    """
+    end = float(math.ceil(2.0 * _RAMP * grade.width))
+    phase = float(half_width.max()) * end
+    # a function that turns ±c radians is a polynomial of degree c + O(c^(1/3)) to rounding
+    count = 4 * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / 4.0)
+    window = _window(grade, count)
+    inner = np.concatenate([window.integers, window.panels])
+    j = creeps.compliance(inner[None, :])
+    symbol = layers.factor(inner[None, :]) * j
+    cut = window.integers.size
+    fine = np.empty((half_width.size, window.spread.shape[0]), dtype=complex)
+    fine[:, :_UNIT] = -_unit_weights(creeps, window)
+    fine[:, _UNIT : _UNIT + cut] = window.ramp * symbol[:, :cut]
+    fine[:, _UNIT + cut :] = window.measure * (window.rest * symbol[:, cut:] - j[:, cut:])
+    weights = np.asarray((fine @ window.spread) / window.coarse, dtype=np.complex128)
+    nodes = np.broadcast_to(window.coarse, weights.shape)
+    beyond = _beyond(layers, creeps, half_width, grade, window.end)
+    if beyond is not None:
+        nodes = np.concatenate([nodes, beyond[0]], axis=1)
+        weights = np.concatenate([weights, beyond[1]], axis=1)
+    return ShortRule(nodes, weights, half_width)
+
+
+def _beyond(
+    layers: Layers, creeps: Creeps, half_width: Array, grade: Grade, end: float
+) -> tuple[Array, ComplexArray] | None:
+    """Panels from the window's end to the layer's reach, (L-1) j; scenes with fewer panels get empty ones."""
+    reach = layers.reach(grade.depth)
+    if float(reach.max()) <= end:
+        return None
+    longest = grade.phase / (2.0 * half_width)
+    growth = math.expm1(grade.stretch)
+    edges = [np.full(half_width.size, end)]
+    while float((reach - edges[-1]).max()) > 0.0:
+        edges.append(np.maximum(np.minimum(edges[-1] + np.minimum(growth * edges[-1], longest), reach), end))
+    x, gauss = _gauss(grade.points)
+    bounds = np.stack(edges, axis=1)
+    half = 0.5 * np.diff(bounds, axis=1)[:, :, None]
+    m = (bounds[:, :-1, None] + half * (x + 1.0)).reshape(half_width.size, -1)
+    measure = (half * gauss).reshape(half_width.size, -1)
+    return m, measure * layers.factor_less_one(m) * creeps.compliance(m) / m
+
+
+def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:
+    """About how many panels each scene needs beyond the window: for handing over like with like."""
+    end = float(math.ceil(2.0 * _RAMP * grade.width))
+    by_phase = np.maximum(reach - end, 0.0) * 2.0 * half_width / grade.phase
+    by_stretch = np.log(np.maximum(reach / end, 1.0)) / grade.stretch
+    return np.ceil(np.maximum(by_phase, by_stretch)).astype(int)
+
+
+def _unit_weights(creeps: Creeps, window: _Window) -> ComplexArray:
+    """Weights of ∫_0^1 j f dm on the ten nodes of [0, 1], shape (b, 10)."""
+    slow = creeps.times > _SLOW
+    # Gauss points are enough for terms whose poles ±i/ζ lie four units away
+    plain = Creeps(
+        creeps.instantaneous, np.where(slow, 0.0, creeps.weights), np.where(slow, 1.0, creeps.times)
+    )
+    weights: ComplexArray = plain.compliance(window.unit[None, :]) * window.unit_weights
+    if slow.any():
+        scene = np.nonzero(slow)[0]
+        moments = _moments(creeps.times[slow]) * creeps.weights[slow]
+        ends = np.flatnonzero(np.diff(scene, prepend=-1))  # terms come scene by scene
+        total = np.zeros((creeps.times.shape[0], _UNIT), dtype=complex)
+        total[scene[ends]] = np.add.reduceat(moments, ends, axis=1).T
+        weights += total @ window.legendre
+    return weights
+
+
+def _moments(zeta: Array) -> ComplexArray:
+    """∫_0^1 P_l(2m-1)/(1-imζ) dm for l = 0 … 9 and ζ > ¼, shape (10, ...)."""
+    z = -1.0 - 2.0j / zeta
+    first = 1j * np.log1p(-1j * zeta) / zeta  # l = 0
+    out = np.empty((_UNIT, *zeta.shape), dtype=complex)
+    out[0] = first
+    # downward: ratios Q_l/Q_{l-1} = l/((2l+1) z - (l+1) Q_{l+1}/Q_l)
+    ratio = np.zeros_like(z)
+    for level in range(_UNIT + _DOWN, 0, -1):
+        ratio = level / ((2 * level + 1) * z - (level + 1) * ratio)
+        if level < _UNIT:
+            out[level] = ratio
+    for level in range(1, _UNIT):
+        out[level] *= out[level - 1]
+    far = np.maximum(np.abs(z + np.sqrt(z * z - 1.0)), np.abs(z - np.sqrt(z * z - 1.0)))
+    near = far < _NEAR
+    if near.any():
+        at, before = z[near], first[near]
+        # Q_1 = z Q_0 - 1; in these units Q_0 = first iζ/2, so 1 is 2/(iζ)
+        present = at * before - 2.0 / (1j * zeta[near])
+        out[1][near] = present
+        for level in range(1, _UNIT - 1):
+            before, present = present, ((2 * level + 1) * at * present - level * before) / (level + 1)
+            out[level + 1][near] = present
+    return out
