@@ -107,8 +107,8 @@ def _above_diagonal(size: int) -> Array:
     return np.triu(np.ones((size, size)), 1)
 
 
-def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
-    """Weighted sum over retardation terms of the half-space's Bessel products, Σ_t w_t I_max(b_t) K_min(b_t).
+class ProductIK:
+    """The half-space's Bessel products I_max(b_t) K_min(b_t), to be summed over retardation terms with any weights.
 
     Parameters
     ----------
@@ -116,15 +116,6 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
         Highest order [-], at least 1.
     b : ndarray, shape (k, t)
         Half width over retardation length, α/ζ [-], positive.
-    weights : ndarray, shape (t,) or (k, t)
-        w_t.
-
-    Returns
-    -------
-    products : ndarray, shape (k, order + 1, order + 1)
-        Off the diagonal Σ_t w_t I_max K_min, max and min of (row, column); on it zero.
-    deficit : ndarray, shape (k, order + 1)
-        Σ_t w_t [1/(2v) - I_v K_v], free of cancellation for b → 0; entry 0 is zero and has no meaning.
 
     Notes
     -----
@@ -135,45 +126,79 @@ def product_ik(order: int, b: Array, weights: Array) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> products, _ = product_ik(2, np.array([[1.0]]), np.array([1.0]))
+    >>> products, _ = ProductIK(2, np.array([[1.0]])).weighted(np.array([1.0]))
     >>> round(float(products[0, 0, 1] / (special.iv(1, 1.0) * special.kv(0, 1.0))), 12)
     1.0
     """
-    r = _ratio_i(order, b)
-    k = np.empty((order + 1, *b.shape))
-    k[0] = special.k1e(b) / special.k0e(b)
-    for v in range(1, order + 1):
-        k[v] = 1.0 / k[v - 1] + 2.0 * v / b
-    diagonal = 1.0 / (b * (r + k))
-    twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
-    delta = b * (r[1:] + 1.0 / k[:-1])
-    weights = np.broadcast_to(weights, b.shape)
-    deficit = np.zeros((b.shape[0], order + 1))
-    deficit[:, 1:] = np.einsum("vkt,kt->kv", delta / (twice * (twice + delta)), weights)
-    high = np.ones_like(r)  # I_v/I_0
-    np.cumprod(r[:-1], axis=0, out=high[1:])
 
-    wide = (high[-1] > _SMALLEST).all(axis=0)
-    all_wide = bool(wide.all())
-    if all_wide:
-        low = diagonal * weights / high
-    else:
-        low = diagonal[..., wide] * weights[:, wide] / high[..., wide]
-        high = high[..., wide]
-    # contiguous, or the product is not left to BLAS
-    left, right = np.ascontiguousarray(np.moveaxis(low, 0, 1)), np.ascontiguousarray(np.moveaxis(high, 0, 1))
-    upper = (left @ right.swapaxes(1, 2)) * _above_diagonal(order + 1)
-    if not all_wide:
-        narrow = diagonal[..., ~wide] * weights[:, ~wide]
-        logs = np.zeros_like(diagonal[..., ~wide])
-        np.cumsum(np.log(r[:-1, :, ~wide]), axis=0, out=logs[1:])
-        for step in range(1, order + 1):
+    def __init__(self, order: int, b: Array) -> None:
+        r = _ratio_i(order, b)
+        k = np.empty((order + 1, *b.shape))
+        last = special.k1e(b) / special.k0e(b)
+        k[0] = last
+        two_over_b = 2.0 / b
+        for v in range(1, order + 1):
+            last = 1.0 / last + v * two_over_b
+            k[v] = last
+        twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
+        delta = b * (r[1:] + 1.0 / k[:-1])
+        self._deficit = delta / (twice * (twice + delta))
+        self._diagonal = 1.0 / (b * (r + k))
+        self._ratio = r
+        self._high = np.ones_like(r)  # I_v/I_0
+        np.cumprod(r[:-1], axis=0, out=self._high[1:])
+
+    def __getitem__(self, chosen: NDArray[np.int_]) -> ProductIK:
+        """The same of some of the k half widths."""
+        part = object.__new__(ProductIK)
+        for name in ("_deficit", "_diagonal", "_ratio", "_high"):
+            setattr(part, name, getattr(self, name)[:, chosen])
+        return part
+
+    def weighted(self, weights: Array) -> tuple[Array, Array]:
+        """Sums over the terms.
+
+        Parameters
+        ----------
+        weights : ndarray, shape (t,) or (k, t)
+            w_t.
+
+        Returns
+        -------
+        products : ndarray, shape (k, order + 1, order + 1)
+            Off the diagonal Σ_t w_t I_max K_min, max and min of (row, column); on it zero.
+        deficit : ndarray, shape (k, order + 1)
+            Σ_t w_t [1/(2v) - I_v K_v], free of cancellation for b → 0; entry 0 is zero and has no meaning.
+        """
+        size, k, _ = self._diagonal.shape
+        weights = np.broadcast_to(weights, self._diagonal.shape[1:])
+        deficit = np.zeros((k, size))
+        deficit[:, 1:] = np.einsum("vkt,kt->kv", self._deficit, weights)
+        wide = (self._high[-1] > _SMALLEST).all(axis=0)
+        if wide.all():
+            low, high = self._diagonal * weights / self._high, self._high
+        else:
+            high = self._high[..., wide]
+            low = self._diagonal[..., wide] * weights[:, wide] / high
+        # contiguous, or the product is not left to BLAS
+        left, right = np.ascontiguousarray(low.swapaxes(0, 1)), np.ascontiguousarray(high.swapaxes(0, 1))
+        upper = (left @ right.swapaxes(1, 2)) * _above_diagonal(size)
+        if not wide.all():
+            self._add_narrow(upper, weights, ~wide)
+        return upper + upper.swapaxes(1, 2), deficit
+
+    def _add_narrow(self, upper: Array, weights: Array, narrow: NDArray[np.bool_]) -> None:
+        """The terms of small b, diagonal by diagonal until they are negligible."""
+        diagonal = self._diagonal[..., narrow] * weights[:, narrow]
+        logs = np.zeros_like(diagonal)
+        np.cumsum(np.log(self._ratio[:-1, :, narrow]), axis=0, out=logs[1:])
+        size = diagonal.shape[0]
+        for step in range(1, size):
             ratio = np.exp(logs[step:] - logs[:-step])
             if float(ratio.max()) < _NEGLIGIBLE:
                 break
-            at = np.arange(order + 1 - step)
-            upper[:, at, at + step] += (narrow[:-step] * ratio).sum(axis=2).T
-    return upper + upper.swapaxes(1, 2), deficit
+            at = np.arange(size - step)
+            upper[:, at, at + step] += (diagonal[:-step] * ratio).sum(axis=2).T
 
 
 def _ratio_i(order: int, b: Array) -> Array:
@@ -185,7 +210,7 @@ def _ratio_i(order: int, b: Array) -> Array:
     """
     far = max(_UPWARD * order * order, 1.0)
     upward = b > far
-    longest = min(float(b.max(initial=0.0)), far)
+    longest = float(b[~upward].max(initial=0.0))
     start = order + 6 + int(np.sqrt(order * order + _DAMPED * longest) - order)
     two_over_b = 2.0 / b
     r = b / (start + 0.5 + np.hypot(start + 1.5, b))

@@ -1,34 +1,43 @@
 """Many loads of one scene: the contact sampled over its half width, once, and interpolated.
 
 With ln α as the parameter nothing has to be searched for: load, friction and place are smooth functions of it, sampled
-at Chebyshev points in one batch (one set of nodes, one symbol, stacked linear algebra) and inverted by Newton.
+at Chebyshev-Lobatto points in one batch (one set of nodes, one symbol, stacked linear algebra) and inverted by Newton.
+The points of one degree are every other point of the next: what the interpolant through those misses at the points
+between, where the error of Chebyshev interpolation peaks, bounds the error of the interpolant through all.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, energy_error, order_error, sign
+from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relative_difference, sign
+from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import peak
-from conveyor.contact.orders import ORDERS
+from conveyor.contact.narrow import places, shared_rules
+from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.quadrature import CHECK, Rule, build_rule
 from conveyor.contact.scene import Scene
+from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.single import SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import assemble, equilibrium, penetration
+from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
 from conveyor.errors import InputError, NoSolutionError, RangeError
 
 Array = NDArray[np.float64]
 
-_POINTS = (8, 12, 16, 24, 32, 48, 64)
+_DEGREES = (16, 32, 64, 128)
+_LOW_ORDER_FROM = 1e-5  # rtol from which order 16 is worth a try
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
-_MARGIN = 2e-2  # the sampled range of ln α goes this far beyond the loads asked for
+_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _NEWTON_STEPS = 40
 _SIGN_FLOOR = 1e-9
 _SPLITS = (
@@ -40,18 +49,31 @@ _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (d
 
 @dataclass(frozen=True, eq=False)
 class LoadSolutions:
-    """Figures of many loads of one scene; arrays of the shape of `pressure`, meanings as in ContactSolution."""
+    """Figures of many loads of one scene; arrays of the shape of `pressure`, meanings as in ContactSolution.
+
+    Penetration and peak pressure are formed when asked for.
+    """
 
     pressure: Array
     friction: Array
     half_width: Array
     eccentricity: Array
-    penetration: Array
-    peak_pressure: Array
     dissipation: Array
     energy_error: Array
     error_estimate: Array
     stats: SolveStats
+    _penetration: Callable[[], Array]
+    _peak: Callable[[], Array]
+
+    @cached_property
+    def penetration(self) -> Array:
+        """Δ/R [-]."""
+        return self._penetration()
+
+    @cached_property
+    def peak_pressure(self) -> Array:
+        """Largest p̃ [-]."""
+        return np.asarray(self._peak(), dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +102,8 @@ class LoadCurve:
     stats: SolveStats
     _centre: float
     _half: float
-    _columns: Array  # Chebyshev coefficients of (ln p, μρ/α, ε/α, Δρ²/α², p̂ρ/α), shape (k, 5)
+    _contacts: Contact  # at the Chebyshev-Lobatto points, from the widest to the narrowest
+    _columns: Array  # Chebyshev coefficients of (ln p, μρ/α, ε/α), shape (k, 3)
 
     def at(self, pressure: ArrayLike) -> LoadSolutions:
         """Figures at mean pressures p̃_m.
@@ -100,7 +123,7 @@ class LoadCurve:
         t = self._place(np.log(p))
         alpha = np.exp(self._centre + self._half * t)
         rho = self.problem.rho
-        _, friction, eps, depth, peak = chebyshev.chebval(t, self._columns)
+        _, friction, eps = chebyshev.chebval(t, self._columns)
         friction = friction * alpha / rho
         times = self.problem.creep.times
         return LoadSolutions(
@@ -108,13 +131,26 @@ class LoadCurve:
             friction=friction,
             half_width=alpha / rho,
             eccentricity=eps * alpha / rho,
-            penetration=depth * (alpha / rho) ** 2,
-            peak_pressure=peak * alpha / rho,
             dissipation=friction * p * (float(times[0]) if times.size else 0.0),
             energy_error=np.full(p.shape, self.energy_error),
             error_estimate=np.full(p.shape, self.error),
             stats=self.stats,
+            _penetration=lambda: chebyshev.chebval(t, self._depths) * (alpha / rho) ** 2,
+            _peak=lambda: np.asarray(chebyshev.chebval(t, self._peaks) * alpha / rho),
         )
+
+    @cached_property
+    def _depths(self) -> Array:
+        """Chebyshev coefficients of Δρ²/α²."""
+        scene = Scene.of(self.problem)
+        alpha, rho = self._contacts.alpha, self.problem.rho
+        depth = penetration(scene.rule(float(alpha.max())), scene.creep, self._contacts, rho)
+        return _coefficients(depth * (rho / alpha) ** 2)
+
+    @cached_property
+    def _peaks(self) -> Array:
+        """Chebyshev coefficients of p̂ρ/α."""
+        return _coefficients(peak(self._contacts.c) * self.problem.rho / self._contacts.alpha)
 
     def _place(self, log_p: Array) -> Array:
         """Place t in [-1, 1] with ln p(t) = log_p: Newton from the chord, on a monotone smooth function."""
@@ -152,58 +188,46 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     if not 0.0 < lowest <= highest:
         raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
     problem = replace(problem, pressure=highest)
-    ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
-    scene = Scene.of(problem)
-    if any(len(s.patches) > 1 for s in ends):
-        raise NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
-    if wraps(ends[1]):
-        raise NoSolutionError(
-            f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
-            "the roll for a load curve, solve such loads one by one"
-        )
-    low, high = (math.log(s.half_width * problem.rho) for s in ends)
-    centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
-    order = max(ORDERS.index(s.stats.order) for s in ends)
-    points = 0
+    sampler = _Sampler.between(problem, lowest, highest, rtol)
+    n = ORDERS[0 if rtol >= _LOW_ORDER_FROM else 1]
+    degree, sampled = 0, None
     while True:
-        sample = _sample(scene, centre, half, points=_POINTS[points], n=ORDERS[order], rtol=rtol)
-        if sample.sign is Sign.PULLING:
+        sampled = sampler.sample(_DEGREES[degree], n, sampled)
+        error, energy, pressed = sampler.judge(sampled, rtol)
+        if pressed is Sign.PULLING:
             raise NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
-        unsigned = sample.sign is Sign.UNDECIDED and ORDERS[order] < SIGN_ORDER
-        undecided = unsigned or sample.order_error > rtol
-        if undecided and order + 1 < len(ORDERS):
-            order = min(order + (2 if sample.order_error > 100.0 * rtol else 1), len(ORDERS) - 1)
-        elif sample.tail > rtol and points + 1 < len(_POINTS):
-            points += 1
-        else:
+        undecided = error > rtol or (pressed is Sign.UNDECIDED and n < SIGN_ORDER)
+        if undecided and n < ORDERS[-1]:
+            n, sampled = next_order(n, error, rtol), None
+            continue
+        columns, missed = _interpolated(sampled.contact, problem.rho)
+        if missed <= rtol or degree + 1 == len(_DEGREES):
             break
-    error = max(sample.order_error, sample.tail)
+        degree += 1
+    error = max(error, missed)
     if not error <= rtol or undecided:
         raise NoSolutionError(
             f"the load curve reached a relative error of {error:.1e} only: "
             "ask for a larger rtol or fewer decades of load"
         )
-    stats = SolveStats(
-        order=ORDERS[order],
-        matrices=scene.matrices + sum(s.stats.matrices for s in ends),
-        nodes=scene.rule(math.exp(centre + half)).nodes.size,
-        terms=scene.creep.weights.size,
-    )
     return LoadCurve(
         problem=problem,
         lowest=lowest,
         highest=highest,
         error=error,
-        energy_error=sample.energy_error,
-        stats=stats,
-        _centre=centre,
-        _half=half,
-        _columns=sample.columns,
+        energy_error=energy,
+        stats=SolveStats(n, sampler.matrices, sampler.rule.nodes.shape[-1], sampler.scene.creep.weights.size),
+        _centre=sampler.centre,
+        _half=sampler.half,
+        _contacts=sampled.contact,
+        _columns=columns,
     )
 
 
 def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-6) -> LoadSolutions:
     """Solve many loads of one scene with one shared set-up.
+
+    Loads whose contact splits or wraps the roll are solved one by one.
 
     Parameters
     ----------
@@ -222,7 +246,7 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     Raises
     ------
     InputError, NoSolutionError
-        As `load_curve`.
+        As `solve`.
 
     Examples
     --------
@@ -235,9 +259,6 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     p = np.asarray(pressures, dtype=float)
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
-    heaviest = solve(replace(problem, pressure=float(p.max())), _ENDS)
-    if wraps(heaviest) or len(heaviest.patches) > 1:
-        return _one_by_one(problem, p, rtol)
     try:
         return load_curve(problem, float(p.min()), float(p.max()), rtol).at(p)
     except NoSolutionError:
@@ -260,59 +281,136 @@ def _one_by_one(problem: ContactProblem, pressures: Array, rtol: float) -> LoadS
         friction=column("friction"),
         half_width=column("half_width"),
         eccentricity=column("eccentricity"),
-        penetration=column("penetration"),
-        peak_pressure=column("peak_pressure"),
         dissipation=column("dissipation"),
         energy_error=column("energy_error"),
         error_estimate=column("error_estimate"),
         stats=max((s.stats for s in solved), key=lambda stats: stats.order),
+        _penetration=lambda: column("penetration"),
+        _peak=lambda: column("peak_pressure"),
     )
 
 
 @dataclass(frozen=True, eq=False)
-class _Sample:
-    """Contacts at Chebyshev points of ln α: interpolation columns and the errors seen."""
+class _Sampled:
+    """Contacts at Chebyshev-Lobatto points, and their matrices."""
 
-    columns: Array
-    order_error: float
-    tail: float
-    energy_error: float
-    sign: Sign
+    contact: Contact
+    matrix: Array
 
 
-def _sample(scene: Scene, centre: float, half: float, *, points: int, n: int, rtol: float) -> _Sample:
-    """Contacts at `points` half widths and order n; fields and interpolation only once the order suffices."""
-    rho = scene.problem.rho
-    t = chebyshev.chebpts1(points)
-    alpha = np.exp(centre + half * t)
-    rule = scene.rule(float(alpha[-1]))
-    matrix = assemble(rule, scene.creep, alpha, n)
-    scene.matrices += points
-    contact = equilibrium(matrix, alpha, rho)
-    if not (contact.inside.all() and (contact.pressure > 0.0).all()):
-        raise NoSolutionError(Status.WRAP_LIMIT.message)
-    moving = bool((contact.friction > 0.0).all())
-    exponent = np.gradient(np.log(contact.friction), np.log(contact.pressure)) if moving else None
-    error = float(order_error(contact, matrix, rho, exponent).max())
-    energy = math.inf
-    if error <= rtol or n == ORDERS[-1]:
-        energy = float(energy_error(scene, contact).max())
-        error = max(error, energy / ENERGY_OVER_ERROR)
-    pressed = sign(contact, max(error, _SIGN_FLOOR))
-    if error > rtol and n < ORDERS[-1]:
-        return _Sample(np.empty((0, 5)), error, math.inf, energy, pressed)
-    fields = np.stack(
-        [
-            np.log(contact.pressure),
-            contact.friction * rho / alpha,
-            contact.eps / alpha,
-            penetration(rule, scene.creep, contact, rho) * (rho / alpha) ** 2,
-            peak(contact.c) * rho / alpha,
-        ],
+@dataclass(eq=False)
+class _Sampler:
+    """One scene between two half widths: rules made once, contacts at any of them."""
+
+    scene: Scene
+    centre: float
+    half: float
+    rule: Rule | ShortRule
+    check: Rule | ShortRule
+    matrices: int = 0
+
+    @classmethod
+    def between(cls, problem: ContactProblem, lowest: float, highest: float, rtol: float) -> _Sampler:
+        """Range of half widths of a range of loads, and the cheapest rules for it."""
+        ends = places(problem, (lowest, highest))
+        if ends is None:
+            ends = _general_ends(problem, lowest, highest)
+        low, high = np.log(ends)
+        centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
+        scene, widest = Scene.of(problem), math.exp(centre + half)
+        rules = shared_rules(problem, widest, rtol)
+        if rules is not None:
+            return cls(scene, centre, half, *rules)
+        check = build_rule(problem.layer, scene.creep, widest, CHECK)
+        return cls(scene, centre, half, build_rule(problem.layer, scene.creep, widest), check)
+
+    def sample(self, degree: int, n: int, before: _Sampled | None) -> _Sampled:
+        """Contacts at the degree's points, those of half the degree taken from `before`."""
+        t = _lobatto(degree)
+        fresh = t if before is None else t[1::2]
+        alpha = np.exp(self.centre + self.half * fresh)
+        matrix = assemble(self.rule, self.scene.creep, alpha, n)
+        self.matrices += fresh.size
+        contact = equilibrium(matrix, alpha, self.scene.problem.rho)
+        if not (contact.inside.all() and (contact.pressure > 0.0).all()):
+            raise NoSolutionError(Status.WRAP_LIMIT.message)
+        if before is None:
+            return _Sampled(contact, matrix)
+        return _Sampled(_woven(before.contact, contact), _weave(before.matrix, matrix))
+
+    def judge(self, sampled: _Sampled, rtol: float) -> tuple[float, float, Sign]:
+        """Largest error by order and energy, largest energy error (infinite where not yet asked), worst sign."""
+        contact, rho = sampled.contact, self.scene.problem.rho
+        moving = bool((contact.friction > 0.0).all())
+        exponent = np.gradient(np.log(contact.friction), np.log(contact.pressure)) if moving else None
+        error = float(order_error(contact, sampled.matrix, rho, exponent).max())
+        energy = math.inf
+        if error <= rtol or contact.c.shape[1] == ORDERS[-1]:
+            by_loss = friction_by_loss(self.check, self.scene.creep, contact, rho)
+            energy = float(np.abs(relative_difference(by_loss, contact.friction)).max())
+            error = max(error, energy / ENERGY_OVER_ERROR)
+        return error, energy, sign(contact, max(error, _SIGN_FLOOR))
+
+
+def _general_ends(problem: ContactProblem, lowest: float, highest: float) -> Array:
+    """Half widths at both loads from the general solver, which knows splits and wraps."""
+    ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
+    if any(len(s.patches) > 1 for s in ends):
+        raise NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
+    if wraps(ends[1]):
+        raise NoSolutionError(
+            f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
+            "the roll for a load curve, solve such loads one by one"
+        )
+    return np.array([s.half_width * problem.rho for s in ends])
+
+
+def _lobatto(degree: int) -> Array:
+    points: Array = np.cos(np.arange(degree + 1) * (np.pi / degree))
+    return points
+
+
+@lru_cache(maxsize=16)
+def _transform(degree: int) -> Array:
+    """From values at Lobatto points to Chebyshev coefficients: a_k = (2/N) Σ f_j cos(kjπ/N), ends halved."""
+    index = np.arange(degree + 1)
+    matrix = (2.0 / degree) * np.cos(np.multiply.outer(index, index) * (np.pi / degree))
+    matrix[:, [0, -1]] *= 0.5
+    matrix[[0, -1]] *= 0.5
+    return matrix
+
+
+def _coefficients(values: Array) -> Array:
+    """Chebyshev coefficients of values at Lobatto points, axis 0."""
+    coefficients: Array = _transform(values.shape[0] - 1) @ values
+    return coefficients
+
+
+def _interpolated(contact: Contact, rho: float) -> tuple[Array, float]:
+    """Columns of the curve, and what the interpolant through every other point misses of friction at given load."""
+    values = np.stack(
+        [np.log(contact.pressure), contact.friction * rho / contact.alpha, contact.eps / contact.alpha],
         axis=1,
     )
-    columns = chebyshev.chebfit(t, fields, points - 1)
-    # the interpolation error of an analytic function is of the size of its last coefficients
-    last = np.abs(columns[-2:]).sum(axis=0)
-    scale = np.array([1.0, max(float(np.abs(fields[:, 1]).min()), np.finfo(float).tiny)])
-    return _Sample(columns, error, float(np.max(last[:2] / scale)), energy, pressed)
+    between = _lobatto(values.shape[0] - 1)[1::2]
+    log_p, drag, _ = chebyshev.chebval(between, _coefficients(values[::2])) - values[1::2].T
+    smallest = max(float(np.abs(values[:, 1]).min()), np.finfo(float).tiny)
+    missed = float((np.abs(log_p) + np.abs(drag) / smallest).max())
+    return _coefficients(values), missed
+
+
+def _weave(even: Array, odd: Array) -> Array:
+    out = np.empty((even.shape[0] + odd.shape[0], *even.shape[1:]))
+    out[::2], out[1::2] = even, odd
+    return out
+
+
+def _woven(even: Contact, odd: Contact) -> Contact:
+    return Contact(
+        alpha=_weave(even.alpha, odd.alpha),
+        eps=_weave(even.eps, odd.eps),
+        c=_weave(even.c, odd.c),
+        pressure=_weave(even.pressure, odd.pressure),
+        friction=_weave(even.friction, odd.friction),
+        inside=even.inside.all() & np.ones(even.alpha.size + odd.alpha.size, dtype=bool),
+    )

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import bessel_j, product_ik
+from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.short_rule import ShortRule
@@ -19,14 +19,20 @@ Array = NDArray[np.float64]
 
 
 def friction_by_loss(
-    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact, rho: Array | float
+    rule: Rule | ShortRule,
+    creep: CreepSpectrum | Creeps,
+    contact: Contact,
+    rho: Array | float,
+    ik: ProductIK | None = None,
 ) -> Array:
-    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,)."""
-    friction: Array = 2.0 * rho * loss(rule, creep, contact) / contact.pressure
+    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,); `ik` are the contacts' Bessel products where known."""
+    friction: Array = 2.0 * rho * loss(rule, creep, contact, ik) / contact.pressure
     return friction
 
 
-def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
+def loss(
+    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact, ik: ProductIK | None = None
+) -> Array:
     """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
     Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
@@ -41,7 +47,8 @@ def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact
     power = spectrum.real**2 + spectrum.imag**2
     total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:
-        products, deficit = product_ik(n, contact.alpha[:, None] / creep.times, creep.weights * creep.times)
+        ik = ProductIK(n, contact.alpha[:, None] / creep.times) if ik is None else ik
+        products, deficit = ik.weighted(creep.weights * creep.times)
         kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)
         index = np.arange(n)
         kernel[:, index, index] = deficit[:, 1:]

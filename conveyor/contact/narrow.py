@@ -9,12 +9,13 @@ general ways.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
     order_error,
@@ -31,6 +32,7 @@ from conveyor.contact.short_rule import (
     COARSE_FROM,
     FINE,
     WIDEST,
+    Grade,
     ShortRule,
     panels_beyond,
     short_rule,
@@ -106,17 +108,15 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
     kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(p.creep) for p in problems]
     for i, problem in enumerate(problems):
-        if isinstance(problem.support, str) and creeps[i].times.max(initial=0.0) < _TIMES:
+        if isinstance(problem.support, str) and _plain(problem, creeps[i]):
             kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
     grades = COARSE if rtol >= COARSE_FROM else FINE
     for members in kinds.values():
         group = _Group.of([problems[i] for i in members], [creeps[i] for i in members])
         alpha = _guess(group)
         half_width = _ROOM * alpha
+        fits = np.flatnonzero(_fits(group, half_width, grades[0]))
         panels = panels_beyond(group.layers.reach(grades[0].depth), half_width, grades[0])
-        fits = np.flatnonzero(
-            (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
-        )
         fits = fits[np.lexsort((half_width[fits], panels[fits]))]
         for start in range(0, fits.size, _CHUNK):
             chosen = fits[start : start + _CHUNK]
@@ -126,6 +126,49 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
             for row, outcome in _closed(search, rtol).items():
                 outcomes[members[chosen[row]]] = outcome
     return outcomes
+
+
+def places(problem: ContactProblem, pressures: Sequence[float]) -> Array | None:
+    """Half widths of one scene under several loads, good to about 1e-4 (order 8); None if not narrow."""
+    creep = instantly_relaxed(problem.creep)
+    if not _plain(problem, creep):
+        return None
+    loads = [replace(problem, pressure=p) for p in pressures]
+    group = _Group.of(loads, [creep] * len(loads))
+    alpha = _guess(group)
+    widest = _ROOM * float(alpha.max())
+    if not _fits(group, np.full(len(loads), widest), COARSE[0]).all():
+        return None
+    first = group[np.zeros(1, dtype=int)]
+    rule = short_rule(first.layers, first.creeps, np.array([widest]), COARSE[0])
+    search = _Search(group, rule.repeated(len(loads)), alpha)
+    return np.exp(search.middle + _RANGE * search.place) if search.alive.all() else None
+
+
+def shared_rules(
+    problem: ContactProblem, half_width: float, rtol: float
+) -> tuple[ShortRule, ShortRule] | None:
+    """Rules for solving and checking one scene up to a half width, of one row; None if not narrow."""
+    creep = instantly_relaxed(problem.creep)
+    if not _plain(problem, creep):
+        return None
+    group, width = _Group.of([problem], [creep]), np.array([half_width])
+    solving, checking = COARSE if rtol >= COARSE_FROM else FINE
+    if not _fits(group, width, solving).all():
+        return None
+    rule = short_rule(group.layers, group.creeps, width, solving)
+    return rule, short_rule(group.layers, group.creeps, width, checking, rule.unit)
+
+
+def _plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
+    """Whether the short rules know the scene's layer and can square its retardation numbers."""
+    return isinstance(problem.support, str) and creep.times.max(initial=0.0) < _TIMES
+
+
+def _fits(group: _Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
+    """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
+    panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
+    return np.asarray((half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS))
 
 
 def _guess(group: _Group) -> Array:
@@ -211,11 +254,13 @@ class _Search:
         )
         return out
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array]:
-        """Contacts of some rows at order n, their matrices, and ln p - target; moves on to the next places."""
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, ProductIK]:
+        """Contacts of some rows at order n, matrices, ln p - target, Bessel products; moves on to the next places."""
         t = self.place[rows]
         alpha = np.exp(self.middle[rows] + _RANGE * t)
-        matrix = assemble(self.rule[rows], self.group.creeps[rows], alpha, n)
+        creeps = self.group.creeps[rows]
+        ik = ProductIK(n, alpha[:, None] / creeps.times)
+        matrix = assemble(self.rule[rows], creeps, alpha, n, ik)
         shift = self.shift[rows]
         start = alpha * (shift[:, 0] + t * (shift[:, 1] + t * (shift[:, 2] + t * shift[:, 3])))
         contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
@@ -225,7 +270,7 @@ class _Search:
         miss = np.log(np.where(good, contact.pressure, 1.0)) - self.group.target[rows]
         self.offset[rows] += np.where(good, miss, 0.0)
         self.move(rows[good])
-        return contact, matrix, miss
+        return contact, matrix, miss, ik
 
 
 def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
@@ -240,7 +285,7 @@ def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
             if rows.size == 0:
                 break
             exponent = search.exponent(rows)
-            contact, matrix, miss = search.evaluate(rows, n)
+            contact, matrix, miss, ik = search.evaluate(rows, n)
             if step == 0:
                 error[rows] = order_error(contact, matrix, search.group.rho[rows], exponent)
             alive = search.alive[rows]
@@ -250,7 +295,9 @@ def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
             at = np.flatnonzero(near)
             if at.size:
                 left = np.abs(miss[at]) * np.where(search.lossy[rows[at]], np.abs(exponent[at]), 1.0)
-                accepted = _accept(search, rows[at], _chosen(contact, at), error[rows[at]] + left, rtol)
+                accepted = _accept(
+                    search, rows[at], (_chosen(contact, at), ik[at]), error[rows[at]] + left, rtol
+                )
                 done.update(accepted)
                 missed[at] = [r not in accepted for r in rows[at].tolist()]
             waiting = np.append(waiting, rows[(alive & ~fine) | missed])
@@ -263,16 +310,17 @@ def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
 def _accept(
     search: _Search,
     rows: Index,
-    contact: Contact,
+    contacts: tuple[Contact, ProductIK],
     error: Array,
     rtol: float,
 ) -> dict[int, Outcome]:
     """Check energy, sign and place of contacts whose order and load suffice; the good ones by their row."""
     group = search.group
+    contact, ik = contacts
     grade = (COARSE if rtol >= COARSE_FROM else FINE)[1]
-    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade)
+    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule.unit[rows])
     rho = group.rho[rows]
-    by_loss = friction_by_loss(check, group.creeps[rows], contact, rho)
+    by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
     energy = np.abs(relative_difference(by_loss, contact.friction))
     estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), ROUNDING)
     _, pressing = pulling_and_pressing(contact, rtol)

@@ -59,14 +59,22 @@ COARSE_FROM = 1e-7  # rtol down to which the coarse pair serves
 
 @dataclass(frozen=True, eq=False)
 class ShortRule:
-    """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,)."""
+    """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,).
+
+    `unit` are the weights of ∫_0^1 j f dm, shape (b, 10), the same in every rule of a creep spectrum.
+    """
 
     nodes: Array
     weights: ComplexArray
     half_width: Array
+    unit: ComplexArray
+
+    def repeated(self, count: int) -> ShortRule:
+        """One scene's rule for `count` contacts of it."""
+        return self[np.zeros(count, dtype=int)]
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
-        return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen])
+        return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen])
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +133,13 @@ def _window(grade: Grade, count: int) -> _Window:
     )
 
 
-def short_rule(layers: Layers, creeps: Creeps, half_width: Array, grade: Grade) -> ShortRule:
+def short_rule(
+    layers: Layers, creeps: Creeps, half_width: Array, grade: Grade, unit: ComplexArray | None = None
+) -> ShortRule:
     """Rules of b scenes, each valid for contacts up to its half width α [-], at most 0.5.
 
-    All scenes take as many nodes as the one that needs most: hand over like with like.
+    All scenes take as many nodes as the one that needs most: hand over like with like. `unit` are the weights of that
+    name in another rule of the same spectra.
     """
     end = float(math.ceil(2.0 * _RAMP * grade.width))
     phase = float(half_width.max()) * end
@@ -140,7 +151,8 @@ def short_rule(layers: Layers, creeps: Creeps, half_width: Array, grade: Grade) 
     symbol = layers.factor(inner[None, :]) * j
     cut = window.integers.size
     fine = np.empty((half_width.size, window.spread.shape[0]), dtype=complex)
-    fine[:, :_UNIT] = -_unit_weights(creeps, window)
+    unit = _unit_weights(creeps, window) if unit is None else unit
+    fine[:, :_UNIT] = -unit
     fine[:, _UNIT : _UNIT + cut] = window.ramp * symbol[:, :cut]
     fine[:, _UNIT + cut :] = window.measure * (window.rest * symbol[:, cut:] - j[:, cut:])
     weights = np.asarray((fine @ window.spread) / window.coarse, dtype=np.complex128)
@@ -149,7 +161,7 @@ def short_rule(layers: Layers, creeps: Creeps, half_width: Array, grade: Grade) 
     if beyond is not None:
         nodes = np.concatenate([nodes, beyond[0]], axis=1)
         weights = np.concatenate([weights, beyond[1]], axis=1)
-    return ShortRule(nodes, weights, half_width)
+    return ShortRule(nodes, weights, half_width, unit)
 
 
 def _beyond(

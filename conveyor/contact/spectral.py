@@ -5,7 +5,7 @@ zero. Its slope, matched in Chebyshev coefficients g_i of T_i, i = 0 … n, is t
 
     g_i = (2-δ_i0) Σ_v v c_v Σ_{m≥1} Re[i^{q+2} S_m] J_v(mα) J_i(mα)/m,   q = i - v.
 
-Rows 1 … n give c, row 0 the eccentricity. The isolated half-space's share is closed (bessel.product_ik), the rest is
+Rows 1 … n give c, row 0 the eccentricity. The isolated half-space's share is closed (bessel.ProductIK), the rest is
 the short sum of quadrature.py: a weighted Gram product of one Bessel table. Everything is batched over half widths.
 """
 
@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import bessel_j, product_ik
+from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients
 from conveyor.contact.problem import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
@@ -53,7 +53,9 @@ def _signs(n: int) -> tuple[Array, Array, Array]:
     return real, imaginary, retarded
 
 
-def assemble(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array, n: int) -> Array:
+def assemble(
+    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array, n: int, ik: ProductIK | None = None
+) -> Array:
     """Galerkin matrix, rows T_0 … T_n, columns c_1 … c_n, shape (b, n+1, n).
 
     Matrices are nested: that of a lower order is a leading block.
@@ -68,6 +70,8 @@ def assemble(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array
         Half widths k a [-].
     n : int
         Order, at least 2.
+    ik : ProductIK, optional
+        The Bessel products of these half widths, where known.
     """
     real, imaginary, retarded = _signs(n)
     table = np.moveaxis(bessel_j(n, alpha[:, None] * rule.nodes), 0, 1)
@@ -83,7 +87,8 @@ def assemble(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array
     half_space = np.zeros((alpha.size, n))
     half_space -= np.asarray(creep.instantaneous)[..., None]
     if creep.weights.size:
-        products, deficit = product_ik(n, alpha[:, None] / creep.times, creep.weights)
+        ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
+        products, deficit = ik.weighted(creep.weights)
         matrix += products[:, :, 1:] * retarded
         # -j0 + 2v Σ d I K = -(j∞ + Σ d (1 - 2v I K)) keeps a small j∞
         half_space -= 2.0 * (index + 1) * deficit[:, 1:]
@@ -166,6 +171,6 @@ def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
     out += 0.5 * compliance * c[:, 0] * alpha * logarithm
     if creep.weights.size:
-        products, _ = product_ik(n, alpha[:, None] / creep.times, creep.weights * creep.times)
+        products, _ = ProductIK(n, alpha[:, None] / creep.times).weighted(creep.weights * creep.times)
         out += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], c)
     return out
