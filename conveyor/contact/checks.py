@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
+WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
 _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
 _GAP_POINTS = 24
@@ -108,6 +109,16 @@ def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool
     negative = -p.min(axis=1) / highest
     tail = np.abs(contact.c[:, -(contact.c.shape[1] // 4) :]).sum(axis=1) / highest
     return negative > np.maximum(_TAILS * tail, rtol), negative <= rtol
+
+
+def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool_]:
+    """Whether the gap outside a strip must be looked at, shape (b,): far round the roll, or beside its crown.
+
+    Beside a strip that holds the crown and ends within half the radius the roll falls away from the layer. A strip
+    beyond the crown leaves it to the layer: a thin free one may touch there again (R/λ 0.4, kh 0.3, ζ 3, p̃_m 0.0012).
+    """
+    beside = np.abs(contact.eps) > contact.alpha
+    return np.asarray(beside | (contact.alpha + np.abs(contact.eps) > WRAPPED * rho))
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:

@@ -8,13 +8,12 @@ the spectral window keep the grid's answer with the grid's error.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, overlaps, sign
 from conveyor.contact.fields import GridFields, SpectralFields
-from conveyor.contact.grid import GridContact, solve_grid
+from conveyor.contact.grid import Grid, GridContact, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene
@@ -28,32 +27,36 @@ _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRY = 64
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
-_LIMIT = "the largest mean pressure that ends on the roll is about {:.3g}"
-_LIMIT_GRID, _LIMIT_STEPS = 512, 24  # bisections of its logarithm over ten decades: 1e-6
+_LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
+_LIMIT_STEPS, _LIMIT_FINER = 16, 4  # bisections over ten decades: to 4e-4; times the coarsest grid
 _LIMIT_DECADES = 10.0
 _ON_GRID = "the strips are known on a grid of {} nodes only"
 
 
 def by_strips(scene: Scene, rtol: float) -> Outcome:
     """The contact with as many strips as it has."""
-    points = max(64, 1 << math.ceil(math.log2(_COARSEST * math.pi / scene.problem.rho)))
+    points = _coarsest(scene.problem.rho)
     grids: list[GridContact] = []
+    failure = ""
     for doubling in range(_FINEST + 1):
         if points > _MOST_POINTS:
             break
         try:
             grids.append(solve_grid(scene.problem, points, grids[-1] if grids else None, depth=scene.depth))
-        except NoSolutionError:
-            if grids:
-                break
-            raise
+        except NoSolutionError as unsettled:
+            failure = str(unsettled)
+            break
         if grids[-1].at_roll_end and doubling >= _WRAP_LEVEL:
-            return Outcome(Status.WRAP_LIMIT, grid=points, remarks=(_limit(scene),))
+            break
         if doubling >= _FIRST_POLISH and _seen(grids[-1]) and len(grids[-1].strips) == len(grids[-2].strips):
             outcome = _polished(scene, grids[-1], rtol)
             if outcome is not None:
                 return outcome
         points *= 2
+    if not grids:
+        return Outcome(Status.NOT_CONVERGED, remarks=(failure,))
+    if grids[-1].at_roll_end:
+        return Outcome(Status.WRAP_LIMIT, grid=grids[-1].points, remarks=_limit(scene))
     return _on_grid(grids, rtol)
 
 
@@ -151,16 +154,23 @@ def _on_grid(grids: list[GridContact], rtol: float) -> Outcome:
     )
 
 
-def _limit(scene: Scene) -> str:
-    """The load at which the contact reaches the end of the roll's half circle, on a coarse grid."""
+def _limit(scene: Scene) -> tuple[str, ...]:
+    """The load that brings the contact to the last of 256 nodes on the roll; nothing where a grid does not settle."""
     problem = scene.problem
-    points = max(_LIMIT_GRID, 1 << math.ceil(math.log2(_COARSEST * math.pi / problem.rho)))
-    high = math.log(problem.pressure)
-    if scene.depth is not None:
-        high = math.log(solve_grid(problem, points, depth=scene.depth).mean_pressure)
-    low = high - _LIMIT_DECADES * math.log(10.0)
-    for _ in range(_LIMIT_STEPS):
-        middle = 0.5 * (low + high)
-        grid = solve_grid(replace(problem, pressure=math.exp(middle)), points)
-        low, high = (low, middle) if grid.at_roll_end else (middle, high)
-    return _LIMIT.format(math.exp(low))
+    grid = Grid(problem, _LIMIT_FINER * _coarsest(problem.rho))
+    try:
+        contact = grid.contact(problem.pressure, depth=scene.depth)
+        high = math.log(contact.mean_pressure)
+        low = high - _LIMIT_DECADES * math.log(10.0)
+        for _ in range(_LIMIT_STEPS):
+            middle = 0.5 * (low + high)
+            contact = grid.contact(math.exp(middle), contact)
+            low, high = (low, middle) if contact.at_roll_end else (middle, high)
+    except NoSolutionError:
+        return ()
+    return (_LIMIT.format(math.exp(low)),)
+
+
+def _coarsest(rho: float) -> int:
+    """Points of the first grid: a power of two with at least 64 nodes on the roll."""
+    return max(_COARSEST, 1 << math.ceil(math.log2(_COARSEST * math.pi / rho)))

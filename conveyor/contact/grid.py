@@ -111,29 +111,45 @@ def solve_grid(
     >>> round(grid.friction, 4), len(grid.strips)
     (0.358, 2)
     """
-    reach = math.floor(problem.rho * _ROLL * points / (2.0 * math.pi)) if points > 0 else 0
-    if points < 16 or points % 2 or reach < 1:
-        raise InputError(f"points = {points!r}: an even number of nodes, three or more of them on the roll")
-    index = np.arange(-reach, reach + 1)[: points - 1]
-    x = np.asarray(index * (2.0 * math.pi / points), dtype=np.float64)
-    turn = x / problem.rho
-    drop = turn * turn / (1.0 + np.sqrt(1.0 - turn * turn))
-    surface = _Surface.of(problem, points, index)
-    active = np.abs(turn) < 0.5 if start is None else _inside(x, start.strips)
-    p, delta, pivots = _pivot(surface, drop, active, problem.pressure, depth)
-    mean = float(p.sum()) / points
-    return GridContact(
-        x=x,
-        pressure=p,
-        depth=delta,
-        mean_pressure=mean,
-        friction=float(p @ (turn / np.sqrt(1.0 - turn * turn))) / points / mean,
-        friction_by_loss=surface.loss(p) * problem.rho / mean,
-        strips=_edges(x, p),
-        points=points,
-        pivots=pivots,
-        surface=surface.whole(p) - surface.lift * mean,
-    )
+    return Grid(problem, points).contact(problem.pressure, start, depth=depth)
+
+
+class Grid:
+    """A scene's surface on a grid, made once for any number of loads; parameters as in `solve_grid`."""
+
+    def __init__(self, problem: ContactProblem, points: int) -> None:
+        reach = math.floor(problem.rho * _ROLL * points / (2.0 * math.pi)) if points > 0 else 0
+        if points < 16 or points % 2 or reach < 1:
+            raise InputError(
+                f"points = {points!r}: an even number of nodes, three or more of them on the roll"
+            )
+        index = np.arange(-reach, reach + 1)[: points - 1]
+        self.x = np.asarray(index * (2.0 * math.pi / points), dtype=np.float64)
+        self.problem = problem
+        self._surface = _Surface.of(problem, points, index)
+
+    def contact(
+        self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
+    ) -> GridContact:
+        """Contact under a mean pressure p̃_m, or at a depth Δ/R in its place."""
+        surface, turn = self._surface, self.x / self.problem.rho
+        slope = turn / np.sqrt(1.0 - turn * turn)
+        drop = turn * turn / (1.0 + np.sqrt(1.0 - turn * turn))
+        active = np.abs(turn) < 0.5 if start is None else _inside(self.x, start.strips)
+        p, delta, pivots = _pivot(surface, drop, active, pressure, depth)
+        mean = float(p.sum()) / surface.points
+        return GridContact(
+            x=self.x,
+            pressure=p,
+            depth=delta,
+            mean_pressure=mean,
+            friction=float(p @ slope) / surface.points / mean,
+            friction_by_loss=surface.loss(p) * self.problem.rho / mean,
+            strips=_edges(self.x, p),
+            points=surface.points,
+            pivots=pivots,
+            surface=surface.whole(p) - surface.lift * mean,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
+    WRAPPED,
+    may_touch_elsewhere,
     order_error,
     pulling_and_pressing,
     relative_difference,
@@ -37,7 +39,7 @@ from conveyor.contact.short_rule import (
     panels_beyond,
     short_rule,
 )
-from conveyor.contact.single import LOAD_FLOOR, ROUNDING, WRAPPED
+from conveyor.contact.single import LOAD_FLOOR, ROUNDING
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, assemble, equilibrium
 
@@ -54,7 +56,7 @@ _CLOSING_STEPS = 5
 _LOAD_SHARE = 0.1  # of rtol: mismatch of load that may be left; friction feels a third of it
 _TIMES = 1e100  # squares of larger retardation numbers overflow
 _MOST_PANELS = 12
-_CHUNK = 64  # scenes whose tables stay in the processor's cache
+_CHUNK = 100  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
 _GUESS = 1.15  # of the Hertz guess: the middle of 1,000 conveyor contacts
 
@@ -324,7 +326,7 @@ def _accept(
     energy = np.abs(relative_difference(by_loss, contact.friction))
     estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), ROUNDING)
     _, pressing = pulling_and_pressing(contact, rtol)
-    good = (estimate <= rtol) & pressing & (contact.alpha + np.abs(contact.eps) <= WRAPPED * rho)
+    good = (estimate <= rtol) & pressing & ~may_touch_elsewhere(contact, rho)
     n = int(contact.c.shape[1])
     done: dict[int, Outcome] = {}
     for k in np.flatnonzero(good):

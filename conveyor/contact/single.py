@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, energy_error, order_error, overlaps, sign
+from conveyor.contact.checks import (
+    ENERGY_OVER_ERROR,
+    Sign,
+    energy_error,
+    may_touch_elsewhere,
+    order_error,
+    overlaps,
+    sign,
+)
 from conveyor.contact.fields import SpectralFields
 from conveyor.contact.load import LoadSearch, carry, guess
 from conveyor.contact.orders import ORDERS, next_order
@@ -17,7 +25,6 @@ LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
-WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
 
@@ -33,7 +40,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
     depth = None
-    if alpha + abs(eps) > WRAPPED * rho:
+    if may_touch_elsewhere(contact, rho)[0]:
         depth = float(penetration(scene.rule(alpha), scene.creep, contact, rho)[0])
         if overlaps(scene, contact, depth):
             return None
