@@ -1,8 +1,10 @@
-"""Random scenes over broad ranges: how they end, how true the error estimates are, what the slowest cost.
+"""Random scenes over the widest ranges: how they end, how true the error estimates are, what the slowest cost.
 
-    python benchmarks/stress.py [N] [SEED]
+    python benchmarks/stress.py [N] [SEED] [PROCESSES]
 
-Each scene is solved to `RTOL` and, where that succeeds, once more to `FINE`: the difference is the true error.
+E∞/E0 1 … 1e6, ζ 0 and 1e-12 … 1e12, k h 1e-3 … 1e3, R/λ 1e-4 … 0.5, p̃_m 1e-12 … 1, 0 … 60 retardation terms, ν 0 … 0.5.
+Each scene is solved to `RTOL` and, where that succeeds, once more to `FINE`: the difference is the true error. Contacts
+that a grid of 16,384 nodes can see are also solved there, where nothing is assumed of their strips.
 """
 
 from __future__ import annotations
@@ -17,14 +19,17 @@ import sys
 import time
 import warnings
 from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
-from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
-from conveyor.errors import ConveyorError
+from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum, Status, solve
+from conveyor.contact.grid import solve_grid
+from conveyor.errors import ConveyorError, NoSolutionError
 
 RTOL, FINE = 1e-6, 1e-10
+GRID, SEEN = 1 << 14, 40  # nodes in a period; nodes in the narrowest strip that make the grid worth asking
 SHOWN = 8
 
 
@@ -40,6 +45,8 @@ class Outcome:
     estimate: float = 0.0
     true_error: float = 0.0
     energy: float = 0.0
+    grid_off: float = math.nan
+    strips: int = 0
 
 
 def random_problem(rng: np.random.Generator) -> ContactProblem:
@@ -106,21 +113,43 @@ def run(index: int, problem: ContactProblem) -> Outcome:
         found.error_estimate,
         off,
         found.energy_error,
+        against_grid(found),
+        len(found.patches),
     )
+
+
+def against_grid(found: ContactSolution) -> float:
+    """Relative difference of Δ on the grid; infinite for another number of strips, NaN if the grid cannot see them."""
+    strips = found.patches * found.problem.rho
+    if float(np.diff(strips, axis=1).min()) < SEEN * 2.0 * math.pi / GRID:
+        return math.nan
+    try:
+        grid = solve_grid(found.problem, GRID)
+    except NoSolutionError:
+        return math.nan
+    if len(grid.strips) != len(strips):
+        return math.inf
+    return abs(grid.depth / found.penetration - 1.0)
+
+
+def one(order: tuple[int, int]) -> Outcome:
+    seed, index = order
+    return run(index, random_problem(np.random.default_rng([seed, index])))
 
 
 def table(title: str, outcomes: list[Outcome]) -> None:
     print(f"\n{title}")
-    print(f"{'#':>6} {'ms':>8} {'n':>4} {'estimate':>9} {'true':>9} {'energy':>9}  ending, scene")
+    print(f"{'#':>6} {'ms':>8} {'n':>4} {'estimate':>9} {'true':>9} {'energy':>9} {'grid':>8}  ending, scene")
     for o in outcomes[:SHOWN]:
         print(
             f"{o.index:6d} {1e3 * o.seconds:8.1f} {o.order:4d} {o.estimate:9.1e} {o.true_error:9.1e} "
-            f"{o.energy:9.1e}  {o.ending[:60]} | {o.scene}"
+            f"{o.energy:9.1e} {o.grid_off:8.1e}  {o.ending[:60]} | {o.scene}"
         )
 
 
-def main(count: int, seed: int) -> int:
-    outcomes = [run(i, random_problem(np.random.default_rng([seed, i]))) for i in range(count)]
+def main(count: int, seed: int, processes: int) -> int:
+    with ProcessPoolExecutor(processes) as pool:
+        outcomes = list(pool.map(one, [(seed, i) for i in range(count)], chunksize=16))
     print(f"{count} scenes, seed {seed}, rtol {RTOL:g}, true error against rtol {FINE:g}")
     print(f"{'ending':<16} {'count':>7} {'share':>7} {'median ms':>10} {'worst ms':>9}")
     endings = Counter(o.ending.split(":")[0] for o in outcomes)
@@ -133,6 +162,12 @@ def main(count: int, seed: int) -> int:
     beyond = sum(o.true_error > RTOL for o in known)
     unseen = sum(o.true_error > 10.0 * o.estimate for o in known)
     print(f"true error above rtol: {beyond}; above ten times the estimate: {unseen}")
+    split = [o for o in solved if o.strips > 1]
+    gridded = [o for o in solved if not math.isnan(o.grid_off)]
+    print(f"split {len(split)}; seen by the grid {len(gridded)}, there with other strips "
+          f"{sum(math.isinf(o.grid_off) for o in gridded)}, depth off by 1e-3 or more "
+          f"{sum(o.grid_off >= 1e-3 for o in gridded)}")  # fmt: skip
+    table("farthest from the grid", sorted(gridded, key=lambda o: -o.grid_off))
     table("largest true errors", sorted(known, key=lambda o: -o.true_error))
     table("true error over estimate", sorted(known, key=lambda o: -o.true_error / max(o.estimate, 1e-12)))
     table("no finer solution", [o for o in solved if not math.isfinite(o.true_error)])
@@ -145,6 +180,5 @@ def main(count: int, seed: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(
-        main(int(sys.argv[1]) if len(sys.argv) > 1 else 300, int(sys.argv[2]) if len(sys.argv) > 2 else 1)
-    )
+    given = [int(argument) for argument in sys.argv[1:]]
+    sys.exit(main(*given, *(300, 1, os.cpu_count() or 1)[len(given) :]))

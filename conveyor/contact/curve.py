@@ -216,7 +216,9 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
         highest=highest,
         error=error,
         energy_error=energy,
-        stats=SolveStats(n, sampler.matrices, sampler.rule.nodes.shape[-1], sampler.scene.creep.weights.size),
+        stats=SolveStats(
+            n, sampler.matrices, sampler.rule.nodes.shape[-1], sampler.scene.creep.weights.size, way="curve"
+        ),
         _centre=sampler.centre,
         _half=sampler.half,
         _contacts=sampled.contact,

@@ -54,9 +54,9 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
                 return outcome
         points *= 2
     if not grids:
-        return Outcome(Status.NOT_CONVERGED, remarks=(failure,))
+        return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        return Outcome(Status.WRAP_LIMIT, grid=grids[-1].points, remarks=_limit(scene))
+        return Outcome(Status.WRAP_LIMIT, grid=grids[-1].points, way="grid", remarks=_limit(scene))
     return _on_grid(grids, rtol)
 
 
@@ -105,6 +105,7 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
                     found=_found(strips, fields, error, energy),
                     order=n,
                     grid=grid.points,
+                    way="strips",
                     remarks=remarks(pressing),
                 )
         before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
@@ -150,6 +151,7 @@ def _on_grid(grids: list[GridContact], rtol: float) -> Outcome:
             fields=GridFields(grid),
         ),
         grid=grid.points,
+        way="grid",
         remarks=(_ON_GRID.format(grid.points),),
     )
 

@@ -349,6 +349,7 @@ def _accept(
             matrices=int(search.matrices[row]),
             nodes=int(search.rule.nodes.shape[1]),
             terms=group.given[row].weights.size,
+            way="narrow",
         )
     return done
 

@@ -20,13 +20,31 @@ _DEEP = "the penetration is {:.2f} R, far outside small strain"
 
 @dataclass(frozen=True)
 class SolveStats:
-    """What a solve cost: final order, Galerkin matrices built, quadrature nodes, retardation terms kept, grid nodes."""
+    """What a solve cost, and what it did without.
+
+    Attributes
+    ----------
+    order : int
+        Final Galerkin order; zero where only the grid answered.
+    matrices : int
+        Galerkin matrices built.
+    nodes : int
+        Quadrature nodes of one matrix.
+    terms : int
+        Retardation terms kept: those without time (ζ = 0) are instantaneous.
+    grid : int
+        Grid nodes in a period; zero where no grid was needed.
+    way : str
+        "narrow": short rule, no look at the gap outside, no images beyond the window; "one strip"; "strips": found on
+        the grid, polished spectrally; "grid": no spectral answer; "curve": interpolated between contacts.
+    """
 
     order: int
     matrices: int
     nodes: int
     terms: int
     grid: int = 0
+    way: str = "one strip"
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +72,7 @@ class Outcome:
     matrices: int = 0
     nodes: int = 0
     terms: int = 0
+    way: str = "one strip"
     remarks: tuple[str, ...] = ()
 
 

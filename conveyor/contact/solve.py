@@ -141,7 +141,9 @@ def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:
 
 
 def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:
-    stats = SolveStats(outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid)
+    stats = SolveStats(
+        outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
+    )
     solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
     if throw and solution.status is not Status.OK:
         raise NoSolutionError(solution.message)
