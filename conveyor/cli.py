@@ -257,7 +257,10 @@ def shelf(
 @app.command()
 def contact(
     radius: Annotated[float, typer.Option(help="R over the spacing, in (0, 0.5].")],
-    pressure: Annotated[float, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")],
+    pressure: Annotated[float | None, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")] = None,
+    penetration: Annotated[
+        float | None, typer.Option(help="Penetration over R, held in place of the pressure.")
+    ] = None,
     support: Annotated[str, typer.Option(help="free, confined or half-space.")] = "confined",
     thickness: Annotated[float, typer.Option(help="k h; inf allowed.")] = float("inf"),
     instantaneous: Annotated[
@@ -273,22 +276,32 @@ def contact(
 
     Example: conveyor contact --support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1
     """
-    from conveyor.contact import ContactProblem, CreepSpectrum, solve
+    from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_penetration
 
+    if (pressure is None) == (penetration is None):
+        raise InputError("give --pressure or --penetration")
     weights = weight or []
     creep = CreepSpectrum(1.0 - sum(weights) if instantaneous is None else instantaneous, weights, time or [])
-    problem = ContactProblem(support, radius, pressure, creep, thickness, poisson)
-    solution = solve(problem, rtol)
+    problem = ContactProblem(
+        support, radius, 1.0 if pressure is None else pressure, creep, thickness, poisson
+    )
+    solution = solve(problem, rtol) if penetration is None else solve_penetration(problem, penetration, rtol)
     names = ("friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation",
              "error_estimate", "energy_error")  # fmt: skip
     figures = {name: float(getattr(solution, name)) for name in names}
     if as_json:
-        print(
-            json.dumps({**figures, "status": solution.status.name, "order": solution.stats.order}, indent=2)
-        )
+        about = {
+            "pressure": solution.problem.pressure,
+            "strips": solution.patches.tolist(),
+            "status": solution.status.name,
+            "order": solution.stats.order,
+            "way": solution.stats.way,
+        }
+        print(json.dumps({**figures, **about}, indent=2))
         return
-    for name, value in figures.items():
+    for name, value in {"pressure": solution.problem.pressure, **figures}.items():
         print(f"{name:>15}  {value:.10g}")
+    print(f"{'strips':>15}  {', '.join(f'{low:.6g} to {high:.6g}' for low, high in solution.patches)}")
     print(f"{'status':>15}  {solution.message}")
 
 

@@ -131,12 +131,40 @@ def test_contact_prints_the_reference_case() -> None:
     assert found["status"] == "OK"
 
 
-def test_contact_that_splits_is_exit_one_with_advice() -> None:
-    done = run(
-        "contact", *"--support free --radius 0.4 --thickness 1 --pressure 0.13 --weight 0.9 --time 3".split()
+SPLIT = "--support free --radius 0.4 --thickness 1 --weight 0.9 --time 3".split()
+
+
+def test_contact_that_splits_shows_its_strips() -> None:
+    done = run("contact", *SPLIT, "--pressure", "0.13", "--json")
+    assert done.returncode == 0
+    found = json.loads(done.stdout)
+    assert found["friction"] == pytest.approx(0.35799886592, rel=1e-6)
+    assert found["strips"] == [
+        pytest.approx([-0.57405087749, 0.11803574191], abs=1e-6),
+        pytest.approx([0.32586797997, 0.74153527656], abs=1e-6),
+    ]
+    assert (
+        "-0.574051 to 0.118036, 0.325868 to 0.741535" in run("contact", *SPLIT, "--pressure", "0.13").stdout
     )
+
+
+def test_contact_of_given_penetration() -> None:
+    done = run("contact", *SPLIT, "--penetration", "0.24626956256", "--json")
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["pressure"] == pytest.approx(0.13, rel=1e-6)
+
+
+@pytest.mark.parametrize("given", [[], ["--pressure", "0.1", "--penetration", "0.1"]])
+def test_contact_wants_a_load_or_a_penetration(given: list[str]) -> None:
+    done = run("contact", *SPLIT, *given)
+    assert done.returncode == 2
+    assert "give --pressure or --penetration" in done.stderr
+
+
+def test_contact_beyond_the_wrap_limit_is_exit_one_with_advice() -> None:
+    done = run("contact", *"--support free --radius 0.1 --thickness 0.05 --pressure 0.5".split())
     assert done.returncode == 1
-    assert "separates into several strips" in done.stderr
+    assert "lower the load, or enlarge the radius" in done.stderr
 
 
 def test_contact_refuses_overlapping_rolls() -> None:

@@ -86,8 +86,8 @@ def solve_penetration(
     >>> from conveyor.contact import CreepSpectrum
     >>> scene = ContactProblem("confined", 0.4, 1.0, CreepSpectrum(0.1, [0.9], [1.0]), thickness=1.0)
     >>> s = solve_penetration(scene, 0.0378398947)
-    >>> round(s.problem.pressure, 6), round(s.friction, 6)
-    (0.05, 0.130981)
+    >>> round(s.problem.pressure, 6), round(s.friction, 5)
+    (0.05, 0.13098)
     """
     if not (math.isfinite(penetration) and penetration > 0.0):
         raise InputError(f"penetration = {penetration!r}: Δ/R is finite and positive")

@@ -386,8 +386,9 @@ def test_nothing_is_remembered_between_solves():
 
 def test_what_is_not_needed_is_not_paid_for():
     easy = solve(ContactProblem("half-space", 0.07, 1e-6, CreepSpectrum(0.1, [0.9], [1.0])), rtol=1e-6)
-    assert easy.stats.order == 16
-    assert easy.stats.nodes < 200
+    assert easy.stats.way == "narrow"
+    assert easy.stats.order <= 24
+    assert easy.stats.nodes < 40
     assert solve(SCENES["free"], rtol=1e-3).stats.order < solve(SCENES["free"], rtol=1e-12).stats.order
 
 
