@@ -25,8 +25,8 @@ from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.short_rule import ShortRule
-from conveyor.contact.single import SIGN_ORDER
+from conveyor.contact.short_rule import ShortRule, grades_for
+from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
 from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
@@ -309,6 +309,7 @@ class _Sampler:
     half: float
     rule: Rule | ShortRule
     check: Rule | ShortRule
+    floor: float  # of the error, by the rule
     matrices: int = 0
 
     @classmethod
@@ -322,9 +323,9 @@ class _Sampler:
         scene, widest = Scene.of(problem), math.exp(centre + half)
         rules = shared_rules(problem, widest, rtol)
         if rules is not None:
-            return cls(scene, centre, half, *rules)
+            return cls(scene, centre, half, *rules, grades_for(rtol)[0].error)
         check = build_rule(problem.layer, scene.creep, widest, CHECK)
-        return cls(scene, centre, half, build_rule(problem.layer, scene.creep, widest), check)
+        return cls(scene, centre, half, build_rule(problem.layer, scene.creep, widest), check, ROUNDING)
 
     def sample(self, degree: int, n: int, before: _Sampled | None) -> _Sampled:
         """Contacts at the degree's points, those of half the degree taken from `before`."""
@@ -350,7 +351,7 @@ class _Sampler:
         if error <= rtol or contact.c.shape[1] == ORDERS[-1]:
             by_loss = friction_by_loss(self.check, self.scene.creep, contact, rho)
             energy = float(np.abs(relative_difference(by_loss, contact.friction)).max())
-            error = max(error, energy / ENERGY_OVER_ERROR)
+            error = max(error, energy / ENERGY_OVER_ERROR, self.floor)
         return error, energy, sign(contact, max(error, _SIGN_FLOOR))
 
 

@@ -57,7 +57,7 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
         return Outcome(Status.WRAP_LIMIT, grid=grids[-1].points, way="grid", remarks=_limit(scene))
-    return _on_grid(grids, rtol)
+    return _on_grid(scene, grids, rtol)
 
 
 def _seen(grid: GridContact) -> bool:
@@ -82,19 +82,18 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
             centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
             n, before = next_order(n, 0.0, rtol), None
             continue
-        error = 1.0
+        error, scale = 1.0, _scale(scene, strips.friction)
         if before is not None:
-            scale = abs(strips.friction) if strips.friction else 1.0
             error = abs(before.friction - strips.friction) / scale
         pressing = sign(strips.contact, rtol)
         if pressing is Sign.PULLING:
             return None
-        if error <= rtol or n == ORDERS[-1]:
-            by_loss = friction_by_loss(scene, strips)
-            energy = abs(by_loss - strips.friction) / (abs(strips.friction) or 1.0)
-            error = max(error, energy / ENERGY_OVER_ERROR, ROUNDING)
+        exhausted = n == ORDERS[-1] or error <= strips.rounding / scale
+        if error <= rtol or exhausted:
+            energy = abs(friction_by_loss(scene, strips) - strips.friction) / scale
+            error = max(error, energy / ENERGY_OVER_ERROR, strips.rounding / scale, ROUNDING)
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
-            if (error <= rtol and decided) or n == ORDERS[-1]:
+            if (error <= rtol and decided) or exhausted:
                 if overlaps(scene, strips.contact, strips.depth):
                     return None
                 fields = SpectralFields(
@@ -110,6 +109,11 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
                 )
         before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
         n = next_order(n, error if error < 1.0 else 0.0, rtol)
+
+
+def _scale(scene: Scene, friction: float) -> float:
+    """What errors of friction are relative to; one where the layer is elastic and friction is zero."""
+    return abs(friction) if scene.creep.weights.size and friction else 1.0
 
 
 def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) -> Found:
@@ -130,10 +134,10 @@ def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) 
     )
 
 
-def _on_grid(grids: list[GridContact], rtol: float) -> Outcome:
+def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
     """The finest grid's contact; its error from the change at the last two doublings and from the energy."""
     grid = grids[-1]
-    scale = abs(grid.friction) if grid.friction else 1.0
+    scale = _scale(scene, grid.friction)
     energy = abs(grid.friction_by_loss - grid.friction) / scale
     change = max((abs(g.friction - grid.friction) for g in grids[-3:-1]), default=scale) / scale
     error = max(change, energy, ROUNDING)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
-from scipy import linalg, special
+from scipy import special
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from conveyor.contact.problem import ContactProblem
@@ -32,10 +32,10 @@ Array = NDArray[np.float64]
 _ALIASES = 6  # explicit ones; beyond, S varies by less than 1e-2 and the sum is a Hurwitz zeta function
 _ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
 _DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
-_PIVOTS = 300
+_PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
-_DENSE_AT_WORST = 4000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
+_DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
 _KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 2
 _CHUNK = 1 << 16
 
@@ -166,13 +166,25 @@ class _Surface:
     loss_transform: Array
     row: Array  # t_d, d = 0 … N-1
     lift: float
+    window: NDArray[np.complex128]  # transform of t_d of the nodes on the roll alone, where they are few
+    inverse: NDArray[np.complex128]  # 1/T at the window's wave numbers
 
     @classmethod
     def of(cls, problem: ContactProblem, points: int, index: NDArray[np.int_]) -> _Surface:
         transform, loss = _transform(problem, points)
         lift = float(np.abs(transform[1]))
         transform[0] = lift
-        return cls(index, transform, loss, np.fft.irfft(transform, points), lift)
+        row = np.fft.irfft(transform, points)
+        size = 1 << math.ceil(math.log2(2 * index.size))
+        if size >= points:
+            return cls(index, transform, loss, row, lift, transform, 1.0 / transform)
+        # a product of the nodes on the roll needs t_d of their distances only
+        near = np.concatenate([row[: size // 2], [0.0], row[points - size // 2 + 1 :]])
+        wave = np.arange(size // 2 + 1) * (points / size)
+        place = np.maximum(np.minimum(wave, points / 2.0), 1.0)
+        at = np.arange(1.0, transform.size)
+        middle = np.interp(place, at, transform[1:].real) + 1j * np.interp(place, at, transform[1:].imag)
+        return cls(index, transform, loss, row, lift, np.fft.rfft(near), 1.0 / middle)
 
     @property
     def points(self) -> int:
@@ -185,20 +197,25 @@ class _Surface:
 
     def lifted(self, p: Array) -> Array:
         """W + lift x mean p at the nodes of `index`."""
-        return self.whole(p)[self.index]
-
-    def whole(self, p: Array) -> Array:
-        """W + lift x mean p at every node."""
-        return self._apply(p, self.transform)
+        return self._product(p, self.window)
 
     def pressed(self, w: Array) -> Array:
-        """The pressure of a displacement on all the grid: the preconditioner."""
-        return self._apply(w, 1.0 / self.transform)[self.index]
+        """About the pressure of a displacement: the preconditioner."""
+        return self._product(w, self.inverse)
 
-    def _apply(self, values: Array, transform: NDArray[np.complex128]) -> Array:
+    def _product(self, values: Array, transform: NDArray[np.complex128]) -> Array:
+        size = 2 * (transform.size - 1)
+        full = np.zeros(size)
+        place = self.index - self.index[0] if size < self.points else self.index
+        full[place] = values
+        out: Array = np.fft.irfft(np.fft.rfft(full) * transform, size)[place]
+        return out
+
+    def whole(self, p: Array) -> Array:
+        """W + lift x mean p at every node of the period."""
         full = np.zeros(self.points)
-        full[self.index] = values
-        out: Array = np.fft.irfft(np.fft.rfft(full) * transform, self.points)
+        full[self.index] = p
+        out: Array = np.fft.irfft(np.fft.rfft(full) * self.transform, self.points)
         return out
 
     def loss(self, p: Array) -> float:
@@ -254,7 +271,11 @@ def _pivot(
     if not active.any():
         active[np.argmin(drop)] = True
     fewest, patience = drop.size + 1, _PATIENCE
+    costly = 0
     for pivots in range(1, _PIVOTS + 1):
+        costly += int(active.sum() > _DENSE)
+        if costly > _COSTLY_PIVOTS:
+            break
         p, raised = _equations(surface, drop, np.flatnonzero(active), mean, depth)
         gap = surface.lifted(p) + drop - raised
         closed = _ROUNDING * max(abs(raised), float(drop.max()))
@@ -272,7 +293,7 @@ def _pivot(
         active ^= wrong
         if not active.any():
             active[np.argmin(drop)] = True
-    raise NoSolutionError(f"the active set of the grid did not settle in {_PIVOTS} exchanges")
+    raise NoSolutionError(f"the active set of the grid did not settle in {pivots - 1} exchanges")
 
 
 def _equations(
@@ -318,7 +339,10 @@ def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
 
 
 def _dense(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
-    return np.asarray(linalg.solve(surface.dense(nodes), right, check_finite=False), dtype=np.float64)
+    try:
+        return np.asarray(np.linalg.solve(surface.dense(nodes), right), dtype=np.float64)
+    except np.linalg.LinAlgError as singular:
+        raise NoSolutionError(f"the grid's equations of {nodes.size} active nodes are singular") from singular
 
 
 def _inside(x: Array, strips: Array) -> NDArray[np.bool_]:

@@ -31,15 +31,14 @@ from conveyor.contact.problem import ContactProblem, Creeps, CreepSpectrum, Stat
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
     COARSE,
-    COARSE_FROM,
-    FINE,
     WIDEST,
     Grade,
     ShortRule,
+    grades_for,
     panels_beyond,
     short_rule,
 )
-from conveyor.contact.single import LOAD_FLOOR, ROUNDING
+from conveyor.contact.single import LOAD_FLOOR
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, assemble, equilibrium
 
@@ -112,7 +111,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
     for i, problem in enumerate(problems):
         if isinstance(problem.support, str) and _plain(problem, creeps[i]):
             kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
-    grades = COARSE if rtol >= COARSE_FROM else FINE
+    grades = grades_for(rtol)
     for members in kinds.values():
         group = _Group.of([problems[i] for i in members], [creeps[i] for i in members])
         alpha = _guess(group)
@@ -155,7 +154,7 @@ def shared_rules(
     if not _plain(problem, creep):
         return None
     group, width = _Group.of([problem], [creep]), np.array([half_width])
-    solving, checking = COARSE if rtol >= COARSE_FROM else FINE
+    solving, checking = grades_for(rtol)
     if not _fits(group, width, solving).all():
         return None
     rule = short_rule(group.layers, group.creeps, width, solving)
@@ -319,12 +318,12 @@ def _accept(
     """Check energy, sign and place of contacts whose order and load suffice; the good ones by their row."""
     group = search.group
     contact, ik = contacts
-    grade = (COARSE if rtol >= COARSE_FROM else FINE)[1]
+    grade = grades_for(rtol)[1]
     check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule.unit[rows])
     rho = group.rho[rows]
     by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
     energy = np.abs(relative_difference(by_loss, contact.friction))
-    estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), ROUNDING)
+    estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), grade.error)
     _, pressing = pulling_and_pressing(contact, rtol)
     good = (estimate <= rtol) & pressing & ~may_touch_elsewhere(contact, rho)
     n = int(contact.c.shape[1])

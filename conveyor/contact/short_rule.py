@@ -40,7 +40,7 @@ class Grade:
     """How fine a rule is: window width w, Gauss points and coarse nodes beyond what the phase needs.
 
     `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
-    which L = 1 is taken, |L-1| < 4 q² exp(-2q).
+    which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` is what all of it may do to friction (seen: a quarter of it).
     """
 
     width: float
@@ -49,12 +49,18 @@ class Grade:
     stretch: float
     phase: float
     depth: float
+    error: float
 
 
 # to rounding, and to 1e-9 of the largest entry; the rules of a pair have no node in common
-FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0), Grade(2.8, 18, 14, 1.9, 15.0, 20.0))
-COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5), Grade(2.8, 13, 6, 1.8, 13.0, 14.0))
+FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11))
+COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8))
 COARSE_FROM = 1e-7  # rtol down to which the coarse pair serves
+
+
+def grades_for(rtol: float) -> tuple[Grade, Grade]:
+    """The pair that solves and checks to a tolerance."""
+    return COARSE if rtol >= COARSE_FROM else FINE
 
 
 @dataclass(frozen=True, eq=False)

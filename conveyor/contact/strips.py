@@ -33,6 +33,7 @@ _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
 _LONGEST = 40_000  # terms of the window: gaps below 13 x 12.5/40,000 = 0.004 stay on the grid
 _CHUNK = 4_000_000
 _NEWTON_STEPS = 12
+_ROUNDING = 1e-13  # of each strip's force, at a condition number of 100
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP = 0.5  # of the narrowest half width
 
@@ -53,6 +54,11 @@ class Strips:
     def pressure(self) -> float:
         """p̃_m [-]."""
         return float(self.contact.pressure.sum())
+
+    @property
+    def rounding(self) -> float:
+        """Rounding of the friction's sum over strips, whose forces may cancel, μ [-]."""
+        return _ROUNDING * float(np.abs(self.contact.friction) @ self.contact.pressure) / self.pressure
 
     @property
     def friction(self) -> float:
