@@ -1,10 +1,11 @@
-"""Figures 2 to 7 of Menga, Bottiglione and Carbone, Lubricants 7 (2019), redrawn, and the paper's claims with our numbers.
+"""Figures 2 to 7 of Menga, Bottiglione and Carbone, Lubricants 7 (2019), redrawn.
 
-python examples/04_paper_figures.py [OUTDIR]    PNGs into OUTDIR (out/paper), tables to the terminal, under a minute
+python examples/04_paper_figures.py [OUTDIR]    PNGs into OUTDIR (out/paper), a table of points to the terminal
 
 Symbols are the paper's: R̃ = R/λ, k h, p̃_m = 2(1-ν²) p_m/(E0 k R), ζ = V τ k, ã = a/R, W̃_d = μ p̃_m ζ; ν = ½, free layer.
 The paper states neither E∞/E0 nor the scenes of Figs. 2, 4, 5 and 7 in full; what is chosen here stands on the figures.
-Open circles are contacts of more than one strip; a point without an answer is a gap and is counted.
+Open circles are contacts of more than one strip; a point without an answer is a gap and is counted. What the paper says
+about the figures is judged in docs/paper.md and tests/test_paper_figures.py.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import matplotlib as mpl
@@ -26,9 +26,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize_scalar
 
-from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum, Status, solve, solve_many
+from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum, Status, solve_many
 
 MODULUS_RATIO = 10.0  # E∞/E0, not stated in the paper
 RTOL = 1e-5  # of friction; a line is 1e-3 of an axis wide
@@ -49,7 +48,7 @@ STYLE = {
     "axes.titlesize": 9,
     "lines.linewidth": 1.6,
     "figure.constrained_layout.use": True,
-    "savefig.dpi": 130,
+    "savefig.dpi": 120,
 }
 
 
@@ -74,6 +73,7 @@ class Tally:
     refused: int = 0
 
     def solved(self, problems: Sequence[ContactProblem]) -> list[ContactSolution]:
+        """Solutions in order, counted."""
         found = solve_many(problems, RTOL)
         for solution in found:
             if solution.status is not Status.OK:
@@ -97,25 +97,34 @@ class Line:
     def of(
         cls, x: ArrayLike, solutions: Sequence[ContactSolution], value: Callable[[ContactSolution], float]
     ) -> Line:
+        """Values of the solutions at x."""
         answered = np.array([s.status is Status.OK for s in solutions])
         y = [value(s) if good else 0.0 for s, good in zip(solutions, answered, strict=True)]
         split = [good and len(s.patches) > 1 for s, good in zip(solutions, answered, strict=True)]
         return cls(np.asarray(x, dtype=float), np.ma.masked_array(y, mask=~answered), np.array(split))
 
     def draw(self, ax: Axes, colour: str, **style: object) -> None:
+        """Line and circles."""
         ax.plot(self.x, self.y, color=colour, **style)
         at = self.split
         ax.plot(self.x[at], self.y[at], "o", ms=4.2, mfc="white", mec=colour, mew=1.0)
 
 
 def say(ax: Axes, x: float, y: float, text: str, colour: str, **style: object) -> None:
-    """A direct label."""
-    ax.annotate(text, (x, y), color=colour, xytext=style.pop("shift", (0, 0)), textcoords="offset points", **style)
+    """A direct label; none at a point without an answer."""
+    if y is np.ma.masked:
+        return
+    shift = style.pop("shift", (0, 0))
+    ax.annotate(text, (x, y), color=colour, xytext=shift, textcoords="offset points", **style)
 
 
 def finish(figure: Figure, tally: Tally, text: str) -> None:
     """The caption: assumption, choices, split points, points without an answer."""
-    marks = [text, f"○ of several strips: {tally.split}", f"points without an answer: {tally.refused}"]
+    marks = [
+        text,
+        f"contacts of several strips (○): {tally.split}",
+        f"points without an answer: {tally.refused}",
+    ]
     figure.supxlabel(ASSUMED + "\n" + "   |   ".join(marks), fontsize=7.5, color="0.35")
 
 
@@ -152,7 +161,9 @@ def figure_2(points: int) -> tuple[Figure, Tally]:
         say(top, 2.55, 0.58, "V", "0.2", va="center")
         say(top, -1.2, 0.58, "layer (upper face not drawn)", "0.4", va="center", fontsize=8)
         top.set(aspect="equal", ylim=(-0.62, 0.75), xlim=(x[0], x[-1]), xlabel="x/R")
-        top.set_title(f"({name}) k h = {thickness:g}: ã = {moving.half_width:.3f}, Δ/R = {moving.penetration:.3f}")
+        size = f"ã = {moving.half_width:.3f}, Δ/R = {moving.penetration:.3f}"
+        strips = len(moving.patches)
+        top.set_title(f"({name}) k h = {thickness:g}: {size}" + (f", {strips} strips" if strips > 1 else ""))
         top.grid(visible=False)
         bottom.fill_between(near, moving.pressure(near), color=RED, alpha=0.15, lw=0)
         bottom.plot(near, moving.pressure(near), color=RED)
@@ -200,8 +211,8 @@ def figure_4(points: int) -> tuple[Figure, Tally]:
             hidden = np.ma.getmaskarray(line.y) | np.array([s is None for s in shallow])
             ax.plot(zeta, np.ma.masked_array(line.y.data, mask=hidden), color=colour, lw=1.9)
             top = int(np.argmax(line.y))
-            aside = {"shift": (-8, 2), "ha": "right"} if radius == 0.1 else {"shift": (14, 6)}
-            say(ax, zeta[top], line.y[top], f"R̃ = {radius:g}", colour, **aside)
+            shift, side = {0.1: ((-8, 2), "right"), 0.2: ((14, 6), "left")}.get(radius, ((-2, -19), "center"))
+            say(ax, zeta[top], line.y[top], f"R̃ = {radius:g}", colour, shift=shift, ha=side)
         ax.set(xscale="log", title=f"({name}) k h = {thickness:g}", xlabel=SPEED, ylim=(0.0, 1.65))
     axes[0].set_ylabel(r"$\mu = F_T/F_N$")
     finish(figure, tally, "p̃ₘ = 0.13, radii chosen   |   dashed: Δ > R")
@@ -222,7 +233,12 @@ def figure_5(points: int) -> tuple[Figure, Tally]:
     say(ax, 10.0, limit, f"half-space, {limit:.3f}", "0.2", shift=(0, 5), ha="right")
     say(ax, 0.75, 3.75, "free layer", BLUE, shift=(6, 6))
     say(ax, 0.45, 1.35, PRINTED_KERNEL, GREY, shift=(14, -10))
-    ax.set(xscale="log", xlabel="$k h$", ylabel=r"$10^3\,\tilde\tau_m = 10^3 \cdot 2(1-\nu^2)\,\tau_m/(E_0 k R)$", ylim=(0.0, None))
+    ax.set(
+        xscale="log",
+        xlabel="$k h$",
+        ylabel=r"$10^3\,\tilde\tau_m = 10^3 \cdot 2(1-\nu^2)\,\tau_m/(E_0 k R)$",
+        ylim=(0.0, None),
+    )
     ticks = (0.25, 0.5, 1, 2, 5, 10)
     ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.minorticks_off()
@@ -268,7 +284,16 @@ def figure_7(points: int) -> tuple[Figure, Tally]:
         for low, high in zip(plateau[support], plateau[support][1:], strict=False):
             dash = "--" if support == "confined" else "-"
             ax.annotate("", (x, high), (x, low), arrowprops={"arrowstyle": "->", "color": "0.3", "ls": dash})
-            say(ax, x, math.sqrt(low * high), f"×{high / low:.2f}", "0.3", shift=(-3, -3), ha="right", fontsize=8)
+            say(
+                ax,
+                x,
+                math.sqrt(low * high),
+                f"×{high / low:.2f}",
+                "0.3",
+                shift=(-3, -3),
+                ha="right",
+                fontsize=8,
+            )
     ax.plot([], [], color="0.3", label="free layer")
     ax.plot([], [], color="0.3", lw=1.0, ls="--", label=PRINTED_KERNEL)
     ax.legend(frameon=False, loc="lower right")
@@ -287,3 +312,28 @@ FIGURES: dict[str, tuple[Callable[[int], tuple[Figure, Tally]], int]] = {
     "figure_6": (figure_6, 49),
     "figure_7": (figure_7, 49),
 }
+
+
+def save(draw: Callable[[int], tuple[Figure, Tally]], points: int, path: Path) -> Tally:
+    with plt.rc_context(STYLE):
+        figure, tally = draw(points)
+        figure.savefig(path)
+        plt.close(figure)
+    return tally
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("outdir", nargs="?", type=Path, default=Path("out/paper"))
+    outdir = parser.parse_args().outdir
+    outdir.mkdir(parents=True, exist_ok=True)
+    print(f"{'':10}{'one strip':>10}{'split':>7}{'refused':>9}{'seconds':>9}")
+    for name, (draw, points) in FIGURES.items():
+        start = time.perf_counter()
+        tally = save(draw, points, outdir / f"{name}.png")
+        seconds = time.perf_counter() - start
+        print(f"{name:10}{tally.single:10}{tally.split:7}{tally.refused:9}{seconds:9.1f}")
+
+
+if __name__ == "__main__":
+    main()
