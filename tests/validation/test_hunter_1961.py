@@ -12,7 +12,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
+from conveyor.contact import ContactProblem, CreepSpectrum, solve
 from conveyor.contact.closed_forms import hunter_at_load, hunter_friction_peak, low_speed_friction
 
 RTOL = 1e-9
@@ -120,4 +120,4 @@ def test_a_contact_on_a_half_space_never_splits(ratio, memory, rtol):
         rtol=rtol,
         throw=False,
     )
-    assert found.status is not Status.SPLIT
+    assert len(found.patches) == 1
