@@ -74,7 +74,9 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     n, before = ORDERS[0], None
     while True:
-        strips = settle(scene, n, centre, alpha, tight)
+        strips = settle(
+            scene, n, centre, alpha, tight, jacobian=before.jacobian if before is not None else None
+        )
         if strips is None:
             # a low order may have no contact near the grid's
             if n >= _LAST_TRY:

@@ -36,7 +36,7 @@ _PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
 _DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
-_KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 2
+_KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 8
 _CHUNK = 1 << 16
 
 

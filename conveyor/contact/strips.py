@@ -30,9 +30,10 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
-_LONGEST = 40_000  # terms of the window: gaps below 13 x 12.5/40,000 = 0.004 stay on the grid
+_LONGEST = 20_000  # terms of the window: gaps below 13 x 12.5/20,000 = 0.008 stay on the grid
 _CHUNK = 4_000_000
-_NEWTON_STEPS = 12
+_NEWTON_STEPS = 20
+_SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
 _ROUNDING = 1e-13  # of each strip's force, at a condition number of 100
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP = 0.5  # of the narrowest half width
@@ -40,10 +41,11 @@ _LARGEST_STEP = 0.5  # of the narrowest half width
 
 @dataclass(frozen=True, eq=False)
 class Strips:
-    """Strips in equilibrium under one roll; `contact` holds one strip an entry, eps = X_l."""
+    """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's."""
 
     contact: Contact
     depth: float
+    jacobian: Array
 
     @property
     def order(self) -> int:
@@ -76,11 +78,13 @@ def smallest_gap(centre: Array, alpha: Array) -> float:
 
 
 def too_close(centre: Array, alpha: Array) -> bool:
-    """Whether the strips' window would need more than 40,000 terms."""
+    """Whether the strips' window would need more than 20,000 terms."""
     return _LONGEST * smallest_gap(centre, alpha) < 2.0 * _RAMP * _ALIAS
 
 
-def settle(scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float) -> Strips | None:
+def settle(
+    scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float, *, jacobian: Array | None = None
+) -> Strips | None:
     """Newton in (X_l, ln α_l) for the scene's load or depth; None where it does not settle.
 
     Parameters
@@ -89,31 +93,35 @@ def settle(scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float) 
         Strips to start from, X about the roll's axis [-].
     tolerance : float
         Change of ln α_l, and of X_l in half widths, at which Newton ends [-].
+    jacobian : ndarray, shape (2l, 2l), optional
+        That of another order: used as long as each step is a quarter of the one before, formed anew then.
     """
     count, rho = alpha.size, scene.problem.rho
     place = np.concatenate([centre, np.log(alpha)])
-    done = False
+    before = math.inf
     for _ in range(_NEWTON_STEPS):
         x, a = place[:count], np.exp(place[count:])
         if np.any(a + np.abs(x) >= rho) or smallest_gap(x, a) <= 0.0 or too_close(x, a):
             return None
-        if done:
-            return _strips(scene, n, x, a)
-        change = _DIFFERENCE * np.concatenate([a, np.ones(count)])
-        places = np.vstack([place, place + np.diag(change)])
-        residual = _Places(scene, n, places[:, :count], np.exp(places[:, count:])).residual()
+        unit = np.concatenate([a, np.ones(count)])
+        steps = _DIFFERENCE * unit if jacobian is None else np.empty(0)
+        places = np.vstack([place, place + np.diag(steps)]) if jacobian is None else place[None]
+        trial = _Places(scene, n, places[:, :count], np.exp(places[:, count:]))
+        residual = trial.residual()
         if residual is None:
             return None
-        jacobian = ((residual[1:] - residual[0]) / change[:, None]).T
+        if jacobian is None:
+            jacobian = ((residual[1:] - residual[0]) / steps[:, None]).T
         step = np.linalg.solve(jacobian, residual[0])
-        largest = float(np.abs(step / np.concatenate([a, np.ones(count)])).max())
-        done = largest <= tolerance
-        place = place - step * min(1.0, _LARGEST_STEP / largest) if largest > 0.0 else place
+        largest = float(np.abs(step / unit).max())
+        if largest <= tolerance:
+            return trial.strips(jacobian)
+        if largest > _SHRINKS * before:
+            jacobian, before = None, math.inf
+            continue
+        before = largest
+        place = place - step * min(1.0, _LARGEST_STEP / largest)
     return None
-
-
-def _strips(scene: Scene, n: int, centre: Array, alpha: Array) -> Strips:
-    return _Places(scene, n, centre[None], alpha[None]).strips()
 
 
 class _Places:
@@ -160,10 +168,10 @@ class _Places:
         )
         return np.concatenate([row, heights, held[:, None]], axis=1)
 
-    def strips(self) -> Strips:
+    def strips(self, jacobian: Array) -> Strips:
         """The first place as a contact."""
         contact = pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
-        return Strips(contact, float(self.depth[0].mean()))
+        return Strips(contact, float(self.depth[0].mean()), jacobian)
 
 
 def _window(scene: Scene, gap: float, widen: float = 1.0) -> tuple[Array, ComplexArray]:

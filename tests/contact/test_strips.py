@@ -91,8 +91,8 @@ def test_gap_counts_the_next_roll():
     centre, alpha = np.array([-2.0, 2.0]), np.array([0.5, 0.6])
     assert smallest_gap(centre, alpha) == pytest.approx(2.0 * math.pi - 2.6 - 2.5)
     assert smallest_gap(centre[:1], alpha[:1]) == 2.0 * math.pi
-    assert too_close(np.array([0.0, 1.0]), np.array([0.499, 0.499]))
-    assert not too_close(np.array([0.0, 1.0]), np.array([0.49, 0.49]))
+    assert too_close(np.array([0.0, 1.0]), np.array([0.497, 0.497]))
+    assert not too_close(np.array([0.0, 1.0]), np.array([0.495, 0.495]))
 
 
 def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch):
