@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 _NEGLIGIBLE = 39.2  # -ln 1e-17: coefficients beyond are rounding
 _SPARE = 4  # Chebyshev nodes beyond the coefficients, against aliasing
 _NEAR = 0.5  # of ρ: eccentricities within the rest are sought with few coefficients first
-_NEWTON_STEPS = 60
+_NEWTON_STEPS, _LAST_STEP = 60, 1e-8
 
 
 @lru_cache(maxsize=256)
@@ -73,7 +73,7 @@ def slope_coefficients(alpha: Array, eps: Array, rho: Array | float, count: int)
     ndarray, shape (b, count)
         g_i.
     """
-    radius = np.broadcast_to(rho, alpha.shape)
+    radius = np.zeros(alpha.shape) + rho
     few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
     s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
     even, odd, _, _ = _parts(alpha[:, None] * s, eps[:, None], radius[:, None])
@@ -103,7 +103,7 @@ def eccentricity(
     inside : ndarray of bool, shape (b,)
         False where no eccentricity with α + |ε| < ρ was found.
     """
-    radius = np.broadcast_to(rho, alpha.shape)
+    radius = np.zeros(alpha.shape) + rho
     room = radius - alpha
     fits = room > 0.0
     room = np.where(fits, room, radius)
@@ -136,7 +136,8 @@ def _newton(
         target = eps - miss / rise
         outside = np.abs(target) >= room
         target = np.where(outside, 0.5 * (eps + np.sign(target) * room), target)
-        settled = ~outside & (np.abs(target - eps) <= 1e-13 * np.abs(target))
+        # a step of 1e-8 leaves its square
+        settled = ~outside & (np.abs(target - eps) <= _LAST_STEP * np.abs(target))
         eps = target
         if settled.all():
             break

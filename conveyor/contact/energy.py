@@ -43,7 +43,7 @@ def loss(
     weighted = v * contact.c
     table = bessel_j(n, contact.alpha[:, None] * rule.nodes)[1:]
     phase = (-1j) ** ((v - 1) % 4)
-    spectrum = 0.5 * ((weighted * phase)[:, None] @ np.moveaxis(table, 0, 1))[:, 0] / rule.nodes
+    spectrum = 0.5 * ((weighted * phase)[:, None] @ table.swapaxes(0, 1))[:, 0] / rule.nodes
     power = spectrum.real**2 + spectrum.imag**2
     total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:

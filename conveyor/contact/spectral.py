@@ -74,7 +74,7 @@ def assemble(
         The Bessel products of these half widths, where known.
     """
     real, imaginary, retarded = _signs(n)
-    table = np.moveaxis(bessel_j(n, alpha[:, None] * rule.nodes), 0, 1)
+    table = bessel_j(n, alpha[:, None] * rule.nodes).swapaxes(0, 1)
     even, odd = table[:, 0::2], table[:, 1::2]
     dense, lossy = rule.weights.real[..., None, :], rule.weights.imag[..., None, :]
     gram = np.empty((alpha.size, n + 1, n + 1))  # i - v even: Re S, odd: Im S
@@ -163,7 +163,7 @@ def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
     ∫_δ^∞ J_1 J_0/x² dx = ½ (ln 2 - γ - ln δ); each retardation term from w_t - ζ w_t' = d w_el.
     """
     n = c.shape[1]
-    table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, rule.nodes)), 0, 1)
+    table = bessel_j(n, np.multiply.outer(alpha, rule.nodes)).swapaxes(0, 1)
     v = np.arange(1, n + 1)
     moments = (table[:, 1:] @ (table[:, 0] * (rule.weights / rule.nodes))[..., None])[..., 0]
     out: Array = np.einsum("bv,bv->b", v * c, np.real((-1j) ** ((v - 1) % 4) * moments))
