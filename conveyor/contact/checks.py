@@ -17,6 +17,7 @@ from conveyor.contact.spectral import Contact, equilibrium
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
+_LASTING = 16  # samples: a ripple of the highest order changes sign after four
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
@@ -103,12 +104,29 @@ def sign(contact: Contact, rtol: float) -> Sign:
 
 
 def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which contacts are PULLING and which PRESSING, shape (b,) twice."""
-    p = contact.c @ _sines(contact.c.shape[1]).T
+    """Which contacts are PULLING and which PRESSING, shape (b,) twice.
+
+    A contact presses where its tension carries no more than `rtol` of the load. Beyond that it pulls if the tension
+    exceeds the ripple of the order, or lasts longer than a ripple of it does: a thin plate that follows the roll
+    presses with little more than the mean pressure between two high peaks, its lift-off is far below the peaks' tails.
+    """
+    n = contact.c.shape[1]
+    p = contact.c @ _sines(n).T
+    tension = np.maximum(-p, 0.0)
+    pressing = (tension @ _sines(n)[:, 0]) * (np.pi / (4 * n + 2)) <= rtol * (0.5 * np.pi) * contact.c[:, 0]
+    if pressing.all():
+        return ~pressing, pressing
     highest = p.max(axis=1)
-    negative = -p.min(axis=1) / highest
-    tail = np.abs(contact.c[:, -(contact.c.shape[1] // 4) :]).sum(axis=1) / highest
-    return negative > np.maximum(_TAILS * tail, rtol), negative <= rtol
+    tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
+    ripple = tension.max(axis=1) <= _TAILS * tail * highest
+    return ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING)), pressing
+
+
+def _longest_run(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
+    """Longest run of true values in each row, shape (b,)."""
+    place = np.arange(1, flags.shape[1] + 1)
+    last_false = np.maximum.accumulate(np.where(flags, 0, place), axis=1)
+    return np.asarray((np.where(flags, place - last_false, 0)).max(axis=1))
 
 
 def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool_]:

@@ -26,6 +26,8 @@ _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRY = 64
+_SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
+_POLISHES = 3  # grids whose strips are tried
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
 _LIMIT_STEPS, _LIMIT_FINER = 16, 4  # bisections over ten decades: to 4e-4; times the coarsest grid
@@ -37,7 +39,7 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
     """The contact with as many strips as it has."""
     points = _coarsest(scene.problem.rho)
     grids: list[GridContact] = []
-    failure = ""
+    failure, polishes = "", 0
     for doubling in range(_FINEST + 1):
         if points > _MOST_POINTS:
             break
@@ -48,7 +50,9 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
             break
         if grids[-1].at_roll_end and doubling >= _WRAP_LEVEL:
             break
-        if doubling >= _FIRST_POLISH and _seen(grids[-1]) and len(grids[-1].strips) == len(grids[-2].strips):
+        steady = doubling >= _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
+        if steady and polishes < _POLISHES and _seen(grids[-1]):
+            polishes += 1
             outcome = _polished(scene, grids[-1], rtol)
             if outcome is not None:
                 return outcome
@@ -88,7 +92,7 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
         if before is not None:
             error = abs(before.friction - strips.friction) / scale
         pressing = sign(strips.contact, rtol)
-        if pressing is Sign.PULLING:
+        if pressing is Sign.PULLING and error <= _SETTLED:
             return None
         exhausted = n == ORDERS[-1] or error <= strips.rounding / scale
         if error <= rtol or exhausted:
