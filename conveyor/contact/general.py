@@ -25,7 +25,7 @@ from conveyor.errors import NoSolutionError
 _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
-_LAST_TRY = 64
+_LAST_TRY, _FAILURES = 64, 2  # orders that may have no contact near the grid's
 _SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 _POLISHES = 3  # grids whose strips are tried
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
@@ -76,17 +76,18 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
     """The grid's strips spectrally, the order raised until friction settles; None where they are not the contact."""
     centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
     tight = max(1e-3 * rtol, LOAD_FLOOR)
-    n, before = ORDERS[0], None
+    n, before, failures = ORDERS[0], None, 0
     while True:
         strips = settle(
             scene, n, centre, alpha, tight, jacobian=before.jacobian if before is not None else None
         )
         if strips is None:
             # a low order may have no contact near the grid's
-            if n >= _LAST_TRY:
+            failures += 1
+            if failures > _FAILURES or n >= _LAST_TRY:
                 return None
             centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
-            n, before = next_order(n, 0.0, rtol), None
+            n, before = next_order(n, 1.0, rtol), None
             continue
         error, scale = 1.0, _scale(scene, strips.friction)
         if before is not None:

@@ -32,7 +32,7 @@ ComplexArray = NDArray[np.complex128]
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
 _LONGEST = 20_000  # terms of the window: gaps below 13 x 12.5/20,000 = 0.008 stay on the grid
 _CHUNK = 4_000_000
-_NEWTON_STEPS = 20
+_NEWTON_STEPS = 12
 _SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
 _ROUNDING = 1e-13  # of each strip's force, at a condition number of 100
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
