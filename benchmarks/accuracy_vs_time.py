@@ -173,16 +173,22 @@ def scaling(problem: ContactProblem) -> dict[str, tuple[list[int], list[float]]]
     many = batch(problem, max(batches))
     loads = np.geomspace(0.1, 1.0, max(batches)) * problem.pressure
     return {
-        "matrix and its solve, order": (orders, [1e3 * seconds(lambda n=n: contact(n)) for n in orders]),
-        "rtol 1e-3 solve, terms": (
+        "order of one matrix and its solve": (
+            orders,
+            [1e3 * seconds(lambda n=n: contact(n)) for n in orders],
+        ),
+        "retardation terms of one solve (rtol 1e-3)": (
             terms,
             [1e3 * seconds(lambda n=n: solve(with_terms(n), 1e-3)) for n in terms],
         ),
-        "loads of one scene": (
+        "loads of one scene (rtol 1e-6)": (
             batches,
             [1e3 * seconds(lambda n=n: solve_loads(problem, loads[:n])) for n in batches],
         ),
-        "scenes of a batch": (batches, [1e3 * seconds(lambda n=n: solve_many(many[:n])) for n in batches]),
+        "scenes of a batch (rtol 1e-6)": (
+            batches,
+            [1e3 * seconds(lambda n=n: solve_many(many[:n])) for n in batches],
+        ),
     }
 
 
@@ -214,11 +220,12 @@ def draw(
     axes[0].set_ylabel("relative error of friction [-]")
     axes[0].legend(fontsize=8)
     figure.savefig(out / "accuracy_time.png", dpi=110)
-    figure, axes = plt.subplots(1, len(scales), figsize=(13.0, 3.2), layout="constrained")
+    figure, axes = plt.subplots(1, len(scales), figsize=(13.0, 3.2), sharey=True, layout="constrained")
     for axis, (name, (sizes, times)) in zip(axes, scales.items(), strict=True):
         axis.loglog(sizes, times, "o-", ms=4)
-        axis.set(xlabel=name, ylabel="time [ms]")
+        axis.set(xlabel=name)
         axis.grid(alpha=0.3)
+    axes[0].set_ylabel("time [ms]")
     figure.savefig(out / "scaling.png", dpi=110)
 
 

@@ -22,7 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many
+from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many, solve_penetration
+from conveyor.contact.grid import solve_grid
 from conveyor.validation import reference_cases
 
 RUNS = 15
@@ -74,14 +75,28 @@ def contacts(row: Callable[[str, float], None]) -> None:
     row(
         "200 loads of the conveyor contact, rtol 1e-3", median(lambda: solve_loads(case, loads, rtol=1e-3), 5)
     )
-    speeds = [
-        replace(case, creep=CreepSpectrum(case.creep.instantaneous, case.creep.weights, case.creep.times * f))
-        for f in np.geomspace(0.5, 2.0, 20)
+    rng = np.random.default_rng(1)
+    scenes = [
+        replace(
+            case,
+            radius=case.radius * rng.uniform(0.7, 1.4),
+            thickness=case.thickness * rng.uniform(0.5, 2.0),
+            pressure=case.pressure * rng.uniform(0.1, 3.0),
+            creep=CreepSpectrum(
+                case.creep.instantaneous,
+                case.creep.weights,
+                case.creep.times * 10.0 ** rng.uniform(-1.0, 1.0),
+            ),
+        )
+        for _ in range(1000)
     ]
     row(
-        "20 speeds of the conveyor contact, rtol 1e-4",
-        median(lambda: solve_many(speeds, rtol=1e-4, throw=True), 5),
+        "each of 1,000 different conveyor contacts, rtol 1e-6", median(lambda: solve_many(scenes), 5) / 1000.0
     )
+    split = ContactProblem("free", 0.3, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0)
+    row("split contact (two strips), rtol 1e-6", median(lambda: solve(split)))
+    row("paper contact, penetration given, rtol 1e-6", median(lambda: solve_penetration(paper, 0.1)))
+    row("grid of 4,096 nodes, split contact", median(lambda: solve_grid(split, 4096)))
     row(
         "all reference contacts, rtol 1e-6",
         median(lambda: [solve(c.problem, rtol=1e-6, throw=False) for c in reference_cases()], 3),

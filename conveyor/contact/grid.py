@@ -21,7 +21,6 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy import special
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from conveyor.contact.problem import ContactProblem
 from conveyor.contact.scene import Scene
@@ -316,6 +315,8 @@ def _equations(
 def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
     if nodes.size <= _DENSE:
         return _dense(surface, nodes, right)
+    from scipy.sparse.linalg import LinearOperator, gmres  # 40 ms that small grids do without
+
     full = np.zeros(surface.index.size)
 
     def spread(values: Array) -> Array:
