@@ -5,6 +5,7 @@ A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its
 """
 
 from conveyor.contact.curve import LoadCurve, LoadSolutions, load_curve, solve_loads
+from conveyor.contact.curves import load_curves
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
@@ -23,6 +24,7 @@ __all__ = [
     "SolveStats",
     "Status",
     "load_curve",
+    "load_curves",
     "solve",
     "solve_loads",
     "solve_many",

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relative_difference, sign
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import peak
-from conveyor.contact.narrow import places, shared_rules
+from conveyor.contact.lobatto import coefficients, interpolated, points
+from conveyor.contact.narrow import LOW_ORDER_FROM, places, shared_rules
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
@@ -35,11 +36,10 @@ from conveyor.errors import InputError, NoSolutionError, RangeError
 Array = NDArray[np.float64]
 
 _DEGREES = (16, 32, 64, 128)
-_LOW_ORDER_FROM = 1e-5  # rtol from which order 16 is worth a try
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
-_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
+MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _NEWTON_STEPS = 40
-_SIGN_FLOOR = 1e-9
+SIGN_FLOOR = 1e-9
 _SPLITS = (
     "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
     "or solve such loads one by one"
@@ -145,12 +145,13 @@ class LoadCurve:
         scene = Scene.of(self.problem)
         alpha, rho = self._contacts.alpha, self.problem.rho
         depth = penetration(scene.rule(float(alpha.max())), scene.creep, self._contacts, rho)
-        return _coefficients(depth * (rho / alpha) ** 2)
+        return coefficients((depth * (rho / alpha) ** 2)[:, None])[:, 0]
 
     @cached_property
     def _peaks(self) -> Array:
         """Chebyshev coefficients of p̂ρ/α."""
-        return _coefficients(peak(self._contacts.c) * self.problem.rho / self._contacts.alpha)
+        scaled = peak(self._contacts.c) * self.problem.rho / self._contacts.alpha
+        return coefficients(scaled[:, None])[:, 0]
 
     def _place(self, log_p: Array) -> Array:
         """Place t in [-1, 1] with ln p(t) = log_p: Newton from the chord, on a monotone smooth function."""
@@ -189,7 +190,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
         raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
     problem = replace(problem, pressure=highest)
     sampler = _Sampler.between(problem, lowest, highest, rtol)
-    n = ORDERS[0 if rtol >= _LOW_ORDER_FROM else 1]
+    n = ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
     degree, sampled = 0, None
     while True:
         sampled = sampler.sample(_DEGREES[degree], n, sampled)
@@ -200,11 +201,11 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
         if undecided and n < ORDERS[-1]:
             n, sampled = next_order(n, error, rtol), None
             continue
-        columns, missed = _interpolated(sampled.contact, problem.rho)
-        if missed <= rtol or degree + 1 == len(_DEGREES):
+        columns, missed = interpolated(sampled.contact, problem.rho, _DEGREES[degree])
+        if missed[0] <= rtol or degree + 1 == len(_DEGREES):
             break
         degree += 1
-    error = max(error, missed)
+    error = max(error, float(missed[0]))
     if not error <= rtol or undecided:
         raise NoSolutionError(
             f"the load curve reached a relative error of {error:.1e} only: "
@@ -222,7 +223,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
         _centre=sampler.centre,
         _half=sampler.half,
         _contacts=sampled.contact,
-        _columns=columns,
+        _columns=columns[0],
     )
 
 
@@ -319,7 +320,7 @@ class _Sampler:
         if ends is None:
             ends = _general_ends(problem, lowest, highest)
         low, high = np.log(ends)
-        centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
+        centre, half = 0.5 * (low + high), 0.5 * (high - low) + MARGIN
         scene, widest = Scene.of(problem), math.exp(centre + half)
         rules = shared_rules(problem, widest, rtol)
         if rules is not None:
@@ -329,7 +330,7 @@ class _Sampler:
 
     def sample(self, degree: int, n: int, before: _Sampled | None) -> _Sampled:
         """Contacts at the degree's points, those of half the degree taken from `before`."""
-        t = _lobatto(degree)
+        t = points(degree)
         fresh = t if before is None else t[1::2]
         alpha = np.exp(self.centre + self.half * fresh)
         matrix = assemble(self.rule, self.scene.creep, alpha, n)
@@ -352,7 +353,7 @@ class _Sampler:
             by_loss = friction_by_loss(self.check, self.scene.creep, contact, rho)
             energy = float(np.abs(relative_difference(by_loss, contact.friction)).max())
             error = max(error, energy / ENERGY_OVER_ERROR, self.floor)
-        return error, energy, sign(contact, max(error, _SIGN_FLOOR))
+        return error, energy, sign(contact, max(error, SIGN_FLOOR))
 
 
 def _general_ends(problem: ContactProblem, lowest: float, highest: float) -> Array:
@@ -366,40 +367,6 @@ def _general_ends(problem: ContactProblem, lowest: float, highest: float) -> Arr
             "the roll for a load curve, solve such loads one by one"
         )
     return np.array([s.half_width * problem.rho for s in ends])
-
-
-def _lobatto(degree: int) -> Array:
-    points: Array = np.cos(np.arange(degree + 1) * (np.pi / degree))
-    return points
-
-
-@lru_cache(maxsize=16)
-def _transform(degree: int) -> Array:
-    """From values at Lobatto points to Chebyshev coefficients: a_k = (2/N) Σ f_j cos(kjπ/N), ends halved."""
-    index = np.arange(degree + 1)
-    matrix = (2.0 / degree) * np.cos(np.multiply.outer(index, index) * (np.pi / degree))
-    matrix[:, [0, -1]] *= 0.5
-    matrix[[0, -1]] *= 0.5
-    return matrix
-
-
-def _coefficients(values: Array) -> Array:
-    """Chebyshev coefficients of values at Lobatto points, axis 0."""
-    coefficients: Array = _transform(values.shape[0] - 1) @ values
-    return coefficients
-
-
-def _interpolated(contact: Contact, rho: float) -> tuple[Array, float]:
-    """Columns of the curve, and what the interpolant through every other point misses of friction at given load."""
-    values = np.stack(
-        [np.log(contact.pressure), contact.friction * rho / contact.alpha, contact.eps / contact.alpha],
-        axis=1,
-    )
-    between = _lobatto(values.shape[0] - 1)[1::2]
-    log_p, drag, _ = chebyshev.chebval(between, _coefficients(values[::2])) - values[1::2].T
-    smallest = max(float(np.abs(values[:, 1]).min()), np.finfo(float).tiny)
-    missed = float((np.abs(log_p) + np.abs(drag) / smallest).max())
-    return _coefficients(values), missed
 
 
 def _weave(even: Array, odd: Array) -> Array:

@@ -27,6 +27,7 @@ from conveyor.contact.checks import (
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
 from conveyor.contact.layers import Layers
+from conveyor.contact.orders import NARROW_ORDERS
 from conveyor.contact.problem import ContactProblem, Creeps, CreepSpectrum, Status
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
@@ -45,23 +46,23 @@ from conveyor.contact.spectral import Contact, assemble, equilibrium
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_SEARCH, _ORDERS = 8, (16, 24, 32, 48)
-_LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
-_SAMPLES, _RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
+_SEARCH = 8
+LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
+_SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
-_ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
+ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
 _NEWTON_STEPS = 3  # of the nearly straight cubic; every move goes on from the last
 _CLOSING_STEPS = 5
 _LOAD_SHARE = 0.1  # of rtol: mismatch of load that may be left; friction feels a third of it
 _TIMES = 1e100  # squares of larger retardation numbers overflow
 _MOST_PANELS = 12
-_CHUNK = 100  # scenes whose tables stay in the processor's cache
+CHUNK = 100  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
-_GUESS = 1.15  # of the Hertz guess: the middle of 1,000 conveyor contacts
+_GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
 
 
 @dataclass(eq=False)
-class _Group:
+class Group:
     """Scenes of one support side by side, and what is known of each."""
 
     problems: list[ContactProblem]
@@ -72,7 +73,8 @@ class _Group:
     target: Array
 
     @classmethod
-    def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> _Group:
+    def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> Group:
+        """Scenes of one support; terms are filled up with weights of zero."""
         terms = max([1, *(creep.weights.size for creep in given)])
         weights, times = np.zeros((len(given), terms)), np.ones((len(given), terms))
         for row, creep in enumerate(given):
@@ -92,8 +94,8 @@ class _Group:
             np.log([p.pressure for p in problems]),
         )
 
-    def __getitem__(self, chosen: Index) -> _Group:
-        return _Group(
+    def __getitem__(self, chosen: Index) -> Group:
+        return Group(
             [self.problems[i] for i in chosen],
             [self.given[i] for i in chosen],
             self.layers[chosen],
@@ -109,21 +111,21 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
     kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(p.creep) for p in problems]
     for i, problem in enumerate(problems):
-        if isinstance(problem.support, str) and _plain(problem, creeps[i]):
+        if isinstance(problem.support, str) and plain(problem, creeps[i]):
             kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
     grades = grades_for(rtol)
     for members in kinds.values():
-        group = _Group.of([problems[i] for i in members], [creeps[i] for i in members])
-        alpha = _guess(group)
-        half_width = _ROOM * alpha
-        fits = np.flatnonzero(_fits(group, half_width, grades[0]))
+        group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
+        alpha = guess(group)
+        half_width = ROOM * alpha
+        narrow = np.flatnonzero(fits(group, half_width, grades[0]))
         panels = panels_beyond(group.layers.reach(grades[0].depth), half_width, grades[0])
-        fits = fits[np.lexsort((half_width[fits], panels[fits]))]
-        for start in range(0, fits.size, _CHUNK):
-            chosen = fits[start : start + _CHUNK]
+        narrow = narrow[np.lexsort((half_width[narrow], panels[narrow]))]
+        for start in range(0, narrow.size, CHUNK):
+            chosen = narrow[start : start + CHUNK]
             part = group[chosen]
             rule = short_rule(part.layers, part.creeps, half_width[chosen], grades[0])
-            search = _Search(part, rule, alpha[chosen])
+            search = Search(part, rule, alpha[chosen])
             for row, outcome in _closed(search, rtol).items():
                 outcomes[members[chosen[row]]] = outcome
     return outcomes
@@ -132,18 +134,18 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
 def places(problem: ContactProblem, pressures: Sequence[float]) -> Array | None:
     """Half widths of one scene under several loads, good to about 1e-4 (order 8); None if not narrow."""
     creep = instantly_relaxed(problem.creep)
-    if not _plain(problem, creep):
+    if not plain(problem, creep):
         return None
     loads = [replace(problem, pressure=p) for p in pressures]
-    group = _Group.of(loads, [creep] * len(loads))
-    alpha = _guess(group)
-    widest = _ROOM * float(alpha.max())
-    if not _fits(group, np.full(len(loads), widest), COARSE[0]).all():
+    group = Group.of(loads, [creep] * len(loads))
+    alpha = guess(group)
+    widest = ROOM * float(alpha.max())
+    if not fits(group, np.full(len(loads), widest), COARSE[0]).all():
         return None
     first = group[np.zeros(1, dtype=int)]
     rule = short_rule(first.layers, first.creeps, np.array([widest]), COARSE[0])
-    search = _Search(group, rule.repeated(len(loads)), alpha)
-    return np.exp(search.middle + _RANGE * search.place) if search.alive.all() else None
+    search = Search(group, rule.repeated(len(loads)), alpha)
+    return np.exp(search.middle + RANGE * search.place) if search.alive.all() else None
 
 
 def shared_rules(
@@ -151,28 +153,28 @@ def shared_rules(
 ) -> tuple[ShortRule, ShortRule] | None:
     """Rules for solving and checking one scene up to a half width, of one row; None if not narrow."""
     creep = instantly_relaxed(problem.creep)
-    if not _plain(problem, creep):
+    if not plain(problem, creep):
         return None
-    group, width = _Group.of([problem], [creep]), np.array([half_width])
+    group, width = Group.of([problem], [creep]), np.array([half_width])
     solving, checking = grades_for(rtol)
-    if not _fits(group, width, solving).all():
+    if not fits(group, width, solving).all():
         return None
     rule = short_rule(group.layers, group.creeps, width, solving)
     return rule, short_rule(group.layers, group.creeps, width, checking, rule.unit)
 
 
-def _plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
+def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
     """Whether the short rules know the scene's layer and can square its retardation numbers."""
     return isinstance(problem.support, str) and creep.times.max(initial=0.0) < _TIMES
 
 
-def _fits(group: _Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
+def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
     return np.asarray((half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS))
 
 
-def _guess(group: _Group) -> Array:
+def guess(group: Group) -> Array:
     """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
     narrow = group.rho * np.sqrt(np.exp(group.target) * group.creeps.instantaneous)
     span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
@@ -200,19 +202,19 @@ def _points() -> tuple[Array, Array]:
     return t, np.linalg.inv(np.vander(t, increasing=True)).T
 
 
-class _Search:
+class Search:
     """Half widths on their way to the load, one scene a row.
 
     At order 8 the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher order
     it differs by an offset that hardly depends on α, so that each evaluation there gives the next place.
     """
 
-    def __init__(self, group: _Group, rule: ShortRule, alpha: Array) -> None:
+    def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
         self.group, self.rule = group, rule
         self.middle = np.log(alpha)
         t, transform = _points()
         size = alpha.size
-        sampled = np.exp(self.middle[:, None] + _RANGE * t).ravel()
+        sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
         every = np.repeat(np.arange(size), _SAMPLES)
         rho = group.rho[every]
         contact = equilibrium(assemble(rule[every], group.creeps[every], sampled, _SEARCH), sampled, rho)
@@ -258,7 +260,7 @@ class _Search:
     def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, ProductIK]:
         """Contacts of some rows at order n, matrices, ln p - target, Bessel products; moves on to the next places."""
         t = self.place[rows]
-        alpha = np.exp(self.middle[rows] + _RANGE * t)
+        alpha = np.exp(self.middle[rows] + RANGE * t)
         creeps = self.group.creeps[rows]
         ik = ProductIK(n, alpha[:, None] / creeps.times)
         matrix = assemble(self.rule[rows], creeps, alpha, n, ik)
@@ -274,13 +276,13 @@ class _Search:
         return contact, matrix, miss, ik
 
 
-def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
+def _closed(search: Search, rtol: float) -> dict[int, Outcome]:
     """Raise the order until each scene meets rtol."""
     tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
     error = np.ones(search.place.size)
     done: dict[int, Outcome] = {}
     waiting = np.flatnonzero(search.alive)
-    for n in _ORDERS[0 if rtol >= _LOW_ORDER_FROM else 1 :]:
+    for n in NARROW_ORDERS[0 if rtol >= LOW_ORDER_FROM else 1 :]:
         rows, waiting = waiting, np.empty(0, dtype=int)
         for step in range(_CLOSING_STEPS):
             if rows.size == 0:
@@ -297,7 +299,7 @@ def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
             if at.size:
                 left = np.abs(miss[at]) * np.where(search.lossy[rows[at]], np.abs(exponent[at]), 1.0)
                 accepted = _accept(
-                    search, rows[at], (_chosen(contact, at), ik[at]), error[rows[at]] + left, rtol
+                    search, rows[at], (chosen_rows(contact, at), ik[at]), error[rows[at]] + left, rtol
                 )
                 done.update(accepted)
                 missed[at] = [r not in accepted for r in rows[at].tolist()]
@@ -309,7 +311,7 @@ def _closed(search: _Search, rtol: float) -> dict[int, Outcome]:
 
 
 def _accept(
-    search: _Search,
+    search: Search,
     rows: Index,
     contacts: tuple[Contact, ProductIK],
     error: Array,
@@ -330,7 +332,7 @@ def _accept(
     done: dict[int, Outcome] = {}
     for k in np.flatnonzero(good):
         row = int(rows[k])
-        one = _chosen(contact, np.array([k]))
+        one = chosen_rows(contact, np.array([k]))
         alpha, eps = float(one.alpha[0]), float(one.eps[0])
         done[row] = Outcome(
             Status.OK,
@@ -353,7 +355,8 @@ def _accept(
     return done
 
 
-def _chosen(contact: Contact, at: Index) -> Contact:
+def chosen_rows(contact: Contact, at: Index) -> Contact:
+    """Some contacts of a batch."""
     return Contact(
         contact.alpha[at],
         contact.eps[at],

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 ORDERS = (16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
+NARROW_ORDERS = (16, 24, 32, 48)
+"""Those that are worth stacking: a higher one is the general solver's."""
 _FAR_OFF = 100.0  # of the tolerance: then a rung is left out
 
 
