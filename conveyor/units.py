@@ -130,9 +130,17 @@ def si(value: Quantity) -> float:
     >>> si(quantity("20 degC", "temperature")), si(quantity("95 %", "fraction"))
     (293.15, 0.95)
     """
-    if value.units == _PERCENT:
-        return float(value.magnitude) / 100.0
-    return float(value.to_base_units().magnitude)
+    scale = _si_scale(value.units)
+    return float(value.to_base_units().magnitude if scale is None else value.magnitude * scale[0] / scale[1])
+
+
+@cache
+def _si_scale(unit: Any) -> tuple[float, float] | None:
+    """Factor and divisor to SI, None of a temperature scale with an offset; asked of pint once for each unit."""
+    if unit == _PERCENT:
+        return 1.0, 100.0
+    zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
+    return (one, 1.0) if zero == 0.0 else None
 
 
 def text(value: Quantity) -> str:
