@@ -136,6 +136,18 @@ class IndentationCurve:
     highest: float
 
     @property
+    def band(self) -> tuple[float, float] | None:
+        """Frequencies between which nine tenths of the energy are lost, over all loads [Hz]; None without loss.
+
+        Harmonic m of the rolls passes at f = m V/λ.
+        """
+        harmonics = self.curve.excitation
+        if harmonics.size == 0:
+            return None
+        unit = self.contact.speed / self.contact.spacing
+        return unit * float(harmonics.min()), unit * float(harmonics.max())
+
+    @property
     def stats(self) -> SolveStats:
         """What the curve cost."""
         return self.curve.stats

@@ -132,6 +132,14 @@ class StretchResult:
         return self.main + self.tilt + self.lift
 
 
+def excited_band(results: tuple[StretchResult, ...], strand: Strand) -> tuple[float, float] | None:
+    """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
+    curves = {roll.curve for r in results if r.stretch.strand == strand for roll in r.rolls}
+    bands = [curve.band for curve in curves]
+    found = [band for band in bands if band is not None]
+    return (min(low for low, _ in found), max(high for _, high in found)) if found else None
+
+
 @dataclass(frozen=True)
 class _Surface:
     """What the rolls of a strand run on, SI."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.balance import Balance
-from conveyor.line import StretchResult, roll_at
+from conveyor.line import StretchResult, excited_band, roll_at
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
 from conveyor.units import display, si, text
@@ -65,21 +65,16 @@ def _rubber(conveyor: Conveyor) -> Iterator[str]:
 
 
 def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
-    """Band V/(2a), from the widest to the narrowest contact, against the measured band at the belt's temperature."""
-    temperature = si(conveyor.ambient.belt)
-    speed = si(conveyor.belt.speed)
+    """The band in which the contacts lose their energy, against the data's at the belt's temperature."""
     for strand, compound in _compounds(conveyor).items():
-        law = compound.shift_law()
-        if compound.range is None:
+        band = excited_band(results, strand)
+        data = compound.frequencies(si(conveyor.ambient.belt))
+        if band is None or data is None:
             continue
-        shift = 1.0 if law is None else 10.0 ** float(law.log10_a_T(temperature))
-        low, high = (si(limit) / shift for limit in compound.range.frequency)
-        widths = [roll.peak.half_width for r in results if r.stretch.strand == strand for roll in r.rolls]
-        working = [speed / (2.0 * float(width)) for width in widths]
-        if min(working) < low or max(working) > high:
+        if band[0] < data[0] or band[1] > data[1]:
             yield (
-                f'compound "{compound.name}": the contacts work at {min(working):.3g} to {max(working):.3g} Hz, '
-                f"its data cover {low:.3g} to {high:.3g} Hz at {text(conveyor.ambient.belt)}: "
+                f'compound "{compound.name}": nine tenths of the {strand} rolls\' loss lie between {band[0]:.3g} and '
+                f"{band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz at {text(conveyor.ambient.belt)}: "
                 "the series is extrapolated"
             )
 

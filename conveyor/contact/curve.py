@@ -19,13 +19,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relative_difference, sign
 from conveyor.contact.energy import friction_by_loss
+from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import peak
 from conveyor.contact.lobatto import coefficients, interpolated, points
 from conveyor.contact.narrow import LOW_ORDER_FROM, places, shared_rules
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
-from conveyor.contact.scene import Scene
+from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.short_rule import ShortRule, grades_for
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
@@ -137,6 +138,26 @@ class LoadCurve:
             stats=self.stats,
             _penetration=lambda: chebyshev.chebval(t, self._depths) * (alpha / rho) ** 2,
             _peak=lambda: np.asarray(chebyshev.chebval(t, self._peaks) * alpha / rho),
+        )
+
+    @cached_property
+    def excitation(self) -> Array:
+        """Harmonics below which the shares 5, 50 and 95 % of the loss lie, of the widest and the narrowest contact.
+
+        Shape (2, 3) [-]; empty, (0, 3), where nothing is lost.
+        """
+        creep, contacts = instantly_relaxed(self.problem.creep), self._contacts
+        if not (contacts.friction > 0.0).all():
+            return np.empty((0, len(SHARES)))
+        return np.stack(
+            [
+                excited_harmonics(
+                    self.problem.layer,
+                    creep,
+                    [(float(contacts.eps[k]), float(contacts.alpha[k]), contacts.c[k])],
+                )
+                for k in (0, -1)
+            ]
         )
 
     @cached_property

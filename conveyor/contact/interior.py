@@ -73,7 +73,7 @@ class _Strip:
     c: Array
 
     def amplitude(self, m: Array) -> ComplexArray:
-        """p̃̂_m about the strip's centre, ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m (physics of spectral.py)."""
+        """p̃̂_m about the strip's centre, ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m (spectral.py)."""
         v = np.arange(1, self.c.size + 1)
         out: ComplexArray = (
             (0.5 * v * self.c * (-1j) ** ((v - 1) % 4)) @ bessel_j(self.c.size, m * self.alpha)[1:] / m
@@ -112,9 +112,9 @@ class Interior:
     Attributes
     ----------
     depth : ndarray, shape (nz,)
-        z/R [-] below the loaded surface, Gauss nodes.
+        z/R [-] below the loaded surface: the surface, Gauss nodes, the far face (a half-space has none).
     weights : ndarray, shape (nz,)
-        Of the integral over z/R [-].
+        Of the integral over z/R [-]; zero at the faces.
     amplitude : ndarray, shape (nz,)
         Equivalent strain amplitude [-] of a particle's path: half the largest distance of two of its points in the
         norm sqrt(2/3 e:e) of the deviatoric strain e.
@@ -177,19 +177,23 @@ class Interior:
 
     @property
     def maximum(self) -> float:
-        """Largest amplitude of the depths [-]; at a face it may be a little more."""
+        """Largest amplitude of the depths, faces included [-]."""
         return float(self.amplitude.max())
 
     @cached_property
     def error_estimate(self) -> float:
-        """Relative change of the working strain (of the maximum where elastic) from 0.6 of the depths and places [-].
+        """Estimated relative error of the working strain, of the maximum where the layer is elastic [-].
 
-        An estimate of the coarser result's error: larger than that of this one.
+        What 0.6 of the depths, and apart from it 0.6 of the places and wave numbers, change, added up.
         """
-        depths = max(_FEWEST_DEPTHS - 1, int(_COARSER * self.depth.size))
-        coarse = _interior(self._solution, depths, int(_COARSER * self._points))
         name = "working_strain" if self.dissipation.any() else "maximum"
-        return float(abs(getattr(coarse, name) / getattr(self, name) - 1.0))
+        nodes = int(np.count_nonzero(self.weights))
+        fewer = (
+            _interior(self._solution, int(_COARSER * nodes), self._points),
+            _interior(self._solution, nodes, int(_COARSER * self._points)),
+        )
+        here = getattr(self, name)
+        return float(sum(abs(getattr(coarse, name) / here - 1.0) for coarse in fewer))
 
 
 def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -> Interior:
@@ -332,12 +336,14 @@ class _Inside:
         self.scale = 0.5 * problem.rho / (1.0 - self.nu)
 
     def depths(self, count: int) -> tuple[Array, Array]:
-        """Gauss nodes and weights in Z, graded toward the loaded surface."""
+        """The surface, Gauss nodes graded toward it, the far face if there is one, and their weights, in Z."""
         unit = _GRADE * min(s.alpha for s in self.strips)
         end = math.asinh(min(self.thickness, _DEEPEST) / unit)
         x, w = np.polynomial.legendre.leggauss(count)
         at = 0.5 * end * (x + 1.0)
-        return unit * np.sinh(at), 0.5 * end * w * unit * np.cosh(at)
+        bottom = [] if math.isinf(self.thickness) else [self.thickness]
+        z = np.concatenate([[0.0], unit * np.sinh(at), bottom])
+        return z, np.concatenate([[0.0], 0.5 * end * w * unit * np.cosh(at), np.zeros(len(bottom))])
 
     def places(self) -> Array:
         """X along the path: evenly within two half widths of each strip, then by octaves up to half a period."""
@@ -372,8 +378,7 @@ class _Inside:
             octave = np.floor(np.log2(np.maximum(np.abs(away) / (_NEAR * strip.alpha), 0.5)))
             for group in np.unique(octave):
                 chosen = np.flatnonzero(octave == group)
-                coefficients = self._coefficients(strip, away[chosen], z, strains_only=strains_only)
-                m, parts = coefficients
+                m, parts = self._coefficients(strip, away[chosen], z, strains_only=strains_only)
                 for i in range(0, chosen.size, _CHUNK):
                     part = chosen[i : i + _CHUNK]
                     turn = np.multiply.outer(m, away[part])

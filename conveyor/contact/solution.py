@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.fields import Fields
+from conveyor.contact.excitation import SHARES, excited_harmonics
+from conveyor.contact.fields import Fields, SpectralFields
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.errors import NoSolutionError
 
@@ -189,6 +191,26 @@ class ContactSolution:
     def peak_pressure(self) -> float:
         """Largest pressure p̃ [-]."""
         return self._need().fields.peak()
+
+    def excitation(self, shares: Sequence[float] = SHARES) -> Array:
+        """Harmonics m below which these shares of the loss lie, shape of `shares` [-].
+
+        The layer's particles pass them at the frequency f = m V/λ: between the first and the last of the default
+        shares nine tenths of the energy are lost.
+
+        Raises
+        ------
+        NoSolutionError
+            Nothing is lost (an elastic layer), or the contact is known on a grid only.
+        """
+        fields = self._need().fields
+        if self.friction == 0.0 or not isinstance(fields, SpectralFields):
+            raise NoSolutionError(
+                "excitation: no loss, or a contact that is known on a grid only, has no band"
+            )
+        contact = fields.contact
+        strips = list(zip(contact.eps.tolist(), contact.alpha.tolist(), contact.c, strict=True))
+        return excited_harmonics(fields.layer, fields.creep, strips, shares)
 
     def pressure(self, x: ArrayLike) -> Array:
         """Contact pressure p̃ at x/R about the roll's axis; zero outside the contact; shape of x."""

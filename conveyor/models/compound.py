@@ -200,6 +200,21 @@ class RubberCompound(Model):
         """Return the shift law in SI, if the compound has one."""
         return None if self.shift is None else self.shift.at(si(self.reference_temperature))
 
+    def frequencies(self, temperature: float) -> tuple[float, float] | None:
+        """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.
+
+        Raises
+        ------
+        RangeError
+            The temperature is outside the shift law.
+        """
+        if self.range is None:
+            return None
+        law = self.shift_law()
+        factor = 1.0 if law is None else 10.0 ** float(law.log10_a_T(temperature))
+        low, high = (si(limit) / factor for limit in self.range.frequency)
+        return low, high
+
     def _refuse_extrapolation(self, temperature: float) -> None:
         if self.range is None:
             return

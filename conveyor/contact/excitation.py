@@ -1,0 +1,59 @@
+"""Which harmonics a contact loses its energy in: the band of frequency it asks of the rubber.
+
+A particle of the layer passes harmonic m of the rolls at the angular frequency m k V. Of the energy lost under a roll
+it takes Im S_m |p̃̂_m|² (energy.py); the band between two shares of the running sum is what a rubber's data must cover.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.bessel import bessel_j
+from conveyor.contact.layers import Layer
+from conveyor.contact.problem import CreepSpectrum
+from conveyor.contact.quadrature import series_rule
+
+Array = NDArray[np.float64]
+
+SHARES = (0.05, 0.5, 0.95)
+"""Of the loss: the band between the outer ones holds nine tenths of it."""
+_REACH = 100.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lie less than 1e-4 of the loss
+
+
+def excited_harmonics(
+    layer: Layer,
+    creep: CreepSpectrum,
+    strips: Sequence[tuple[float, float, Array]],
+    shares: Sequence[float] = SHARES,
+) -> Array:
+    """Harmonics m below which the given shares of the loss lie, shape of `shares`.
+
+    Parameters
+    ----------
+    layer : Layer
+        Symbol of the layer.
+    creep : CreepSpectrum
+        With at least one lasting term: without, nothing is lost.
+    strips : sequence of (centre, half width, coefficients)
+        Of one contact, lengths X [-].
+    shares : sequence of float
+        Ascending, in (0, 1) [-].
+    """
+    edges = [(centre - alpha, centre + alpha) for centre, alpha, _ in strips]
+    span = max(high for _, high in edges) - min(low for low, _ in edges)
+    narrowest = min(alpha for _, alpha, _ in strips)
+    m, weights = series_rule(layer, creep, span=span, end=_REACH / narrowest)
+    spectrum = np.zeros(m.size, dtype=complex)
+    for centre, alpha, c in strips:
+        v = np.arange(1, c.size + 1)
+        amplitude = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
+        spectrum += np.exp(-1j * m * centre) * (amplitude @ bessel_j(c.size, m * alpha)[1:]) / m
+    lost = weights.imag * m * (spectrum.real**2 + spectrum.imag**2)
+    order = np.argsort(m)
+    lost = lost[order]
+    middle = np.cumsum(lost) - 0.5 * lost  # a node stands for what lies to both sides of it
+    found: Array = np.exp(np.interp(np.asarray(shares) * lost.sum(), middle, np.log(m[order])))
+    return found
