@@ -1,0 +1,307 @@
+"""From models to what can be filled in: fields, groups of fields, tables of items."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import Enum
+from types import NoneType, UnionType
+from typing import Annotated, Any, Final, Literal, TypeAlias, Union, get_args, get_origin
+
+from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
+from pydantic import BaseModel, StringConstraints, TypeAdapter
+from pydantic.fields import FieldInfo
+
+from conveyor.kinds import KINDS
+from conveyor.models.compound import CompoundReference
+from conveyor.units import Bounds, Measure
+
+LeafKind = Literal[
+    "quantity", "number", "count", "switch", "choice", "text", "list", "reference", "json"
+]  # fmt: skip
+Path: TypeAlias = tuple[str, ...]
+
+_REFERENCE: Final = type(get_args(CompoundReference)[1])
+_LISTABLE: Final = {"quantity", "number", "count", "choice", "text"}
+_PLAIN: Final[dict[Any, LeafKind]] = {bool: "switch", int: "count", float: "number", str: "text"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Leaf:
+    """One value to fill in, with its unit where it has one."""
+
+    key: str
+    kind: LeafKind
+    doc: str = ""
+    required: bool = False
+    default: Any = None
+    """Plain data, as a spec holds it; None without a default."""
+    allowed: str = ""
+    units: tuple[str, ...] = ()
+    choices: tuple[Any, ...] = ()
+    low: float | None = None
+    """Least plain number (not of quantities)."""
+    high: float | None = None
+    item: Leaf | None = None
+    """What a list holds."""
+    single: bool = False
+    """Whether a list may also be one item."""
+    model: type[BaseModel] | None = None
+    """What a reference stands for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group:
+    """A nested model."""
+
+    key: str
+    doc: str
+    required: bool
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A list of models: one row an item."""
+
+    key: str
+    doc: str
+    required: bool
+    item: Group
+    allowed: str = ""
+
+
+Part: TypeAlias = Leaf | Group | Table
+
+
+@dataclass(frozen=True, kw_only=True)
+class _About:
+    """What a field says beside its type."""
+
+    key: str
+    doc: str = ""
+    required: bool = True
+    default: Any = None
+
+
+def layout(model: type[BaseModel]) -> Group:
+    """Return the fields of a model, in its order, nested models and lists included.
+
+    Parameters
+    ----------
+    model : type of BaseModel
+        Fields are named as in specs (by alias). What has no form of its own here (mappings, lists of
+        lists, models that contain themselves) becomes a text field of JSON.
+
+    Examples
+    --------
+    >>> from conveyor.models import Roll
+    >>> [(part.key, part.required, part.allowed) for part in layout(Roll).parts][0]
+    ('diameter', True, '≥ 20 mm, ≤ 1 m')
+    """
+    return Group(key="", doc=first_line(model.__doc__), required=True, parts=_parts(model, ()))
+
+
+def first_line(text: str | None) -> str:
+    """Return the first paragraph of a docstring as one line."""
+    return " ".join((text or "").strip().split("\n\n")[0].split())
+
+
+def leaves(part: Part) -> Iterator[Leaf]:
+    """Give every leaf below a part, those of tables included."""
+    if isinstance(part, Leaf):
+        yield part
+    else:
+        for inner in part.parts if isinstance(part, Group) else part.item.parts:
+            yield from leaves(inner)
+
+
+def _parts(model: type[BaseModel], seen: tuple[type[BaseModel], ...]) -> tuple[Part, ...]:
+    return tuple(_part(info.alias or name, info, (*seen, model)) for name, info in model.model_fields.items())
+
+
+def _part(key: str, info: FieldInfo, seen: tuple[type[BaseModel], ...]) -> Part:
+    outer = (*info.metadata, *((info,) if info.discriminator else ()))
+    base, marks = _unwrapped(info.annotation, outer)
+    about = _About(
+        key=key, doc=first_line(info.description), required=info.is_required(), default=_default(info)
+    )
+    return _built(about, base, marks, seen)
+
+
+def _default(info: FieldInfo) -> Any:
+    if info.is_required():
+        return None
+    value = info.get_default(call_default_factory=True, validated_data={})
+    if value is None or isinstance(value, BaseModel):
+        return None
+    annotation: Any = Annotated[(info.annotation, *info.metadata)] if info.metadata else info.annotation  # type: ignore[valid-type]
+    return TypeAdapter(annotation).dump_python(value, mode="json")
+
+
+def _unwrapped(annotation: Any, marks: tuple[Any, ...]) -> tuple[Any, tuple[Any, ...]]:
+    """Take None and markers off a type; the markers are returned beside it."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        inner, *more = get_args(annotation)
+        flat = [mark for m in more for mark in ((m, *m.metadata) if isinstance(m, FieldInfo) else (m,))]
+        return _unwrapped(inner, (*marks, *flat))
+    if origin in {Union, UnionType}:
+        kept = tuple(arm for arm in get_args(annotation) if arm is not NoneType)
+        return _unwrapped(kept[0], marks) if len(kept) == 1 else (Union[kept], marks)  # noqa: UP007
+    return annotation, marks
+
+
+def _arms(base: Any) -> tuple[Any, ...]:
+    return get_args(base) if get_origin(base) in {Union, UnionType} else (base,)
+
+
+def _built(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]) -> Part:
+    models = [_unwrapped(arm, ())[0] for arm in _arms(base)]
+    if all(isinstance(model, type) and issubclass(model, BaseModel) for model in models):
+        if any(isinstance(mark, _REFERENCE) for mark in marks):
+            return _leaf(about, "reference", model=models[0])
+        if not any(model in seen for model in models):
+            group = _group(about, models, marks, seen)
+            if group is not None:
+                return group
+    items = _items(base)
+    if items is not None:
+        inner = _built(_About(key=about.key), *_unwrapped(items, ()), seen)
+        if isinstance(inner, Group):
+            return Table(
+                key=about.key,
+                doc=about.doc or inner.doc,
+                required=about.required,
+                item=inner,
+                allowed=_lengths(marks, "row"),
+            )
+        if isinstance(inner, Leaf) and inner.kind in _LISTABLE:
+            allowed = ", ".join(filter(None, (inner.allowed, _lengths(marks, "value"))))
+            return _leaf(about, "list", item=inner, allowed=allowed, choices=inner.choices)
+    return _scalar(about, base, marks, seen)
+
+
+def _group(
+    about: _About, models: list[Any], marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]
+) -> Group | None:
+    """Lay out one model, or the fields of all models that a tag chooses between."""
+    tag = next((mark.discriminator for mark in marks if isinstance(mark, FieldInfo)), None)
+    if len(models) == 1:
+        parts = _parts(models[0], seen)
+        doc = about.doc or first_line(models[0].__doc__)
+    elif isinstance(tag, str):
+        parts = _variants([_parts(model, seen) for model in models], tag)
+        doc = about.doc or "; ".join(first_line(model.__doc__) for model in models)
+    else:
+        return None
+    return Group(key=about.key, doc=doc, required=about.required, parts=parts)
+
+
+def _variants(every: list[tuple[Part, ...]], tag: str) -> tuple[Part, ...]:
+    """Put the fields of tagged variants in one list, each with the tags it belongs to."""
+    tags = [next(part for part in parts if part.key == tag) for parts in every]
+    choices = tuple(choice for leaf in tags if isinstance(leaf, Leaf) for choice in leaf.choices)
+    merged: dict[str, Part] = {
+        tag: _leaf(_About(key=tag, doc="Decides which fields apply."), "choice", choices=choices)
+    }
+    for parts, own in zip(every, tags, strict=True):
+        values = own.choices if isinstance(own, Leaf) else ()
+        for part in parts:
+            if part.key != tag:
+                told = f"({tag}: {', '.join(map(str, values))})"
+                new = replace(part, doc=f"{part.doc} {told}".strip(), required=False)
+                old = merged.get(part.key)
+                merged[part.key] = new if old is None else _joined(old, new)
+    return tuple(merged.values())
+
+
+def _joined(old: Part, new: Part) -> Part:
+    """Make one field of two variants' fields of the same name."""
+    doc = f"{old.doc}; {new.doc}"
+    if replace(old, doc="") == replace(new, doc=""):
+        return replace(old, doc=doc)
+    if isinstance(old, Leaf) and isinstance(new, Leaf) and old.kind == new.kind == "quantity":
+        units = tuple(dict.fromkeys(old.units + new.units))
+        return replace(old, doc=doc, units=units, allowed="", choices=old.choices + new.choices)
+    return _leaf(_About(key=old.key, doc=doc, required=False), "json")
+
+
+def _items(base: Any) -> Any:
+    """Return the type of the items of a list all of one type."""
+    if get_origin(base) not in {tuple, list}:
+        return None
+    kept = [arm for arm in get_args(base) if arm is not Ellipsis]
+    return kept[0] if kept and all(arm == kept[0] for arm in kept) else None
+
+
+def _leaf(about: _About, kind: LeafKind, **more: Any) -> Leaf:
+    return Leaf(
+        key=about.key, doc=about.doc, required=about.required, default=about.default, kind=kind, **more
+    )
+
+
+def _scalar(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]) -> Leaf:
+    measure = next((mark for mark in marks if isinstance(mark, Measure)), None)
+    if measure is not None:
+        units = tuple(unit for unit in dict.fromkeys(KINDS[measure.kind].units.values()) if unit)
+        return _leaf(about, "quantity", units=units, allowed=_bounds(marks))
+    if get_origin(base) is Literal:
+        return _leaf(about, "choice", choices=get_args(base))
+    if isinstance(base, type) and issubclass(base, Enum):
+        return _leaf(about, "choice", choices=tuple(member.value for member in base))
+    if base in _PLAIN:
+        low = next((float(getattr(m, _LIMIT[type(m)])) for m in marks if isinstance(m, Gt | Ge)), None)
+        high = next((float(getattr(m, _LIMIT[type(m)])) for m in marks if isinstance(m, Lt | Le)), None)
+        return _leaf(about, _PLAIN[base], allowed=_limits(marks), low=low, high=high)
+    either = _either(about, base, seen)
+    if either is not None:
+        return either
+    annotation: Any = Annotated[(base, *marks)] if marks else base  # type: ignore[valid-type]
+    schema = TypeAdapter(annotation).json_schema()
+    examples = ", ".join(f'such as "{example}"' for example in schema.get("examples", ())[:1])
+    return _leaf(about, "text" if schema.get("type") == "string" else "json", allowed=examples)
+
+
+def _either(about: _About, base: Any, seen: tuple[type[BaseModel], ...]) -> Leaf | None:
+    """Lay out a quantity or one of some words, and a list or one item of it."""
+    if len(_arms(base)) != 2:
+        return None
+    arms = [_built(_About(key=about.key), *_unwrapped(arm, ()), seen) for arm in _arms(base)]
+    by_kind = {arm.kind: arm for arm in arms if isinstance(arm, Leaf)}
+    if set(by_kind) == {"quantity", "choice"}:
+        words = by_kind["choice"].choices
+        allowed = " or ".join(filter(None, (by_kind["quantity"].allowed, *map(str, words))))
+        return _leaf(about, "quantity", units=by_kind["quantity"].units, choices=words, allowed=allowed)
+    if set(by_kind) == {"text", "list"} and by_kind["list"].item == by_kind["text"]:
+        return _leaf(about, "list", item=by_kind["text"], single=True)
+    return None
+
+
+_LIMIT: Final[dict[type, str]] = {Gt: "gt", Ge: "ge", Lt: "lt", Le: "le"}
+_SIGN: Final = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
+
+
+def _bounds(marks: tuple[Any, ...]) -> str:
+    """Write the ranges of a quantity."""
+    limits = [(name, getattr(m, name)) for m in marks if isinstance(m, Bounds) for name in _SIGN]
+    return ", ".join(f"{_SIGN[name]} {limit}" for name, limit in limits if limit is not None)
+
+
+def _limits(marks: tuple[Any, ...]) -> str:
+    """Write the range of a plain number, or the lengths of a text."""
+    said = [f"{_SIGN[_LIMIT[type(m)]]} {getattr(m, _LIMIT[type(m)]):g}" for m in marks if type(m) in _LIMIT]
+    for mark in marks:
+        if isinstance(mark, StringConstraints) and mark.max_length is not None:
+            said.append(f"at most {mark.max_length} characters")
+    return ", ".join(said) or _lengths(marks, "character")
+
+
+def _lengths(marks: tuple[Any, ...], what: str) -> str:
+    least = [
+        f"at least {m.min_length} {what}s".replace("1 " + what + "s", "1 " + what)
+        for m in marks
+        if isinstance(m, MinLen)
+    ]
+    most = [f"at most {m.max_length} {what}s" for m in marks if isinstance(m, MaxLen)]
+    return ", ".join(least + most)

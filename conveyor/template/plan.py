@@ -1,0 +1,198 @@
+"""Where fields stand: a sheet for each part of a model, a sheet for each list, under stable names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Final
+
+from pydantic import BaseModel
+
+from conveyor.template.layout import Group, Leaf, Part, Path, Table, layout, leaves
+
+LONGEST_NAME: Final = 31
+"""Characters of a sheet's name (Excel specifications and limits)."""
+LISTS: Final = "Lists"
+"""Hidden sheet of the entries of drop-downs."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a form: a field, or the heading of a nested model."""
+
+    path: Path
+    depth: int
+    part: Leaf | Group
+    certain: bool
+    """Whether a required field is needed whatever else is filled in."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A sheet of fields, one a line."""
+
+    name: str
+    title: str
+    doc: str
+    rows: tuple[Row, ...]
+    required: bool
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a list: a field of its items."""
+
+    path: Path
+    leaf: Leaf
+    certain: bool
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A sheet of a list, one row an item."""
+
+    name: str
+    table: Table
+    path: Path
+    """From the root, or from the item of the list that holds it."""
+    columns: tuple[Column, ...]
+    parent: str | None
+    """Sheet of the list whose items hold this one."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All sheets of a model."""
+
+    root: Group
+    forms: tuple[Form, ...]
+    tables: tuple[Sheet, ...]
+
+    def table(self, path: Path, parent: str | None) -> Sheet:
+        """Return the sheet of a list."""
+        return next(sheet for sheet in self.tables if sheet.path == path and sheet.parent == parent)
+
+
+@dataclass
+class _Names:
+    """Gives every sheet its name: the last word of its path, longer where that is taken."""
+
+    prefix: str = ""
+    taken: set[str] = field(default_factory=lambda: {LISTS.casefold(), "history"})
+
+    def new(self, path: Path) -> str:
+        for count in range(1, len(path) + 1):
+            name = label(f"{self.prefix} {' '.join(path[-count:])}")[:LONGEST_NAME].strip()
+            if name.casefold() not in self.taken:
+                break
+        number, stem = 2, name
+        while name.casefold() in self.taken:
+            name, number = f"{stem[: LONGEST_NAME - 4]} {number}", number + 1
+        self.taken.add(name.casefold())
+        return name
+
+
+def label(key: str) -> str:
+    """Write a key for people.
+
+    Examples
+    --------
+    >>> label("top_cover"), label("log10_aT")
+    ('Top cover', 'Log10 aT')
+    """
+    words = key.replace("_", " ").strip()
+    return words[:1].upper() + words[1:]
+
+
+@cache
+def whole(model: type[BaseModel]) -> Plan:
+    """Place a model: its own fields on a first sheet, each nested model and each list on its own.
+
+    Examples
+    --------
+    >>> from conveyor.models import Conveyor
+    >>> [form.name for form in whole(Conveyor).forms][:3]
+    ['Conveyor', 'Belt', 'Idlers']
+    """
+    root = layout(model)
+    names = _Names()
+    own = Group(
+        key="", doc=root.doc, required=True, parts=tuple(p for p in root.parts if isinstance(p, Leaf))
+    )
+    forms = [_form(names.new((model.__name__,)), own, ())]
+    for part in root.parts:
+        if isinstance(part, Group):
+            forms.append(_form(names.new((part.key,)), part, (part.key,)))
+    return Plan(root, tuple(forms), tuple(_tables(root, (), None, names)))
+
+
+@cache
+def written_out(model: type[BaseModel], name: str) -> Plan:
+    """Place a model that a reference stands for: one form under `name`, its lists after it.
+
+    Examples
+    --------
+    >>> from conveyor.models import RubberCompound
+    >>> [sheet.name for sheet in written_out(RubberCompound, "Rubber compound 1").tables]
+    ['Rubber compound 1 terms']
+    """
+    root = layout(model)
+    names = _Names(prefix=name)
+    return Plan(root, (_form(name, root, ()),), tuple(_tables(root, (), None, names)))
+
+
+def reference_stem(model: type[BaseModel]) -> str:
+    """Return what the sheets of written-out models are called, before their number.
+
+    Examples
+    --------
+    >>> from conveyor.models import RubberCompound
+    >>> reference_stem(RubberCompound)
+    'Rubber compound'
+    """
+    words = "".join(f" {c.lower()}" if c.isupper() else c for c in model.__name__)
+    return label(words)[: LONGEST_NAME - 14]
+
+
+def references(part: Part) -> dict[str, type[BaseModel]]:
+    """Return the models that leaves refer to, by the stem of their sheets' names."""
+    models = [leaf.model for leaf in leaves(part) if leaf.model is not None]
+    return {reference_stem(model): model for model in models}
+
+
+def _form(name: str, group: Group, path: Path) -> Form:
+    return Form(name, name, group.doc, tuple(_rows(group, path, 0, certain=group.required)), group.required)
+
+
+def _rows(group: Group, path: Path, depth: int, *, certain: bool) -> Iterator[Row]:
+    for part in sorted(group.parts, key=lambda part: isinstance(part, Group)):
+        here = (*path, part.key)
+        if isinstance(part, Leaf):
+            yield Row(here, depth, part, certain and part.required)
+        elif isinstance(part, Group):
+            needed = certain and part.required
+            yield Row(here, depth, part, needed)
+            yield from _rows(part, here, depth + 1, certain=needed)
+
+
+def _tables(group: Group, path: Path, parent: str | None, names: _Names) -> Iterator[Sheet]:
+    """Place every list below a group, lists inside lists after the list that holds them."""
+    for part in group.parts:
+        here = (*path, part.key)
+        if isinstance(part, Table):
+            name = names.new(here)
+            columns = tuple(_columns(part.item, (), certain=True))
+            yield Sheet(name, part, here, columns, parent)
+            yield from _tables(part.item, (), name, names)
+        elif isinstance(part, Group):
+            yield from _tables(part, here, parent, names)
+
+
+def _columns(group: Group, path: Path, *, certain: bool) -> Iterator[Column]:
+    for part in group.parts:
+        here = (*path, part.key)
+        if isinstance(part, Leaf):
+            yield Column(here, part, certain and part.required)
+        elif isinstance(part, Group):
+            yield from _columns(part, here, certain=certain and part.required)

@@ -1,0 +1,202 @@
+"""Between the data of a spec and cells: number and unit apart, both directions side by side."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+from collections.abc import Callable
+from typing import Any, Final, TypeAlias
+
+from conveyor.errors import InputError
+from conveyor.misreadings import NUMBER, NUMBER_UNIT
+from conveyor.template.layout import Leaf, LeafKind
+
+Value: TypeAlias = str | int | float | bool | None
+
+YES: Final = "yes"
+NO: Final = "no"
+EMPTY: Final = '""'
+"""Stands for a text without characters: an empty cell means "not given"."""
+_SEPARATOR: Final = ";"
+_NUMBER: Final = re.compile(rf"\s*({NUMBER})\s*")
+_SWITCH: Final = {YES: True, "true": True, NO: False, "false": False}
+
+
+def to_cells(leaf: Leaf, data: Any) -> tuple[Value, str | None]:
+    """Return the value cell and the unit cell of plain data.
+
+    Examples
+    --------
+    >>> from conveyor.models import Roll
+    >>> from conveyor.template.layout import layout
+    >>> diameter = layout(Roll).parts[0]
+    >>> to_cells(diameter, "159 mm"), from_cells(diameter, 159, "mm")
+    ((159, 'mm'), '159 mm')
+    """
+    if leaf.kind == "quantity" and isinstance(data, str):
+        match = NUMBER_UNIT.fullmatch(data)
+        if match is not None and match[2]:
+            return _number_cell(float(match[1])), match[2]
+        return data, None
+    if leaf.kind == "switch" and isinstance(data, bool):
+        return (YES if data else NO), None
+    if leaf.kind == "list":
+        return _joined(leaf, data), None
+    if leaf.kind == "json":
+        return _json_text(data), None
+    if isinstance(data, int | float) and not isinstance(data, bool):
+        return _number_cell(data), None
+    return (EMPTY if data == "" else data), None
+
+
+def _number_cell(number: float) -> Value:
+    """Give a number; as text where a workbook's 16 digits would change it."""
+    if isinstance(number, float) and number.is_integer() and abs(number) < 1e15 and number != 0.0:
+        return int(number)
+    if float(f"{number:.16g}") != number or str(number).startswith("-0"):
+        return repr(number)
+    return 0 if number == 0 else number
+
+
+def _joined(leaf: Leaf, data: Any) -> str | None:
+    """Write a list in one cell, its items separated; items that hold a separator are quoted."""
+    if not isinstance(data, list | tuple):
+        return _quoted(_plain(data))
+    if not data:
+        return None
+    return f"{_SEPARATOR} ".join(_quoted(_plain(item)) for item in data) + (
+        _SEPARATOR if leaf.single and len(data) == 1 else ""
+    )
+
+
+def _plain(item: Any) -> str:
+    return repr(item).removesuffix(".0") if isinstance(item, float) else str(item)
+
+
+def _quoted(item: str) -> str:
+    needed = not item or item != item.strip() or re.search(r'[;"\r\n]', item)
+    return '"' + item.replace('"', '""') + '"' if needed else item
+
+
+def _json_text(data: Any) -> str:
+    if isinstance(data, str) and data and not _is_json(data):
+        return data
+    return json.dumps(data, ensure_ascii=False, allow_nan=False)
+
+
+def _is_json(text: str) -> bool:
+    try:
+        json.loads(text)
+    except ValueError:
+        return False
+    return True
+
+
+def from_cells(leaf: Leaf, value: Value, unit: str | None = None) -> Any:
+    """Return the plain data of a value cell and its unit cell.
+
+    What a model will refuse is passed on as it stands, so that the model says what it allows.
+
+    Raises
+    ------
+    InputError
+        Value and unit contradict each other, or the cell cannot be taken for one value.
+    """
+    if isinstance(value, float) and not math.isfinite(value):
+        raise InputError(f"got {value}, expected a finite number")
+    if isinstance(value, int) and abs(value) > 10**300:
+        raise InputError("the number is too large")
+    reader = _READERS.get(leaf.kind)
+    if leaf.kind == "quantity":
+        return _quantity(leaf, value, unit)
+    return value if reader is None else reader(leaf, value)
+
+
+def _quantity(leaf: Leaf, value: Value, unit: str | None) -> Any:
+    if isinstance(value, bool) or value is None:
+        return value
+    if not isinstance(value, str):
+        number = repr(float(value)).removesuffix(".0")
+        return f"{number} {unit}" if unit else value
+    text = value.strip()
+    if _NUMBER.fullmatch(text):
+        return f"{text} {unit}" if unit else text
+    if text in map(str, leaf.choices) and not unit:
+        return text
+    match = NUMBER_UNIT.fullmatch(text)
+    if match is None:
+        return f"{text} {unit}" if unit else text
+    if unit and match[2].strip() != unit:
+        raise InputError(
+            f'got "{text}" beside the unit "{unit}"; give the number alone in the value cell, '
+            "its unit in the unit cell"
+        )
+    return text
+
+
+def _number(leaf: Leaf, value: Value) -> Any:
+    number = float(value) if isinstance(value, str) and _NUMBER.fullmatch(value) else value
+    whole = leaf.kind == "count" and isinstance(number, float) and number.is_integer()
+    return int(number) if whole and isinstance(number, float) else number
+
+
+def _switch(leaf: Leaf, value: Value) -> bool:
+    if isinstance(value, bool):
+        return value
+    known = _SWITCH.get(str(value).strip().casefold())
+    if known is None:
+        raise InputError(f'got "{value}", allowed: {YES}, {NO}')
+    return known
+
+
+def _choice(leaf: Leaf, value: Value) -> Any:
+    text = _text(leaf, value)
+    return next((choice for choice in leaf.choices if str(choice) == str(text).strip()), value)
+
+
+def _text(leaf: Leaf, value: Value) -> Any:
+    if isinstance(value, bool):
+        return value
+    return "" if value == EMPTY else str(value).removesuffix(".0") if isinstance(value, float) else str(value)
+
+
+def _list(leaf: Leaf, value: Value) -> Any:
+    item = leaf.item
+    if item is None:
+        raise TypeError(f"{leaf.key} is a list of nothing")
+    if not isinstance(value, str):
+        return from_cells(item, value) if leaf.single else [from_cells(item, value)]
+    try:
+        lines = list(csv.reader(io.StringIO(value), delimiter=_SEPARATOR, skipinitialspace=True, strict=True))
+    except csv.Error as error:
+        raise InputError(
+            f'got "{value[:80]}", expected values separated by "{_SEPARATOR}" ({error})'
+        ) from None
+    texts = [text if item.kind == "text" else text.strip() for line in lines for text in line]
+    ended = len(texts) > 1 and texts[-1] == ""
+    items = [from_cells(item, text) for text in (texts[:-1] if ended else texts)]
+    return items[0] if leaf.single and len(items) == 1 and not ended else items
+
+
+def _json(leaf: Leaf, value: Value) -> Any:
+    if not isinstance(value, str):
+        return value
+    try:
+        return json.loads(value)
+    except (ValueError, RecursionError):
+        return value
+
+
+_READERS: Final[dict[LeafKind, Callable[[Leaf, Value], Any]]] = {
+    "number": _number,
+    "count": _number,
+    "switch": _switch,
+    "choice": _choice,
+    "text": _text,
+    "reference": _text,
+    "list": _list,
+    "json": _json,
+}

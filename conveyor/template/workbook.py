@@ -1,0 +1,195 @@
+"""A workbook from outside, opened with care: sizes first, then cells as plain values or what is wrong."""
+
+from __future__ import annotations
+
+import math
+import warnings
+import zipfile
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any, Final
+
+from openpyxl import load_workbook
+from openpyxl.utils import get_column_letter
+from openpyxl.utils.exceptions import InvalidFileException
+from openpyxl.workbook import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
+
+from conveyor.errors import InputError
+from conveyor.template.values import Value
+
+LARGEST_FILE: Final = 5_000_000
+"""Bytes; a template of a thousand sections has a twentieth of it."""
+LARGEST_CONTENT: Final = 30_000_000
+"""Bytes of all parts together, unpacked, as the file states them (no more is ever unpacked)."""
+MOST_PARTS: Final = 2_000
+MOST_CELLS: Final = 300_000
+"""Rows times columns of one sheet; a template of a thousand sections has a tenth of it."""
+
+_OLE: Final = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_ENCRYPTED: Final = "EncryptedPackage".encode("utf-16-le")
+# What zipfile, expat and openpyxl raise on damaged files
+_DAMAGED: Final = (
+    zipfile.BadZipFile, zlib.error, InvalidFileException, SyntaxError, EOFError, OSError, KeyError, ValueError,
+    TypeError, IndexError, AttributeError, ArithmeticError, NotImplementedError, RuntimeError,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Found:
+    """A cell that is not empty: its value, or why it has none."""
+
+    value: Value
+    problem: str = ""
+    percent: bool = False
+    """Whether the cell shows its number as a percentage."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The cells of a sheet that are not empty, by row and column (both from 1), and its merged ranges."""
+
+    name: str
+    cells: dict[tuple[int, int], Found]
+    merged: tuple[tuple[int, int, int, int], ...]
+    """First row, first column, last row, last column."""
+
+    def text(self, row: int, column: int) -> str:
+        """Return a cell's text, "" without one."""
+        found = self.cells.get((row, column))
+        return str(found.value).strip() if found is not None and not found.problem else ""
+
+    def rows(self) -> list[int]:
+        """Return the rows that hold anything."""
+        return sorted({row for row, _ in self.cells})
+
+
+def address(sheet: str, row: int, column: int) -> str:
+    """Write the place of a cell as spreadsheets do.
+
+    Examples
+    --------
+    >>> address("Belt", 4, 3), address("Rubber compound 1", 4, 3)
+    ('Belt!C4', "'Rubber compound 1'!C4")
+    """
+    quoted = sheet if sheet.isidentifier() else "'" + sheet.replace("'", "''") + "'"
+    return f"{quoted}!{get_column_letter(column)}{row}"
+
+
+def read_workbook(path: Path) -> dict[str, Grid]:
+    """Read every sheet of a workbook.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is no workbook, is damaged, protected by a password, larger than a filled-in
+        template can be, or declares XML entities.
+    """
+    content = _content(path)
+    _check_parts(path, content)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # openpyxl names the parts it does not keep; none is read here
+            formulas, results = (
+                load_workbook(BytesIO(content), data_only=only, keep_links=False) for only in (False, True)
+            )
+            return {grid.name: grid for grid in _grids(path, formulas, results)}
+    except InputError:
+        raise
+    except _DAMAGED as error:
+        raise InputError(
+            f"{path}: the workbook is damaged or incomplete ({type(error).__name__}); save or copy it again"
+        ) from None
+
+
+def _content(path: Path) -> bytes:
+    if path.suffix.lower() != ".xlsx":
+        raise InputError(f'{path}: expected a workbook that ends in .xlsx, got "{path.name}"')
+    try:
+        size = path.stat().st_size
+        content = path.read_bytes() if size <= LARGEST_FILE or path.is_dir() else None
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+    if content is None:
+        raise InputError(f"{path}: larger than {LARGEST_FILE:,} bytes; this is no input workbook")
+    if content.startswith(_OLE):
+        if _ENCRYPTED in content:
+            raise InputError(f"{path}: protected by a password; save it without one")
+        raise InputError(f"{path}: not a workbook of the .xlsx format; save it as .xlsx")
+    if not content.startswith(b"PK"):
+        found = "empty" if not content else "not a workbook (.xlsx)"
+        raise InputError(f"{path}: {found}; write one with: conveyor template input.xlsx")
+    return content
+
+
+def _check_parts(path: Path, content: bytes) -> None:
+    """Refuse what would unpack to too much, and XML that defines entities, before anything is parsed."""
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            parts = archive.infolist()
+            if len(parts) > MOST_PARTS or sum(part.file_size for part in parts) > LARGEST_CONTENT:
+                raise InputError(
+                    f"{path}: unpacks to more than {LARGEST_CONTENT:,} bytes or {MOST_PARTS:,} parts; "
+                    "this is no input workbook"
+                )
+            if any(part.flag_bits & 1 for part in parts):
+                raise InputError(f"{path}: protected by a password; save it without one")
+            for part in parts:
+                # without its zero bytes UTF-16 reads as ASCII
+                if b"<!DOCTYPE" in archive.read(part).replace(b"\0", b""):
+                    raise InputError(f"{path}: {part.filename} has a document type, which workbooks have not")
+    except InputError:
+        raise
+    except _DAMAGED as error:
+        raise InputError(f"{path}: damaged or cut short ({type(error).__name__}); copy it again") from None
+
+
+def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[Grid]:
+    for sheet in formulas.worksheets:
+        rows, columns = sheet.max_row, sheet.max_column
+        if rows * columns > MOST_CELLS:
+            raise InputError(
+                f'{path}: sheet "{sheet.title}" reaches to {get_column_letter(columns)}{rows}; '
+                "delete the empty rows and columns beyond the table"
+            )
+        shown = results[sheet.title]
+        merged = tuple((r.min_row, r.min_col, r.max_row, r.max_col) for r in sheet.merged_cells.ranges)
+        yield Grid(sheet.title, dict(_found(sheet, shown)), merged)
+
+
+def _found(formulas: Worksheet, results: Worksheet) -> Iterator[tuple[tuple[int, int], Found]]:
+    for row in formulas.iter_rows():
+        for cell in row:
+            if cell.value is not None:
+                where = (cell.row, cell.column)
+                found = _one(cell, results.cell(*where))
+                if found.problem or found.value is not None:
+                    yield where, found
+
+
+def _one(cell: Any, result: Any) -> Found:
+    value = result.value
+    if cell.data_type == "f" and value is None:
+        return Found(
+            None,
+            "holds a formula without a result; open the workbook in a spreadsheet program, let it calculate "
+            "and save it, or type the value",
+        )
+    if result.data_type == "e":
+        return Found(None, f"holds the error {value}; correct its formula or type the value")
+    if isinstance(value, float) and not math.isfinite(value):
+        return Found(None, "holds a number that is not finite")
+    if isinstance(value, str):
+        return Found(value if value.strip() else None)
+    if isinstance(value, bool | int | float):
+        return Found(value, percent="%" in str(result.number_format))
+    return Found(
+        None,
+        f"holds a date or time ({value}): the spreadsheet program took the number for one; "
+        "format the cell as a number and type it again",
+    )
