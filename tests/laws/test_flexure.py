@@ -1,0 +1,127 @@
+"""Flexure: the series against the pull of the lagging belt, both limits, scaling; Rankine; the bulk's bound."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from conveyor.errors import InputError
+from conveyor.resistance import flexure
+
+ROUNDING = 1e-13
+SPAN = {"tension": 50e3, "spacing": 1.2, "loss_tangent": 0.1}
+BULK = {
+    "bulk_density": 850.0,
+    "friction_angle": math.radians(37),
+    "wing_contact": 0.3,
+    "trough_angle": math.radians(35),
+    "gravity": 9.81,
+}
+
+
+@pytest.mark.parametrize("stiffness", [5.0, 30.0, 1e3, 1e6])
+def test_belt_flexure_is_the_pull_of_the_support_on_the_lagging_belt(stiffness):
+    # steady solution with the stiffness D (1 + i tan δ): the support pushes q a, normal to a belt whose slope over
+    # it is -Im Σ κ_n/k_n; for a small loss the pull must equal the dissipation of the series
+    loss, load = 1e-6, 1500.0
+    pull = 0.0
+    for n in range(1, 40001):
+        k = 2 * math.pi * n / 1.2
+        pull -= load * 1.2 * (2 * load / (50e3 + stiffness * (1 + 1j * loss) * k**2) / k).imag
+    law = flexure.belt_flexure_resistance(
+        load, tension=50e3, spacing=1.2, bending_stiffness=stiffness, loss_tangent=loss
+    )
+    # both sums are cut: this one at 1e-8 for the softest belt, the law's at 2e-9
+    assert law == pytest.approx(pull, rel=2e-8)
+
+
+def test_soft_belt_needs_no_stiffness_and_is_the_sag():
+    limit = flexure.belt_flexure_resistance(1500.0, bending_stiffness=0.0, **SPAN)
+    sag = 1500.0 * 1.2 / (8 * 50e3)
+    assert limit / (1500.0 * 1.2) == pytest.approx(4 / math.pi * 0.1 * sag, rel=ROUNDING)
+    # first term left out of the limit: ε²/6, from Σ n → ∫ - 1/12
+    for stiffness in (1e-3, 1e-1):
+        epsilon = 2 * math.pi * math.sqrt(stiffness / 50e3) / 1.2
+        near = flexure.belt_flexure_resistance(1500.0, bending_stiffness=stiffness, **SPAN)
+        assert 1 - near / limit == pytest.approx(epsilon**2 / 6, rel=0.01)
+
+
+def test_stiff_belt_is_the_continuous_beam():
+    # T → 0: 4 π tan δ q² a⁴/(16 π⁴ D) ζ(3)
+    zeta3 = 1.2020569031595942
+    force = flexure.belt_flexure_resistance(1500.0, bending_stiffness=1e9, **SPAN)
+    beam = 0.1 * 1500.0**2 * 1.2**4 * zeta3 / (4 * math.pi**3 * 1e9)
+    # tension adds relative 2 T a²/(4π² D) ~ 4e-6; Euler-Maclaurin 1e-9
+    assert force == pytest.approx(beam, rel=1e-5)
+
+
+def test_belt_flexure_falls_with_tension_and_grows_with_the_square_of_the_load():
+    soft = {"spacing": 1.2, "loss_tangent": 0.1, "bending_stiffness": 0.0}
+    one = flexure.belt_flexure_resistance(1500.0, tension=50e3, **soft)
+    assert flexure.belt_flexure_resistance(1500.0, tension=100e3, **soft) == pytest.approx(
+        one / 2, rel=ROUNDING
+    )
+    stiff = SPAN | {"bending_stiffness": 30.0}
+    ratio = flexure.belt_flexure_resistance(3000.0, **stiff) / flexure.belt_flexure_resistance(
+        1500.0, **stiff
+    )
+    assert ratio == pytest.approx(4, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 30.0])
+def test_no_load_or_no_loss_no_flexure(stiffness):
+    assert flexure.belt_flexure_resistance(0.0, bending_stiffness=stiffness, **SPAN) == 0
+    lossless = SPAN | {"loss_tangent": 0.0}
+    assert flexure.belt_flexure_resistance(1500.0, bending_stiffness=stiffness, **lossless) == 0
+
+
+def test_rankine_states_are_reciprocal_and_meet_in_a_fluid():
+    assert flexure.rankine_coefficients(0.0) == (1.0, 1.0)
+    active, passive = flexure.rankine_coefficients(math.radians(37))
+    assert active * passive == pytest.approx(1, rel=ROUNDING)
+    assert active == pytest.approx(math.tan(math.radians(45 - 37 / 2)) ** 2, rel=ROUNDING)
+
+
+def test_bulk_bound_is_the_moment_of_the_pressure_times_the_angle():
+    active, passive = flexure.rankine_coefficients(BULK["friction_angle"])
+    n = 2000
+    step = 0.3 / n
+    moment = sum(
+        850.0 * 9.81 * (0.3 - s) * math.sin(math.radians(35)) * s * step
+        for s in ((i + 0.5) * step for i in range(n))
+    )
+    law = flexure.bulk_flexure_bound(0.02, **BULK)
+    # midpoint rule: relative error of ∫(b-s)s of n points is 1/(2 n²)
+    assert law == pytest.approx(2 * (passive - active) * moment * 0.02, rel=1 / n**2)
+
+
+@pytest.mark.parametrize("changed", [{"friction_angle": 0.0}, {"trough_angle": 0.0}, {"wing_contact": 0.0}])
+def test_a_fluid_a_flat_belt_and_empty_wings_cost_nothing(changed):
+    assert flexure.bulk_flexure_bound(0.02, **BULK | changed) == 0
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: flexure.belt_flexure_resistance(1.0, bending_stiffness=0.0, **SPAN | {"tension": 0.0}),
+            r"tension = 0\.0",
+        ),
+        (
+            lambda: flexure.belt_flexure_resistance(
+                1.0, bending_stiffness=0.0, **SPAN | {"loss_tangent": 1.1}
+            ),
+            r"loss_tangent = 1\.1 is not allowed: from 0 to 1",
+        ),
+        (
+            lambda: flexure.belt_flexure_resistance(1.0, bending_stiffness=-1.0, **SPAN),
+            r"bending_stiffness = -1\.0",
+        ),
+        (lambda: flexure.rankine_coefficients(37.0), r"friction_angle = 37\.0 .* angle in rad"),
+        (lambda: flexure.bulk_flexure_bound(-0.1, **BULK), r"opening_angle = -0\.1"),
+    ],
+)
+def test_refusals(call, message):
+    with pytest.raises(InputError, match=message):
+        call()
