@@ -14,7 +14,7 @@ import numpy as np
 
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
-HARMONICS: Final = np.arange(1.0, 128.0)  # summed one by one; the rest is then right to 2e-9 of the sum
+HARMONICS: Final = np.arange(1.0, 128.0)  # summed one by one; the rest is then right to 1e-10 of the sum
 
 
 def _rest(ratio: float, first: int) -> float:
