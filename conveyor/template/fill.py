@@ -1,0 +1,127 @@
+"""From a conveyor to the cells of its sheets: what it states, and nothing that it leaves to a default."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+from typing import Any, TypeAlias
+
+from pydantic import BaseModel
+
+from conveyor import shelf
+from conveyor.errors import InputError
+from conveyor.models import Conveyor
+from conveyor.template.layout import Group, Leaf, Part, Path, Table
+from conveyor.template.plan import Plan, references, whole, written_out
+from conveyor.template.values import Value, to_cells
+
+Cells: TypeAlias = dict[Path, tuple[Value, str | None]]
+
+
+@dataclass(frozen=True)
+class FilledRow:
+    """An item of a list: its number, the number of the item it belongs to, its cells."""
+
+    number: int
+    parent: int | None
+    cells: Cells
+
+
+@dataclass
+class Sheets:
+    """The cells of all sheets of a plan."""
+
+    plan: Plan
+    called: str = ""
+    """What a written-out model is referred to by."""
+    cells: Cells = field(default_factory=dict)
+    items: dict[str, list[FilledRow]] = field(default_factory=dict)
+
+
+def filled(conveyor: Conveyor, shelves: Iterable[str | FilePath] = ()) -> list[Sheets]:
+    """Return the cells of a conveyor: its own sheets first, then those of its written-out compounds.
+
+    A compound that is on the shelf under its name, with the same content, is given by name.
+    """
+    filler = _Filler(tuple(shelves))
+    own = filler.fill(whole(Conveyor), stated(conveyor))
+    return [own, *filler.written.values()]
+
+
+def stated(model: BaseModel) -> dict[str, Any]:
+    """Return the plain data that a model was given, without its defaults."""
+    return model.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_unset=True)
+
+
+class _Filler:
+    def __init__(self, shelves: tuple[str | FilePath, ...]) -> None:
+        self.shelves = shelves
+        self.written: dict[str, Sheets] = {}
+        self._contents: dict[str, dict[str, Any]] = {}
+
+    def fill(self, plan: Plan, data: dict[str, Any], called: str = "") -> Sheets:
+        sheets = Sheets(plan, called, items={sheet.name: [] for sheet in plan.tables})
+        self._group(sheets, plan.root, data, (), sheets.cells, None)
+        return sheets
+
+    def _group(
+        self,
+        sheets: Sheets,
+        group: Group,
+        data: dict[str, Any],
+        path: Path,
+        cells: Cells,
+        number: int | None,
+    ) -> None:
+        before = len(cells)
+        for part in group.parts:
+            if part.key in data:
+                self._part(sheets, part, data[part.key], (*path, part.key), cells, number)
+        if len(cells) == before and not group.required:
+            # an empty form means "not given": a model given without any field shows its defaults
+            for part in group.parts:
+                if isinstance(part, Leaf) and part.default is not None:
+                    cells[*path, part.key] = to_cells(part, part.default)
+
+    def _part(
+        self, sheets: Sheets, part: Part, data: Any, path: Path, cells: Cells, number: int | None
+    ) -> None:
+        if isinstance(part, Leaf):
+            if part.model is not None and isinstance(data, dict):
+                data = self._reference(part.model, data)
+            cells[path] = to_cells(part, data)
+        elif isinstance(part, Group):
+            self._group(sheets, part, data, path, cells, number)
+        else:
+            self._rows(sheets, part, data, number)
+
+    def _rows(self, sheets: Sheets, table: Table, data: list[Any], parent: int | None) -> None:
+        name = next(sheet.name for sheet in sheets.plan.tables if sheet.table is table)
+        rows = sheets.items[name]
+        for item in data:
+            row = FilledRow(len(rows) + 1, parent, {})
+            rows.append(row)
+            self._group(sheets, table.item, item, (), row.cells, row.number)
+
+    def _reference(self, model: type[BaseModel], data: dict[str, Any]) -> str:
+        """Return the name of a model: on the shelf, or of its own sheet in this workbook."""
+        whole_data = model.model_validate(data).model_dump(mode="json", by_alias=True, exclude_none=True)
+        name = str(data.get("name", "")) or "compound"
+        if self._on_shelf(name, whole_data):
+            return name
+        called, number = name, 2
+        while called in self._contents and self._contents[called] != whole_data:
+            called, number = f"{name} ({number})", number + 1
+        if called not in self._contents:
+            stem = next(stem for stem, other in references(whole(Conveyor).root).items() if other is model)
+            self._contents[called] = whole_data
+            plan = written_out(model, f"{stem} {len(self._contents)}")
+            self.written[called] = self.fill(plan, data, called)
+        return called
+
+    def _on_shelf(self, name: str, whole_data: dict[str, Any]) -> bool:
+        try:
+            return shelf.compound(name, extra=self.shelves).as_data() == whole_data
+        except InputError:
+            return False
