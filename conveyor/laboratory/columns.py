@@ -1,0 +1,379 @@
+"""Columns of a table to numbers in SI: which is used, in which unit, and what has to be asked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from conveyor.errors import InputError
+from conveyor.laboratory.cells import Grid
+from conveyor.laboratory.decimals import decimal_mark, is_number, to_floats, why_not_a_number
+from conveyor.laboratory.factors import Unit, allowed, find_unit
+from conveyor.laboratory.layout import Column, Table
+from conveyor.laboratory.names import DIMENSIONS, Meaning
+from conveyor.laboratory.table import FloatArray, IntArray
+
+_EXAMPLES = {"frequency": "Hz", "modulus": "MPa", "temperature": "degC", "strain": "%"}
+FREQUENCY_AGREEMENT = 1e-2
+"""Relative difference allowed between a column in Hz and one in rad/s of one file: three printed digits."""
+
+
+@dataclass(frozen=True)
+class Series:
+    """One used column in SI; `log10` of it where `column.meaning` is a shift factor."""
+
+    column: Column
+    meaning: Meaning
+    values: FloatArray
+    unit: Unit
+    explicit: bool
+
+
+@dataclass(frozen=True)
+class Question:
+    """Something only the user can decide, with its place."""
+
+    row: int
+    column: Column
+    text: str
+
+
+def remedy(dimension: str, example: str = "") -> str:
+    """The option that answers a question of unit, for Python and for the command line.
+
+    Parameters
+    ----------
+    dimension : str
+        frequency, modulus, temperature or strain; else the header is the place [-].
+    example : str
+        Unit shown, by default a usual one [-].
+
+    Returns
+    -------
+    str
+        Part of a message [-].
+
+    Examples
+    --------
+    >>> remedy("modulus")
+    'give modulus_unit, for example modulus_unit="MPa" (--modulus-unit MPa)'
+    """
+    if dimension not in _EXAMPLES:
+        return f"write it in the header; allowed: {allowed(dimension)}"
+    unit = example or _EXAMPLES[dimension]
+    return f'give {dimension}_unit, for example {dimension}_unit="{unit}" (--{dimension}-unit {unit})'
+
+
+def check_units(units: Mapping[str, str | None]) -> dict[str, Unit]:
+    """Units given as options.
+
+    Parameters
+    ----------
+    units : mapping of str
+        Dimension to spelling or None [-].
+
+    Returns
+    -------
+    dict of Unit
+        Only those that were given [-].
+
+    Raises
+    ------
+    InputError
+        If a spelling is not a unit of its dimension.
+
+    Examples
+    --------
+    >>> check_units({"modulus": "MPa", "strain": None})
+    {'modulus': Unit(name='MPa', factor=1000000.0, offset=0.0)}
+    """
+    given = {}
+    for dimension, text in units.items():
+        if text is None:
+            continue
+        unit = find_unit(dimension, text)
+        if unit is None:
+            raise InputError(
+                f'{dimension}_unit = "{text}" (--{dimension}-unit) is not known; allowed: {allowed(dimension)}'
+            )
+        given[dimension] = unit
+    return given
+
+
+def read_columns(
+    table: Table, given: Mapping[str, Unit]
+) -> tuple[Mapping[str, Series], IntArray | None, list[str], list[Question]]:
+    """Numbers of every known column.
+
+    Parameters
+    ----------
+    table : Table
+        Header and rows [-].
+    given : mapping of Unit
+        Units the user states, by dimension [-].
+
+    Returns
+    -------
+    tuple
+        Series by quantity, the labels of a run column or None, notes, open questions [-].
+
+    Raises
+    ------
+    InputError
+        For a cell that is no number, a row longer than the header, two columns of one quantity, a decimal mark
+        that is not certain.
+    """
+    grid = table.grid
+    used = _chosen(table)
+    _check_width(table)
+    cells = {column.index: _cells(table, column) for columns in used.values() for column in columns}
+    label_column = used.pop("run")[0] if "run" in used else None
+    run = None if label_column is None else _labels(grid, table, label_column, cells)
+    mark = _mark(table, [c for columns in used.values() for c in columns], cells)
+    notes = ["decimal comma"] if mark == "," else []
+    if label_column is not None:
+        notes.append(f"{column_label(grid, label_column)} tells runs apart")
+    series: dict[str, Series] = {}
+    questions: list[Question] = []
+    for quantity, columns in used.items():
+        read = []
+        for column in columns:
+            numbers = np.array(to_floats(cells[column.index], mark))
+            _finite(table, column, numbers, cells[column.index])
+            found, column_notes = _in_si(table, column, numbers, given, questions)
+            notes += column_notes
+            read.append(found)
+        series[quantity] = read[0] if len(read) == 1 else _agreed(table, read)
+    notes += [
+        f"{column_label(grid, c)} is not used: "
+        + ("it has no name" if not c.header else "its name is not a quantity read here")
+        for c in table.columns
+        if c.meaning is None and any(len(r.cells) > c.index and r.cells[c.index] for r in table.rows)
+    ]
+    return MappingProxyType(series), run, notes, questions
+
+
+def column_label(grid: Grid, column: Column) -> str:
+    """How notes name a column.
+
+    Parameters
+    ----------
+    grid : Grid
+        Where it stands [-].
+    column : Column
+        The column [-].
+
+    Returns
+    -------
+    str
+        As in `column 2 "E' (Pa)"` [-].
+    """
+    place = str(grid.refusal(0, column.index, "", header=column.header))
+    return place.split(": ", 1)[1].removesuffix(":")
+
+
+def _chosen(table: Table) -> dict[str, list[Column]]:
+    """Columns by quantity; only frequency may come twice, once as an angular frequency."""
+    used: dict[str, list[Column]] = {}
+    for column in table.columns:
+        if column.meaning is None:
+            continue
+        others = used.setdefault(column.meaning.quantity, [])
+        both_frequencies = (
+            len(others) == 1
+            and others[0].meaning is not None
+            and others[0].meaning.angular != column.meaning.angular
+        )
+        if others and not both_frequencies:
+            raise table.grid.refusal(
+                table.header_row,
+                column.index,
+                f"a second column for {column.meaning.quantity} (the first is {column_label(table.grid, others[0])});"
+                " keep one, or one row for each measurement with the temperature in a column of its own; rename what"
+                " is not to be read",
+                header=column.header,
+            )
+        others.append(column)
+    for columns in used.values():
+        columns.sort(key=lambda c: c.meaning is not None and c.meaning.angular)
+    return used
+
+
+def _check_width(table: Table) -> None:
+    width = len(table.columns)
+    for line in table.rows:
+        if len(line.cells) > width:
+            comma = table.grid.notes[-1].endswith("comma") and len(line.cells) == 2 * width
+            advice = (
+                "decimal commas in a table separated by commas? export it with semicolons or decimal points"
+                if comma
+                else "name every column in the header, or remove the extra cell"
+            )
+            raise table.grid.refusal(
+                line.number, width, f"{len(line.cells)} cells, the header names {width}; {advice}"
+            )
+
+
+def _cells(table: Table, column: Column) -> list[str]:
+    index = column.index
+    found = []
+    for line in table.rows:
+        cell = line.cells[index] if index < len(line.cells) else ""
+        if not cell:
+            hint = " (a formula without a stored value?)" if table.grid.sheet else " (a line cut short?)"
+            raise table.grid.refusal(
+                line.number,
+                index,
+                f"the cell is empty{hint}; complete or delete the row",
+                header=column.header,
+            )
+        found.append(cell)
+    return found
+
+
+def _mark(table: Table, columns: list[Column], cells: Mapping[int, list[str]]) -> str:
+    for column in columns:
+        for line, cell in zip(table.rows, cells[column.index], strict=True):
+            if not is_number(cell):
+                raise table.grid.refusal(
+                    line.number, column.index, why_not_a_number(cell), header=column.header
+                )
+    mark, doubtful = decimal_mark(cell for column in columns for cell in cells[column.index])
+    if doubtful is None:
+        return mark
+    for column in columns:
+        if doubtful in cells[column.index]:
+            line = table.rows[cells[column.index].index(doubtful)]
+            point = any("." in cell for c in columns for cell in cells[c.index])
+            why = (
+                "a comma here and decimal points elsewhere"
+                if point
+                else "a decimal comma or a thousands separator?"
+            )
+            raise table.grid.refusal(
+                line.number,
+                column.index,
+                f"'{doubtful}': {why}; export the table with decimal points and no thousands separators",
+                header=column.header,
+            )
+    raise AssertionError(doubtful)
+
+
+def _finite(table: Table, column: Column, numbers: FloatArray, cells: list[str]) -> None:
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if bad.size:
+        raise table.grid.refusal(
+            table.rows[bad[0]].number,
+            column.index,
+            f"'{cells[bad[0]]}' is too large for a number; repair or delete the row",
+            header=column.header,
+        )
+
+
+def _labels(grid: Grid, table: Table, column: Column, cells: Mapping[int, list[str]]) -> IntArray:
+    """Whole numbers as they are, other labels numbered in the order of their appearance."""
+    text = cells[column.index]
+    plain = [cell.removesuffix(".0") for cell in text]
+    if all(cell.lstrip("-").isdigit() for cell in plain):
+        return np.array([int(cell) for cell in plain], dtype=np.int64)
+    order = {label: number for number, label in enumerate(dict.fromkeys(text))}
+    if len(order) == len(table.rows) > 1:
+        raise grid.refusal(
+            table.rows[0].number,
+            column.index,
+            "every row has a label of its own, so they tell no runs apart; rename the column if it is not a run",
+            header=column.header,
+        )
+    return np.array([order[label] for label in text], dtype=np.int64)
+
+
+def _in_si(
+    table: Table, column: Column, numbers: FloatArray, given: Mapping[str, Unit], questions: list[Question]
+) -> tuple[Series, list[str]]:
+    meaning = column.meaning
+    assert meaning is not None  # noqa: S101
+    dimension = DIMENSIONS[meaning.quantity]
+    written = [text for text in (meaning.unit, column.unit) if text]
+    stated = [find_unit(dimension, text) for text in written]
+    override = given.get(dimension)
+    label = column_label(table.grid, column)
+    if override is not None:
+        unit = override
+        differs = [t for t, u in zip(written, stated, strict=True) if u != override]
+        how = f"{unit.name} as given" + (
+            f", overriding {' and '.join(differs)} of the file" if differs else ""
+        )
+    elif dimension in {"number", "label"} and not written:
+        unit, how = Unit("-", 1.0), ""
+    else:
+        problem = _unit_problem(meaning, dimension, written, stated)
+        if problem:
+            questions.append(Question(table.header_row, column, problem))
+        unit = next((u for u in stated if u is not None), Unit("?", 1.0))
+        how = f"{unit.name} by the {'header' if meaning.unit else 'unit row'}"
+    values, scale = _converted(meaning, numbers, unit)
+    words = [f"{label}: {_spoken(meaning)}", *([f"in {how}"] if how else []), *([scale] if scale else [])]
+    return Series(column, meaning, values, unit, override is not None), [", ".join(words)]
+
+
+def _unit_problem(meaning: Meaning, dimension: str, written: list[str], stated: list[Unit | None]) -> str:
+    if not written:
+        which = "Hz or rad/s? " if dimension == "frequency" else ""
+        return f"{which}{meaning.quantity.replace('_', ' ')} has no unit; {remedy(dimension)}"
+    for text, unit in zip(written, stated, strict=True):
+        if unit is None:
+            known = f"unit '{text}' of {meaning.quantity.replace('_', ' ')} is not known"
+            if dimension == "frequency" and text.replace(" ", "") in {"1/s", "s^-1", "s-1", "s⁻¹"}:
+                known = f"unit '{text}' may be Hz or rad/s"
+            if text in {"mPa", "mpa"}:
+                known = f"unit '{text}' reads millipascal, is MPa meant?"
+            return f"{known} (allowed: {allowed(dimension)}); {remedy(dimension)}"
+    if len({unit.name for unit in stated if unit}) > 1:
+        return f"the header says {written[0]}, the unit row {written[1]}; {remedy(dimension)}"
+    if meaning.angular and stated[0] is not None and stated[0].name != "rad/s":
+        return f"an angular frequency in {written[0]}: Hz or rad/s? {remedy('frequency', 'rad/s')}"
+    return ""
+
+
+def _spoken(meaning: Meaning) -> str:
+    words = meaning.quantity.replace("_", " ") if meaning.quantity not in {"a_T", "b_T"} else meaning.quantity
+    return f"{words} (peak to peak)" if meaning.peak_to_peak else words
+
+
+def _converted(meaning: Meaning, numbers: FloatArray, unit: Unit) -> tuple[FloatArray, str]:
+    """SI values, for shift factors their log10; and how they were converted."""
+    base = meaning.log_base
+    if meaning.quantity in {"a_T", "b_T"} and base is not None:
+        return numbers / np.log(10.0) * np.log(base) if base != 10.0 else numbers, (
+            "log10 as it stands" if base == 10.0 else "natural logarithm divided by ln 10"
+        )
+    with np.errstate(over="ignore"):
+        plain = numbers if base is None else np.power(base, numbers)
+    factor = unit.factor * (0.5 if meaning.peak_to_peak else 1.0)
+    values = (plain + unit.offset) * factor if unit.offset else plain * factor
+    words = [] if base is None else ["log10 undone" if base == 10.0 else "natural logarithm undone"]
+    if unit.offset:
+        words.append(f"+ {unit.offset:g}")
+    if factor != 1.0:
+        words.append(f"times {factor:.6g}")
+    return values, ", ".join(words)
+
+
+def _agreed(table: Table, read: list[Series]) -> Series:
+    """Frequency in Hz where the file has an angular frequency too; refused where they contradict."""
+    cyclic, angular = read
+    apart = np.abs(angular.values - cyclic.values) - FREQUENCY_AGREEMENT * np.abs(cyclic.values)
+    worst = int(np.argmax(apart))
+    if apart[worst] > 0.0:
+        raise table.grid.refusal(
+            table.rows[worst].number,
+            angular.column.index,
+            f"{angular.values[worst]:g} Hz by this column, {cyclic.values[worst]:g} Hz by"
+            f" {column_label(table.grid, cyclic.column)}; rename the one that is wrong, or give frequency_unit"
+            " (--frequency-unit) with only one of them",
+            header=angular.column.header,
+        )
+    return cyclic

@@ -1,0 +1,202 @@
+"""What a column header means: quantity, logarithm, shear, unit; English, German and Korean names."""
+
+from __future__ import annotations
+
+import math
+import re
+from types import MappingProxyType
+from typing import NamedTuple
+
+from conveyor.laboratory.factors import find_unit
+
+DIMENSIONS = MappingProxyType(
+    {
+        "frequency": "frequency",
+        "temperature": "temperature",
+        "strain": "strain",
+        "time": "time",
+        "storage": "modulus",
+        "loss": "modulus",
+        "complex": "modulus",
+        "relaxation": "modulus",
+        "tan_delta": "number",
+        "phase": "angle",
+        "a_T": "number",
+        "b_T": "number",
+        "run": "label",
+    }
+)
+"""Quantities that can be read, with the dimension of each."""
+
+
+class Meaning(NamedTuple):
+    """What the text of a header cell says."""
+
+    quantity: str
+    unit: str | None = None
+    log_base: float | None = None
+    letter: str = ""
+    angular: bool = False
+    peak_to_peak: bool = False
+    reduced: bool = False
+
+
+_NAMES = {
+    "frequency": """f freq frequency frequenz prüffrequenz messfrequenz testfrequency oscillationfrequency 주파수
+        시험주파수 진동수""",
+    "temperature": """temp temperature temperatur sampletemperature sampletemp probentemperatur prüftemperatur
+        온도 시험온도 시료온도""",
+    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain oscillationstrain oscillatorystrain
+        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung verformung
+        scherung deformation γ γ0 gamma gamma0 ε ε0 epsilon epsilon0 eps 변형률 변형율 동적변형률""",
+    "time": "time zeit relaxationtime testtime 시간",
+    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime tensilestoragemodulus
+        gstor gstorage g' g1 gprime shearstoragemodulus 저장탄성률 저장탄성율 저장모듈러스 저장계수""",
+    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime tensilelossmodulus
+        gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
+    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul g* gstar shearcomplexmodulus
+        복소탄성률 복소탄성율""",
+    "relaxation": """erelax e(t) et relaxation relaxationmodulus relaxationsmodul grelax g(t) gt
+        shearrelaxationmodulus modulus e g 완화탄성률 이완탄성률""",
+    "tan_delta": """tandelta tan(delta) tand tanδ tan(δ) tan(d) tandel lossfactor lossfaktor verlustfaktor
+        dampingfactor losstangent 손실계수 손실탄젠트""",
+    "phase": "phase phaseangle phaselag lossangle phasenwinkel verlustwinkel delta δ 위상각 위상",
+    "a_T": "at shiftfactor horizontalshift horizontalshiftfactor verschiebungsfaktor 이동인자 시프트팩터",
+    "b_T": "bt verticalshift verticalshiftfactor",
+    "run": "set setno run runno runnumber cycle sweep sweepno step stepno segment specimen probe sample sampleno",
+}
+_ANGULAR = "ω omega w angularfrequency angfrequency angfreq circularfrequency kreisfrequenz 각주파수"
+_REDUCED = "fred reducedfrequency redfrequency f·at fat at·f atf fr reduziertefrequenz f*at at*f 환산주파수"
+_PEAK_TO_PEAK = "dsa doublestrainamplitude peaktopeakstrain strainp-p strainpp"
+
+_MEANINGS: dict[str, Meaning] = {
+    name: Meaning(quantity) for quantity, names in _NAMES.items() for name in names.split()
+}
+_MEANINGS |= {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
+_MEANINGS |= {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
+_MEANINGS |= {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+_PRIMES = str.maketrans(
+    {"’": "'", "‘": "'", "′": "'", "`": "'", "´": "'", "″": "''", '"': "''", "”": "''", "“": "''"}
+)
+_SPLITS = (
+    re.compile(r"(?P<name>.+?)\s*\[(?P<unit>[^\[\]]*)\]"),
+    re.compile(r"(?P<name>.+?)\s*\((?P<unit>[^()]*)\)"),
+    re.compile(r"(?P<name>.+?)\s*<(?P<unit>[^<>]*)>"),
+)
+_LOOSE_SPLITS = (
+    re.compile(r"(?P<name>.+)_(?P<unit>[^_]+)"),
+    re.compile(r"(?P<name>.+?)\s*/\s*(?P<unit>.+)"),
+    re.compile(r"(?P<name>.+?)\s*,\s*(?P<unit>.+)"),
+    re.compile(r"(?P<name>.+?)\s+in\s+(?P<unit>.+)"),
+    re.compile(r"(?P<name>.+?)\s*(?P<unit>%)"),
+    re.compile(r"(?P<name>.+)\s+(?P<unit>\S+)"),
+)
+_LOG = re.compile(r"(?P<log>log_?10|log|lg|ln)[\s_]*(?P<rest>\(.+\)|\[.+\]|.+)", re.IGNORECASE)
+
+
+def meaning(header: str) -> Meaning | None:
+    """Quantity named by a header cell.
+
+    Parameters
+    ----------
+    header : str
+        Text of the cell [-].
+
+    Returns
+    -------
+    Meaning or None
+        None if the name is not known [-].
+
+    Notes
+    -----
+    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit. A
+    lone `t` or `T` is a time or a temperature by its unit, without one by its case.
+
+    Examples
+    --------
+    >>> meaning("E'' (MPa)")
+    Meaning(quantity='loss', unit='MPa', log_base=None, letter='E', angular=False, peak_to_peak=False, reduced=False)
+    >>> meaning("log_aT").log_base, meaning("storage_Pa").unit, meaning("Point")
+    (10.0, 'Pa', None)
+    """
+    text = " ".join(header.translate(_PRIMES).split())
+    found = _linear(text)
+    if found is not None or not (log := _LOG.fullmatch(text)):
+        return found
+    rest = log["rest"].strip()
+    whole = rest[1:-1] if rest[0] + rest[-1] in {"()", "[]"} else rest
+    inner = _linear(whole) or _linear(rest) or _log_with_outer_unit(rest)
+    if inner is None or inner.quantity not in {
+        "frequency",
+        "time",
+        "storage",
+        "loss",
+        "relaxation",
+        "a_T",
+        "b_T",
+    }:
+        return None
+    return inner._replace(log_base=math.e if log["log"].lower() == "ln" else 10.0)
+
+
+def _log_with_outer_unit(text: str) -> Meaning | None:
+    """`(f) [Hz]` after log10."""
+    match = re.fullmatch(r"\(([^()]+)\)\s*[\[(]([^()\[\]]+)[\])]", text)
+    return _linear(f"{match[1]} [{match[2]}]") if match else None
+
+
+def _linear(text: str) -> Meaning | None:
+    bare = _named(text)
+    if bare is not None:
+        return bare
+    for split in _SPLITS:
+        if match := split.fullmatch(text):
+            found = _named(match["name"], match["unit"])
+            if found is not None:
+                return found._replace(unit=match["unit"].strip())
+    for split in _LOOSE_SPLITS:
+        if match := split.fullmatch(text):
+            found = _named(match["name"], match["unit"])
+            if found is not None and find_unit(DIMENSIONS[found.quantity], match["unit"]):
+                return found._replace(unit=match["unit"].strip())
+    return None
+
+
+def _named(text: str, unit: str | None = None) -> Meaning | None:
+    """A name without its unit; a symbol may follow or precede the words, as in "Storage modulus E'"."""
+    if text.strip() in {"t", "T"}:
+        return Meaning(_time_or_temperature(text.strip(), unit))
+    found = _word(text)
+    if found is not None:
+        return found
+    parts = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", text) or re.fullmatch(r"(.+)[\s,]+(\S+)", text)
+    if parts is None:
+        return None
+    first, second = _word(parts[1]), _word(parts[2])
+    if parts[2] in {"t", "T"}:
+        return first if first and first.quantity in {"time", "temperature"} else None
+    if first is None or second is None or first.quantity != second.quantity:
+        return None
+    return first._replace(
+        letter=first.letter or second.letter,
+        angular=first.angular or second.angular,
+        peak_to_peak=first.peak_to_peak or second.peak_to_peak,
+    )
+
+
+def _time_or_temperature(letter: str, unit: str | None) -> str:
+    if unit is not None and find_unit("time", unit):
+        return "time"
+    if unit is not None and find_unit("temperature", unit):
+        return "temperature"
+    return "temperature" if letter == "T" else "time"
+
+
+def _word(text: str) -> Meaning | None:
+    compact = re.sub(r"[\s_.|\-]+", "", text.lower())
+    found = _MEANINGS.get(compact)
+    if found is None or DIMENSIONS[found.quantity] != "modulus":
+        return found
+    shear = re.fullmatch(r"g.*|shear.*", compact) is not None
+    tensile = re.fullmatch(r"e.*|tensile.*", compact) is not None
+    return found._replace(letter="G" if shear else "E" if tensile else "")

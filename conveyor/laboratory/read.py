@@ -1,0 +1,322 @@
+"""`read_dma`: one laboratory file, understood aloud or refused with the question that decides it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from conveyor.errors import InputError
+from conveyor.laboratory.arrange import Arrangement, arrange
+from conveyor.laboratory.cells import Grid, refusal
+from conveyor.laboratory.columns import Question, Series, check_units, column_label, read_columns
+from conveyor.laboratory.encoding import decoded
+from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
+from conveyor.laboratory.layout import EXAMPLE, Table, find_table, has_table
+from conveyor.laboratory.moduli import Moduli, dynamic_moduli, to_tensile
+from conveyor.laboratory.plausible import check_possible, doubts
+from conveyor.laboratory.separated import text_grid
+from conveyor.laboratory.table import KINDS, DmaData, FloatArray, IntArray
+from conveyor.laboratory.workbook import MAGIC, workbook_grids
+
+
+def read_dma(
+    path: str | Path,
+    *,
+    frequency_unit: str | None = None,
+    modulus_unit: str | None = None,
+    temperature_unit: str | None = None,
+    strain_unit: str | None = None,
+    temperature: float | None = None,
+    sheet: str | None = None,
+    poisson_ratio: float = 0.5,
+    kind: str | None = None,
+) -> DmaData:
+    r"""Read a measurement from CSV, TXT, TSV or XLSX.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        The file [-].
+    frequency_unit : str or None
+        Unit of the frequency column, Hz or rad/s, if the file does not say or errs [-].
+    modulus_unit : str or None
+        Unit of all moduli, if the file does not say or errs [-].
+    temperature_unit : str or None
+        Unit of the temperature column, if the file does not say or errs [-].
+    strain_unit : str or None
+        Unit of the strain column, if the file does not say or errs [-].
+    temperature : float or None
+        Of a file without a temperature column [K].
+    sheet : str or None
+        Sheet of a workbook with several tables [-].
+    poisson_ratio : float
+        To convert shear moduli, 0 to 0.5 [-].
+    kind : str or None
+        One of `KINDS`, if the columns leave it open [-].
+
+    Returns
+    -------
+    DmaData
+        In SI, with `understood` saying how every column was read [-].
+
+    Raises
+    ------
+    InputError
+        As `file:row: column n "name": what; remedy`, for anything doubtful.
+
+    Notes
+    -----
+    Units given as options override the file; `understood` says so. Moduli must lie between 1e4 and 1e11 Pa,
+    temperatures between -160 and 250 degC and strains below 100 % unless their unit is given.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder) / "pad.txt"
+    ...     _ = file.write_text("f [Hz];E' [MPa];tan delta\n10;6,8;0,11\n1;5,6;0,10\n")
+    ...     data = read_dma(file)
+    >>> data.kind, data.storage, data.understood[3]
+    ('master curve', array([5600000., 6800000.]), 'decimal comma')
+    """
+    if not (math.isfinite(poisson_ratio) and 0.0 <= poisson_ratio <= 0.5):
+        raise InputError(f"poisson_ratio = {poisson_ratio:g} (--poisson) must be 0 to 0.5")
+    if temperature is not None and not (math.isfinite(temperature) and temperature > 0.0):
+        raise InputError(f"temperature = {temperature:g} K (--temperature) must be finite and > 0 K")
+    if kind is not None and kind not in KINDS:
+        raise InputError(f'kind = "{kind}" (--kind) is not known; allowed: {", ".join(KINDS)}')
+    given = check_units(
+        {
+            "frequency": frequency_unit,
+            "modulus": modulus_unit,
+            "temperature": temperature_unit,
+            "strain": strain_unit,
+        }
+    )
+    table = find_table(_grid(Path(path), sheet))
+    series, labels, notes, questions = read_columns(table, given)
+    columns, derived = _quantities(table, series, questions, poisson_ratio, temperature)
+    for dimension, unit in given.items():
+        if not any(s.explicit and s.unit == unit for s in series.values()):
+            notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
+    decision = _decision(table, columns, labels, series, kind)
+    found = arrange(decision.kind, columns, labels)
+    notes = [*table.grid.notes, *table.notes, *notes, *derived, f"{decision.kind}: {decision.reason}"]
+    notes += _order_notes(table, decision.kind, found)
+    return replace(_assembled(Path(path), table, decision.kind, columns, found), understood=tuple(notes))
+
+
+def _grid(path: Path, sheet: str | None) -> Grid:
+    """The text, or the one sheet with a table."""
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    if not data.startswith(MAGIC):
+        if sheet is not None:
+            raise refusal(path.name, 1, 0, f"a text file has no sheet '{sheet}'; leave out sheet (--sheet)")
+        text, note = decoded(data, path.name)
+        return text_grid(text, path.name, (note,))
+    grids = workbook_grids(data, path.name)
+    names = ", ".join(repr(grid.sheet) for grid in grids)
+    if sheet is not None:
+        for grid in grids:
+            if grid.sheet == sheet:
+                return grid
+        raise refusal(
+            path.name, 1, 0, f"no sheet '{sheet}'; sheet (--sheet) must be one of {names}", lettered=True
+        )
+    tables = [grid for grid in grids if has_table(grid)]
+    if len(tables) == 1:
+        return tables[0]
+    if not tables:
+        raise refusal(
+            path.name, 1, 0, f"no table on any sheet ({names}); one of them needs {EXAMPLE}", lettered=True
+        )
+    first = tables[1]
+    several = ", ".join(repr(grid.sheet) for grid in tables)
+    raise first.refusal(
+        first.lines[0].number,
+        0,
+        f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{tables[0].sheet}" (--sheet)',
+    )
+
+
+def _quantities(
+    table: Table,
+    series: Mapping[str, Series],
+    questions: list[Question],
+    poisson_ratio: float,
+    temperature: float | None,
+) -> tuple[dict[str, FloatArray], list[str]]:
+    """SI arrays by their names in `DmaData`, and how they were derived; open questions are raised here."""
+    check_possible(table, series)
+    open_columns = {q.column for q in questions}
+    clear = {q: s for q, s in series.items() if s.column not in open_columns}
+    moduli = dynamic_moduli(table, clear)
+    _ask(table, [*questions, *doubts(table, clear, moduli)])
+    columns = {q: series[q].values for q in ("frequency", "temperature", "strain", "time") if q in series}
+    tensile, notes = _tensile(table, series, moduli, poisson_ratio)
+    columns |= tensile
+    for quantity in ("a_T", "b_T"):
+        if quantity in series:
+            found = series[quantity]
+            linear = found.meaning.log_base is None
+            columns[f"log10_{quantity}"] = np.log10(found.values) if linear else found.values
+    if temperature is not None:
+        if "temperature" in series:
+            raise table.grid.refusal(
+                table.header_row,
+                series["temperature"].column.index,
+                "the file has its temperatures; leave out temperature (--temperature)",
+                header=series["temperature"].column.header,
+            )
+        columns["temperature"] = np.full(len(table.rows), temperature)
+        notes.append(f"temperature of every row {temperature:g} K as given")
+    return columns, notes
+
+
+def _ask(table: Table, questions: list[Question]) -> None:
+    if not questions:
+        return
+    first, *others = questions
+    more = "".join(f"; and {column_label(table.grid, q.column)}: {q.text}" for q in others)
+    raise table.grid.refusal(first.row, first.column.index, first.text + more, header=first.column.header)
+
+
+def _tensile(
+    table: Table, series: Mapping[str, Series], moduli: Moduli | None, poisson_ratio: float
+) -> tuple[dict[str, FloatArray], list[str]]:
+    """Tensile moduli by their names in `DmaData`, and how they were derived."""
+    used: list[Series] = []
+    notes: list[str] = []
+    arrays: dict[str, FloatArray] = {}
+    if moduli is not None:
+        used += [moduli.storage_from, moduli.loss_from]
+        arrays |= {"storage": moduli.storage, "loss": moduli.loss}
+        notes += moduli.notes
+    if "relaxation" in series:
+        used.append(series["relaxation"])
+        arrays["modulus"] = series["relaxation"].values
+    stated = tuple(s for s in used if s.meaning.quantity not in {"tan_delta", "phase"})
+    if not stated:
+        return {}, notes
+    factor, note = to_tensile(table, stated, poisson_ratio)
+    return {name: factor * values for name, values in arrays.items()}, [*notes, note]
+
+
+def _decision(
+    table: Table,
+    columns: dict[str, FloatArray],
+    labels: IntArray | None,
+    series: Mapping[str, Series],
+    kind: str | None,
+) -> Decision:
+    present = set(columns)
+    if kind is not None:
+        missing = [name for name in NEEDS[kind] if name not in present]
+        if missing:
+            raise _missing(table, present, f"a {kind} needs {' and '.join(missing)}")
+        return Decision(kind, "as given")
+    if not possible_kinds(present):
+        raise _missing(table, present, "these columns make no measurement read here")
+    frequency = series.get("frequency")
+    decision = decide(columns, labels, reduced=frequency is not None and frequency.meaning.reduced)
+    if not decision.kind:
+        choices = possible_kinds(present)
+        raise table.grid.refusal(
+            table.header_row,
+            0,
+            f'{decision.reason or "several kinds fit"}; give kind, for example kind="{choices[0]}"'
+            f" (--kind), one of {', '.join(choices)}",
+            header=table.columns[0].header,
+        )
+    return decision
+
+
+def _missing(table: Table, present: set[str], what: str) -> InputError:
+    unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
+    have = ", ".join(sorted(present)) or "nothing complete"
+    advice = "; give temperature (--temperature)" if {"storage", "loss", "frequency"} <= present else ""
+    return table.grid.refusal(
+        table.header_row,
+        unknown.index,
+        f"{what} (found: {have}{advice}); name the missing column as in {EXAMPLE}, with temperature_degC, strain_%,"
+        " 't [s]' and 'E(t) [MPa]', or a_T",
+        header=unknown.header,
+    )
+
+
+def _order_notes(table: Table, kind: str, found: Arrangement) -> list[str]:
+    """Sentences on sorting, duplicate runs and the number of sweeps."""
+    notes = []
+    rows = _rows(table)
+    order = found.order
+    moved = np.flatnonzero(np.diff(order) < 0)
+    if moved.size:
+        notes.append(f"rows sorted; the file is not in order from row {rows[order[moved[0] + 1]]} on")
+    if found.duplicates is not None:
+        repeated = rows[found.duplicates > 0]
+        notes.append(
+            f"duplicate runs: {repeated.size} row(s) repeat a set point of their sweep, first row {repeated[0]};"
+            f" up to {int(found.duplicates.max()) + 1} runs are kept apart"
+        )
+    if found.group is not None and kind in {"isotherms", "strain sweep"}:
+        notes.append(f"{np.unique(found.group).size} sweeps, rows grouped by temperature")
+    return notes
+
+
+def _assembled(
+    path: Path, table: Table, kind: str, columns: dict[str, FloatArray], found: Arrangement
+) -> DmaData:
+    """Sorted, frozen, without the notes."""
+    order = found.order
+    rows = _rows(table)
+
+    def sorted_rows(values: FloatArray | None) -> FloatArray | None:
+        return None if values is None else _frozen(values[order])
+
+    return DmaData(
+        kind=kind,
+        **{
+            name: sorted_rows(columns.get(name))
+            for name in (
+                "frequency",
+                "temperature",
+                "strain",
+                "time",
+                "storage",
+                "loss",
+                "modulus",
+                "log10_a_T",
+                "log10_b_T",
+            )
+        },
+        run=None if found.run is None else _frozen_labels(found.run[order]),
+        group=None if found.group is None else _frozen_labels(found.group[order]),
+        row_numbers=_frozen_labels(rows[order]),
+        metadata=MappingProxyType(table.metadata),
+        understood=(),
+        source=f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path),
+    )
+
+
+def _rows(table: Table) -> IntArray:
+    return np.array([line.number for line in table.rows], dtype=np.int64)
+
+
+def _frozen(values: FloatArray) -> FloatArray:
+    values.setflags(write=False)
+    return values
+
+
+def _frozen_labels(values: IntArray) -> IntArray:
+    values.setflags(write=False)
+    return values

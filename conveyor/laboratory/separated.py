@@ -1,0 +1,102 @@
+"""Separated text to a grid: comma, semicolon, tab or runs of blanks, found from the rows of numbers."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+
+from conveyor.laboratory.cells import Grid, Line
+from conveyor.laboratory.decimals import is_number
+
+_SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
+_COMMENT = re.compile(r"\s*(?:#+|%+|//+|!+)\s?")
+_SAMPLE = 400
+"""Lines looked at to find the separator; every other line is checked when it is read."""
+
+
+def text_grid(text: str, name: str, notes: tuple[str, ...]) -> Grid:
+    r"""Split a text into cells.
+
+    Parameters
+    ----------
+    text : str
+        The decoded file [-].
+    name : str
+        Its name in messages [-].
+    notes : tuple of str
+        Decisions already taken [-].
+
+    Returns
+    -------
+    Grid
+        Cells without surrounding blanks; trailing empty cells dropped; blank lines left out [-].
+
+    Notes
+    -----
+    The separator is the one that turns most lines into rows of two or more numbers. A line of text (a header)
+    that this separator does not split into as many cells as the rows have is tried with the others.
+
+    Examples
+    --------
+    >>> grid = text_grid("# f (Hz)\tE' (Pa)\n1,0;2,5\n", "pad.txt", ())
+    >>> [line.cells for line in grid.lines], grid.notes
+    ([('f (Hz)', "E' (Pa)"), ('1,0', '2,5')], ('separator: semicolon',))
+    """
+    raw = [
+        (number, line)
+        for number, line in enumerate(re.split(r"\r\n|\n|\r", text.replace("−", "-")), start=1)
+        if line.strip() and not re.fullmatch(r"\s*sep=.\s*", line)
+    ]
+    separator, width = _separator([line for _, line in raw if not _COMMENT.match(line)])
+    lines = []
+    for number, line in raw:
+        comment = _COMMENT.match(line)
+        body = line[comment.end() :] if comment else line
+        cells = _split(body, separator)
+        if (comment or len(cells) != width) and not any(map(is_number, cells)):
+            cells = _split_text(body, separator, width)
+        lines.append(Line(number, cells, body.strip(), comment is not None))
+    return Grid(name, tuple(lines), (*notes, f"separator: {_SEPARATORS[separator]}"))
+
+
+def _separator(lines: list[str]) -> tuple[str, int]:
+    """The separator, and how many cells most rows of numbers have."""
+    sample = lines[:: max(1, len(lines) // _SAMPLE)]
+    best, best_rows, best_width = ",", 0, 0
+    for separator in _SEPARATORS:
+        widths = [
+            len(cells)
+            for cells in (_split(line, separator) for line in sample)
+            if (numbers := sum(map(is_number, cells))) >= 2 and 2 * numbers >= sum(map(bool, cells))
+        ]
+        if len(widths) > best_rows:
+            best, best_rows = separator, len(widths)
+            best_width = Counter(widths).most_common(1)[0][0]
+    return best, best_width
+
+
+def _split(line: str, separator: str) -> tuple[str, ...]:
+    if separator == " ":
+        return tuple(line.split())
+    if '"' in line and re.search(rf'(?:^|{separator})\s*"', line):
+        parts = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    else:
+        parts = line.split(separator)
+    return _trimmed(parts)
+
+
+def _split_text(line: str, separator: str, width: int) -> tuple[str, ...]:
+    """A line of words: blanks may be part of a name, so several ways are tried for the width of the rows."""
+    ways = [_split(line, s) for s in (separator, "\t", ";", ",") if s != " "]
+    ways.append(_trimmed(re.split(r"\s{2,}|\t", line.strip())))
+    ways.append(_trimmed(re.split(r"\s+(?![\[(])", line.strip())))
+    fitting = [cells for cells in ways if len(cells) == width]
+    return fitting[0] if fitting else max(ways[:1] if separator != " " else ways[-2:-1], key=len)
+
+
+def _trimmed(parts: list[str]) -> tuple[str, ...]:
+    cells = [part.strip() for part in parts]
+    while cells and not cells[-1]:
+        cells.pop()
+    return tuple(cells)

@@ -1,0 +1,81 @@
+"""Sheets of an .xlsx workbook to grids of text cells."""
+
+from __future__ import annotations
+
+import datetime as dt
+import io
+import warnings
+import zipfile
+from typing import Any
+
+from conveyor.laboratory.cells import Grid, Line, refusal
+from conveyor.laboratory.decimals import DATE_MARK, PERCENT_MARK
+
+MAGIC = b"PK\x03\x04"
+"""First bytes of a zip archive, which an .xlsx file is."""
+
+
+def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
+    """Read every worksheet.
+
+    Parameters
+    ----------
+    data : bytes
+        The file [-].
+    name : str
+        Its name in messages [-].
+
+    Returns
+    -------
+    tuple of Grid
+        One for each worksheet, hidden ones included, named `file[sheet]` [-].
+
+    Raises
+    ------
+    InputError
+        If the archive is not a readable workbook.
+
+    Notes
+    -----
+    Of a formula the value stored in the file is read; without one the cell is empty. Dates and numbers shown
+    as a percentage are marked, so that they are refused where a number is expected.
+    """
+    import openpyxl
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        try:
+            book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
+        except (zipfile.BadZipFile, KeyError, ValueError, OSError):
+            raise refusal(
+                name, 1, 0, "not a readable .xlsx workbook; save it again as .xlsx, or export CSV"
+            ) from None
+        try:
+            return tuple(_grid(sheet, f"{name}[{sheet.title}]") for sheet in book.worksheets)
+        finally:
+            book.close()
+
+
+def _grid(sheet: Any, name: str) -> Grid:
+    lines = []
+    for number, row in enumerate(sheet.iter_rows(), start=1):
+        cells = [_text(cell) for cell in row]
+        while cells and not cells[-1]:
+            cells.pop()
+        if cells:
+            comment = cells[0].startswith("#")
+            if comment:
+                cells[0] = cells[0].lstrip("# ")
+            lines.append(Line(number, tuple(cells), " ".join(filter(None, cells)), comment))
+    return Grid(name, tuple(lines), (f"workbook, sheet '{sheet.title}'",), lettered=True, sheet=sheet.title)
+
+
+def _text(cell: Any) -> str:
+    value = cell.value
+    if value is None:
+        return ""
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        return PERCENT_MARK + repr(value) if "%" in cell.number_format else repr(value)
+    if isinstance(value, dt.datetime | dt.date | dt.time | dt.timedelta):
+        return f"{DATE_MARK}{value}"
+    return " ".join(str(value).split())
