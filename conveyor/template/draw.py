@@ -2,49 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from typing import Any, Final
 
 from openpyxl.cell.cell import Cell, MergedCell
 from openpyxl.comments import Comment
-from openpyxl.formatting.rule import FormulaRule
+from openpyxl.formatting.rule import Rule
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
+from openpyxl.styles.differential import DifferentialStyle
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook import Workbook
-from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, print_set_up, put
+from conveyor.template.entries import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
 from conveyor.template.fill import Sheets
 from conveyor.template.layout import Group, Leaf
-from conveyor.template.plan import LISTS, Column, Form, Row, Sheet, label
-from conveyor.template.read import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
-from conveyor.template.values import NO, YES, to_cells
+from conveyor.template.plan import Column, Form, Row, Sheet, label
+from conveyor.template.rules import Rules, default_text, said
 
-_HEADERS: Final = {"Field": 27, VALUE: 22, UNIT: 11, "Allowed": 24, "Default": 13, "Meaning": 62, KEY: 30}
+_HEADERS: Final = {"Field": 24, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
 """Columns of a form and their widths [characters]."""
 _HEAD: Final = 4
 """Row of the headers."""
 _KEYS: Final = 6
 """Row of a list's keys, the last above its items."""
-_SPARE_ROWS, _LEAST_ROWS, _LISTED_ROWS = 10, 20, 1000
-"""Rows of a list drawn beyond those filled in, at least, and those that have drop-downs."""
+_SPARE_ROWS, _LEAST_ROWS, _LISTED_ROWS = 10, 20, _KEYS + 1000
+"""Rows of a list drawn beyond those filled in and at least; the last row with drop-downs."""
 _WHITE: Final = Font(name="Calibri", bold=True, color="FFFFFF")
 _SMALL: Final = Font(name="Calibri", size=8, italic=True, color="808080")
 _BAR: Final = PatternFill("solid", fgColor=ACCENT)
 _NEEDED: Final = PatternFill("solid", bgColor="FFE699")
 _LINE: Final = Side(style="thin", color="BFC8D2")
 _BOX: Final = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
+_WRAPPED: Final = Alignment(horizontal="left", vertical="top", wrap_text=True, indent=1)
 _AUTHOR: Final = "conveyor"
-_ALLOWED: Final = {
-    "switch": f"{YES} or {NO}",
-    "list": 'values separated by ";"',
-    "reference": "a name on the shelf, the path of a compound file, or a name written out in this workbook",
-    "json": "text or JSON",
-    "count": "a whole number",
-    "number": "a number",
-}
 HOW_TO: Final = (
     "Fill in the framed cells: the value in one cell, its unit beside it (drop-down). A number without a unit "
     "is refused.",
@@ -61,71 +54,32 @@ HOW_TO: Final = (
 
 
 class Book:
-    """A workbook being drawn, with the lists of its drop-downs on a hidden sheet."""
+    """A workbook being drawn."""
 
-    def __init__(self, title: str) -> None:
-        self.book, self.title = Workbook(), title
+    def __init__(self, title: str, compounds: Sequence[str]) -> None:
+        self.book, self.title, self.rules = Workbook(), title, Rules(compounds)
         self.book.remove(self.book.worksheets[0])
-        self._lists: dict[tuple[Any, ...], str] = {}
 
-    def draw(self, every: Sequence[Sheets], compounds: Sequence[str]) -> Workbook:
-        """Draw all sheets; `compounds` are offered where a compound is asked for."""
+    def draw(self, every: Sequence[Sheets]) -> Workbook:
+        """Draw all sheets: every form, after it the lists of its part, last those of no part."""
         for sheets in every:
-            for form in sheets.plan.forms:
-                self._form(form, sheets, compounds)
-                for table in sheets.plan.tables:
-                    if table.path[:1] == form.rows[0].path[:1] or len(sheets.plan.forms) == 1:
-                        self._table(table, sheets, compounds)
+            for drawn in _in_order(sheets):
+                if isinstance(drawn, Form):
+                    self._form(drawn, sheets)
+                else:
+                    self._table(drawn, sheets)
         self._how_to(self.book.worksheets[0], every)
         for sheet in self.book.worksheets:
             print_set_up(sheet, self.title)
-        self._draw_lists()
+        self.rules.draw(self.book)
         return self.book
-
-    # -- drop-downs
-
-    def _drop_down(self, entries: Iterable[Any], *, strict: bool = True) -> DataValidation:
-        key = tuple(entries)
-        if key not in self._lists:
-            letter = get_column_letter(len(self._lists) + 1)
-            self._lists[key] = f"'{LISTS}'!${letter}$1:${letter}${len(key)}"
-        rule = DataValidation(type="list", formula1=self._lists[key], allow_blank=True)
-        rule.showErrorMessage = strict
-        rule.errorTitle, rule.error = "Not in the list", "Choose an entry of the list."
-        return rule
-
-    def _draw_lists(self) -> None:
-        sheet = self.book.create_sheet(LISTS)
-        sheet.sheet_state = "hidden"
-        for column, entries in enumerate(self._lists, start=1):
-            for row, entry in enumerate(entries, start=1):
-                put(sheet.cell(row, column), entry)
-
-    def _rules(self, sheet: Worksheet, leaf: Leaf, value: str, unit: str, compounds: Sequence[str]) -> None:
-        """Give a field's value and unit cells their drop-downs and ranges."""
-        rules: list[tuple[DataValidation, str]] = []
-        if leaf.units:
-            rules.append((self._drop_down(leaf.units), unit))
-        if leaf.kind == "choice" and leaf.choices:
-            rules.append((self._drop_down(leaf.choices), value))
-        elif leaf.kind == "switch":
-            rules.append((self._drop_down((YES, NO)), value))
-        elif leaf.kind == "reference" and compounds:
-            rules.append((self._drop_down(compounds, strict=False), value))
-        elif leaf.kind in {"number", "count"}:
-            rules.append((_range(leaf), value))
-        for rule, cells in rules:
-            known = next((old for old in sheet.data_validations.dataValidation if _alike(old, rule)), None)
-            if known is None:
-                sheet.add_data_validation(rule)
-            (known or rule).add(cells)
 
     # -- forms
 
-    def _form(self, form: Form, sheets: Sheets, compounds: Sequence[str]) -> None:
+    def _form(self, form: Form, sheets: Sheets) -> None:
         sheet = self.book.create_sheet(form.name)
         optional = "" if form.required else " May be left empty as a whole."
-        _title(sheet, form.title, f"{form.doc}{optional}")
+        _title(sheet, form.name, f"{form.doc}{optional}")
         for column, (name, width) in enumerate(_HEADERS.items(), start=1):
             _bar(sheet.cell(_HEAD, column), name)
             sheet.column_dimensions[get_column_letter(column)].width = width
@@ -138,13 +92,13 @@ class Book:
                 required=True,
                 doc="Write this where a compound is asked for.",
             )
-            self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None), compounds)
+            self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         for line in form.rows:
             row += 1
             if isinstance(line.part, Group):
                 _heading(sheet, row, line)
             else:
-                self._field(sheet, row, line, sheets.cells.get(line.path, (None, None)), compounds)
+                self._field(sheet, row, line, sheets.cells.get(line.path, (None, None)))
         sheet.freeze_panes = sheet.cell(_HEAD + 1, 2)
         sheet.print_title_rows = f"{_HEAD}:{_HEAD}"
 
@@ -154,14 +108,13 @@ class Book:
         row: int,
         line: Row,
         cells: tuple[Any, str | None],
-        compounds: Sequence[str],
     ) -> None:
         leaf = line.part
         if not isinstance(leaf, Leaf):
             raise TypeError("a heading has no cells")
         name, value, unit, allowed, default, meaning, key = (sheet.cell(row, c) for c in range(1, 8))
         put(name, label(leaf.key) + (" *" if leaf.required else ""), BOLD if leaf.required else None)
-        name.alignment = Alignment(indent=1 + line.depth, vertical="top")
+        name.alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="top")
         name.comment = _note(leaf, ".".join(line.path))
         put(value, cells[0])
         put(unit, cells[1])
@@ -173,21 +126,21 @@ class Book:
         put(meaning, leaf.doc)
         put(key, ".".join(line.path), _SMALL)
         for cell in (allowed, default, meaning, key):
-            cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)
+            cell.alignment = Alignment(horizontal="left", wrap_text=True, vertical="top", indent=1)
         shown = (
             (said(leaf), _HEADERS["Allowed"]),
             (leaf.doc, _HEADERS["Meaning"]),
             (str(cells[0] or ""), _HEADERS[VALUE]),
         )
         sheet.row_dimensions[row].height = 15.5 * max(1, *(_lines(text, width) for text, width in shown))
-        self._rules(sheet, leaf, value.coordinate, unit.coordinate, compounds)
+        self.rules.apply(sheet, leaf, value.coordinate, unit.coordinate)
         if line.certain:
-            rule = FormulaRule(formula=[f"ISBLANK({value.coordinate})"], fill=_NEEDED)
+            rule = _yellow(f"ISBLANK({value.coordinate})")
             sheet.conditional_formatting.add(value.coordinate, rule)
 
     # -- lists
 
-    def _table(self, table: Sheet, sheets: Sheets, compounds: Sequence[str]) -> None:
+    def _table(self, table: Sheet, sheets: Sheets) -> None:
         sheet = self.book.create_sheet(table.name)
         allowed = f" ({table.table.allowed})" if table.table.allowed else ""
         _title(sheet, table.name, f"{table.table.doc}{allowed}")
@@ -206,15 +159,16 @@ class Book:
         column = len(fixed) + 1
         leader = get_column_letter(column)
         for of in table.columns:
-            self._column(sheet, of, column, [row.cells.get(of.path) for row in rows], last, compounds)
+            cells = [row.cells.get(of.path) for row in rows]
+            self._column(sheet, of, cells, column=column, last=last)
             if of.certain:
                 letter = get_column_letter(column)
                 formula = f"AND(NOT(ISBLANK(${leader}{first})),ISBLANK({letter}{first}))"
-                rule = FormulaRule(formula=[formula], fill=_NEEDED)
+                rule = _yellow(formula)
                 sheet.conditional_formatting.add(f"{letter}{first}:{letter}{_LISTED_ROWS}", rule)
             column += 2 if of.leaf.units else 1
         sheet.row_dimensions[_HEAD].height = 31
-        sheet.row_dimensions[_HEAD + 1].height = 46
+        sheet.row_dimensions[_HEAD + 1].height, sheet.row_dimensions[_KEYS].height = 46, 24
         sheet.freeze_panes = sheet.cell(first, len(fixed) + 2)
         sheet.print_title_rows = f"{_HEAD}:{_KEYS}"
 
@@ -222,42 +176,37 @@ class Book:
         self,
         sheet: Worksheet,
         of: Column,
-        column: int,
         cells: list[tuple[Any, str | None] | None],
+        *,
+        column: int,
         last: int,
-        compounds: Sequence[str],
     ) -> None:
         leaf, first, key = of.leaf, _KEYS + 1, ".".join(of.path)
         default = default_text(leaf)
         about = [*filter(None, (said(leaf), f"default {default}" if default else ""))]
-        name = ": ".join(label(word) for word in of.path) + (" *" if leaf.required else "")
-        _bar(sheet.cell(_HEAD, column), name)
+        head = ": ".join(label(word) for word in of.path) + (" *" if leaf.required else "")
+        _bar(sheet.cell(_HEAD, column), head)
         sheet.cell(_HEAD, column).comment = _note(leaf, key)
-        put(sheet.cell(_KEYS, column), key, _SMALL)
+        _key(sheet.cell(_KEYS, column), key)
         put(sheet.cell(_HEAD + 1, column), "\n".join(about), GREY)
-        sheet.cell(_HEAD + 1, column).alignment = Alignment(wrap_text=True, vertical="top")
+        sheet.cell(_HEAD + 1, column).alignment = _WRAPPED
         letter, of_unit = get_column_letter(column), get_column_letter(column + 1)
         longest = max((len(str(cell[0])) for cell in cells if cell is not None), default=0)
         sheet.column_dimensions[letter].width = min(60, max(13, longest + 3, len(default) + 10))
         if leaf.units:
             _bar(sheet.cell(_HEAD, column + 1), "Unit")
-            put(sheet.cell(_KEYS, column + 1), f"{key} {UNIT_OF}", _SMALL)
+            _key(sheet.cell(_KEYS, column + 1), f"{key} {UNIT_OF}")
             sheet.column_dimensions[of_unit].width = 3 + max(7, *map(len, leaf.units))
         usual = next((cell[1] for cell in reversed(cells) if cell is not None), None)
         for i in range(first, last + 1):
-            cell = cells[i - first] if i - first < len(cells) else (None, usual)
-            put(sheet.cell(i, column), None if cell is None else cell[0])
+            cell = (cells[i - first] if i - first < len(cells) else None) or (None, usual)
+            put(sheet.cell(i, column), cell[0])
             _input(sheet.cell(i, column), leaf)
             if leaf.units:
-                put(sheet.cell(i, column + 1), None if cell is None else cell[1])
+                put(sheet.cell(i, column + 1), cell[1])
                 _input(sheet.cell(i, column + 1), None)
-        self._rules(
-            sheet,
-            leaf,
-            f"{letter}{first}:{letter}{_LISTED_ROWS}",
-            f"{of_unit}{first}:{of_unit}{_LISTED_ROWS}",
-            compounds,
-        )
+        ranges = [f"{name}{first}:{name}{_LISTED_ROWS}" for name in (letter, of_unit)]
+        self.rules.apply(sheet, leaf, ranges[0], ranges[1])
 
     # -- first sheet
 
@@ -281,51 +230,6 @@ class Book:
         put(sheet.cell(row + 2, 1), f"Template of conveyor {version('conveyor')}", GREY)
 
 
-def said(leaf: Leaf) -> str:
-    """Say what a field allows."""
-    if leaf.kind == "choice":
-        return ", ".join(map(str, leaf.choices))
-    general = _ALLOWED.get(leaf.kind, "")
-    if leaf.kind == "list" and leaf.allowed:
-        return f"{leaf.allowed}; {general}"
-    return leaf.allowed or general
-
-
-def default_text(leaf: Leaf) -> str:
-    """Write a default as its cells would hold it."""
-    if leaf.default is None:
-        return ""
-    value, unit = to_cells(leaf, leaf.default)
-    return "" if value in {None, '""'} else " ".join(filter(None, (str(value), unit)))
-
-
-def _range(leaf: Leaf) -> DataValidation:
-    kind = "whole" if leaf.kind == "count" else "decimal"
-    operator = {
-        (True, True): "between",
-        (True, False): "greaterThanOrEqual",
-        (False, True): "lessThanOrEqual",
-    }
-    limits = (leaf.low is not None, leaf.high is not None)
-    rule = DataValidation(type=kind, allow_blank=True, showErrorMessage=True)
-    rule.errorTitle, rule.error = "Not allowed", f"Allowed: {said(leaf)}"
-    rule.operator = operator.get(limits, "between")
-    low, high = (
-        (repr(limit) for limit in (leaf.low, leaf.high) if limit is not None) if all(limits) else ("", "")
-    )
-    if all(limits):
-        rule.formula1, rule.formula2 = low, high
-    elif any(limits):
-        rule.formula1 = repr(leaf.low if leaf.low is not None else leaf.high)
-    else:
-        rule.formula1, rule.formula2 = "-1E+300", "1E+300"
-    return rule
-
-
-def _alike(old: DataValidation, new: DataValidation) -> bool:
-    return all(getattr(old, name) == getattr(new, name) for name in ("type", "formula1", "formula2", "error"))
-
-
 def _note(leaf: Leaf, path: str) -> Comment:
     """Write a field's note: key, meaning, range, default."""
     default = default_text(leaf)
@@ -343,7 +247,29 @@ def _note(leaf: Leaf, path: str) -> Comment:
 
 
 def _lines(text: str, width: int) -> int:
-    return sum(max(1, -(-(len(line) + 2) // width)) for line in text.split("\n"))
+    return sum(max(1, -(-len(line) // width)) for line in text.split("\n"))
+
+
+def _in_order(sheets: Sheets) -> Iterator[Form | Sheet]:
+    """Give every form and, after the form of its part, every list; a list's own lists follow it."""
+    tables = {table.name: table for table in sheets.plan.tables}
+    tops = {name: table for name, table in tables.items() if table.parent is None}
+    for name, table in tables.items():
+        if table.parent is not None:
+            tops[name] = tops[table.parent]
+    given: set[str] = set()
+    for form in sheets.plan.forms:
+        yield form
+        if form.path or len(sheets.plan.forms) == 1:
+            own = [name for name, top in tops.items() if top.path[: len(form.path)] == form.path]
+            given.update(own)
+            yield from (tables[name] for name in own)
+    yield from (table for name, table in tables.items() if name not in given)
+
+
+def _yellow(formula: str) -> Rule:
+    """Colour a cell in which something needed is missing."""
+    return Rule(type="expression", formula=[formula], dxf=DifferentialStyle(fill=_NEEDED))
 
 
 def _title(sheet: Worksheet, title: str, doc: str) -> None:
@@ -357,12 +283,18 @@ def _bar(cell: Cell | MergedCell, text: str) -> None:
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal="left", indent=1)
 
 
+def _key(cell: Cell | MergedCell, key: str) -> None:
+    put(cell, key, _SMALL)
+    cell.alignment = _WRAPPED
+
+
 def _heading(sheet: Worksheet, row: int, line: Row) -> None:
     """Draw the heading of a nested model across the form."""
     doc = line.part.doc if line.part.required else f"{line.part.doc} May be left empty."
     put(sheet.cell(row, 1), label(line.part.key), HEADING)
-    sheet.cell(row, 1).alignment = Alignment(indent=line.depth, vertical="center")
+    sheet.cell(row, 1).alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="center")
     put(sheet.cell(row, 4), doc, GREY)
+    sheet.cell(row, 4).alignment = Alignment(horizontal="left", vertical="center", indent=1)
     for column in range(1, len(_HEADERS) + 1):
         sheet.cell(row, column).fill = PALE
     sheet.row_dimensions[row].height = 20
@@ -375,4 +307,5 @@ def _input(cell: Cell | MergedCell, leaf: Leaf | None) -> None:
     if is_text:
         cell.number_format = "@"
     numeric = leaf is not None and leaf.kind in {"quantity", "number", "count"}
-    cell.alignment = Alignment(horizontal="right" if numeric else "left", vertical="top", wrap_text=is_text)
+    side = "right" if numeric else "left"
+    cell.alignment = Alignment(horizontal=side, indent=1, vertical="top", wrap_text=is_text)

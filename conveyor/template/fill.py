@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import Any, TypeAlias
 
@@ -54,55 +54,61 @@ def stated(model: BaseModel) -> dict[str, Any]:
     return model.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_unset=True)
 
 
+@dataclass(frozen=True)
+class _At:
+    """Where filling in stands: the sheets, the cells of a form or row, the path among them, the row's number."""
+
+    sheets: Sheets
+    cells: Cells
+    path: Path
+    number: int | None
+
+    def down(self, key: str) -> _At:
+        return replace(self, path=(*self.path, key))
+
+
 class _Filler:
     def __init__(self, shelves: tuple[str | FilePath, ...]) -> None:
         self.shelves = shelves
+        self._taken = set(shelf.names(shelves))
         self.written: dict[str, Sheets] = {}
         self._contents: dict[str, dict[str, Any]] = {}
 
     def fill(self, plan: Plan, data: dict[str, Any], called: str = "") -> Sheets:
         sheets = Sheets(plan, called, items={sheet.name: [] for sheet in plan.tables})
-        self._group(sheets, plan.root, data, (), sheets.cells, None)
+        self._group(plan.root, data, _At(sheets, sheets.cells, (), None))
         return sheets
 
-    def _group(
-        self,
-        sheets: Sheets,
-        group: Group,
-        data: dict[str, Any],
-        path: Path,
-        cells: Cells,
-        number: int | None,
-    ) -> None:
-        before = len(cells)
-        for part in group.parts:
-            if part.key in data:
-                self._part(sheets, part, data[part.key], (*path, part.key), cells, number)
-        if len(cells) == before and not group.required:
+    def _group(self, group: Group, data: dict[str, Any], at: _At) -> None:
+        written = [
+            self._part(part, data[part.key], at.down(part.key)) for part in group.parts if part.key in data
+        ]
+        if not any(written) and not group.required:
             # an empty form means "not given": a model given without any field shows its defaults
             for part in group.parts:
                 if isinstance(part, Leaf) and part.default is not None:
-                    cells[*path, part.key] = to_cells(part, part.default)
+                    at.cells[*at.path, part.key] = to_cells(part, part.default)
 
-    def _part(
-        self, sheets: Sheets, part: Part, data: Any, path: Path, cells: Cells, number: int | None
-    ) -> None:
+    def _part(self, part: Part, data: Any, at: _At) -> bool:
+        """Fill in a field, a nested model or a list; tells whether any cell was."""
+        before = len(at.cells)
         if isinstance(part, Leaf):
-            if part.model is not None and isinstance(data, dict):
-                data = self._reference(part.model, data)
-            cells[path] = to_cells(part, data)
+            given = self._reference(part.model, data) if part.model is not None else data
+            at.cells[at.path] = to_cells(part, given)
         elif isinstance(part, Group):
-            self._group(sheets, part, data, path, cells, number)
+            self._group(part, data, at)
         else:
-            self._rows(sheets, part, data, number)
+            self._rows(part, data, at)
+            return bool(data)
+        return len(at.cells) > before
 
-    def _rows(self, sheets: Sheets, table: Table, data: list[Any], parent: int | None) -> None:
-        name = next(sheet.name for sheet in sheets.plan.tables if sheet.table is table)
-        rows = sheets.items[name]
+    def _rows(self, table: Table, data: list[Any], at: _At) -> None:
+        name = next(sheet.name for sheet in at.sheets.plan.tables if sheet.table is table)
+        rows = at.sheets.items[name]
         for item in data:
-            row = FilledRow(len(rows) + 1, parent, {})
+            row = FilledRow(len(rows) + 1, at.number, {})
             rows.append(row)
-            self._group(sheets, table.item, item, (), row.cells, row.number)
+            self._group(replace(table.item, required=False), item, _At(at.sheets, row.cells, (), row.number))
 
     def _reference(self, model: type[BaseModel], data: dict[str, Any]) -> str:
         """Return the name of a model: on the shelf, or of its own sheet in this workbook."""
@@ -111,7 +117,7 @@ class _Filler:
         if self._on_shelf(name, whole_data):
             return name
         called, number = name, 2
-        while called in self._contents and self._contents[called] != whole_data:
+        while called.casefold() in self._taken or self._contents.get(called, whole_data) != whole_data:
             called, number = f"{name} ({number})", number + 1
         if called not in self._contents:
             stem = next(stem for stem, other in references(whole(Conveyor).root).items() if other is model)

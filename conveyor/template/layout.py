@@ -135,7 +135,7 @@ def _default(info: FieldInfo) -> Any:
     value = info.get_default(call_default_factory=True, validated_data={})
     if value is None or isinstance(value, BaseModel):
         return None
-    annotation: Any = Annotated[(info.annotation, *info.metadata)] if info.metadata else info.annotation  # type: ignore[valid-type]
+    annotation: Any = Annotated[(info.annotation, *info.metadata)] if info.metadata else info.annotation
     return TypeAdapter(annotation).dump_python(value, mode="json")
 
 
@@ -257,7 +257,7 @@ def _scalar(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[B
     either = _either(about, base, seen)
     if either is not None:
         return either
-    annotation: Any = Annotated[(base, *marks)] if marks else base  # type: ignore[valid-type]
+    annotation: Any = Annotated[(base, *marks)] if marks else base
     schema = TypeAdapter(annotation).json_schema()
     examples = ", ".join(f'such as "{example}"' for example in schema.get("examples", ())[:1])
     return _leaf(about, "text" if schema.get("type") == "string" else "json", allowed=examples)
@@ -291,9 +291,8 @@ def _bounds(marks: tuple[Any, ...]) -> str:
 def _limits(marks: tuple[Any, ...]) -> str:
     """Write the range of a plain number, or the lengths of a text."""
     said = [f"{_SIGN[_LIMIT[type(m)]]} {getattr(m, _LIMIT[type(m)]):g}" for m in marks if type(m) in _LIMIT]
-    for mark in marks:
-        if isinstance(mark, StringConstraints) and mark.max_length is not None:
-            said.append(f"at most {mark.max_length} characters")
+    texts = (mark.max_length for mark in marks if isinstance(mark, StringConstraints))
+    said += [f"at most {longest} characters" for longest in texts if longest is not None]
     return ", ".join(said) or _lengths(marks, "character")
 
 

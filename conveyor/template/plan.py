@@ -33,8 +33,8 @@ class Form:
     """A sheet of fields, one a line."""
 
     name: str
-    title: str
     doc: str
+    path: Path
     rows: tuple[Row, ...]
     required: bool
 
@@ -68,10 +68,6 @@ class Plan:
     root: Group
     forms: tuple[Form, ...]
     tables: tuple[Sheet, ...]
-
-    def table(self, path: Path, parent: str | None) -> Sheet:
-        """Return the sheet of a list."""
-        return next(sheet for sheet in self.tables if sheet.path == path and sheet.parent == parent)
 
 
 @dataclass
@@ -121,9 +117,9 @@ def whole(model: type[BaseModel]) -> Plan:
         key="", doc=root.doc, required=True, parts=tuple(p for p in root.parts if isinstance(p, Leaf))
     )
     forms = [_form(names.new((model.__name__,)), own, ())]
-    for part in root.parts:
-        if isinstance(part, Group):
-            forms.append(_form(names.new((part.key,)), part, (part.key,)))
+    forms += [
+        _form(names.new((part.key,)), part, (part.key,)) for part in root.parts if isinstance(part, Group)
+    ]
     return Plan(root, tuple(forms), tuple(_tables(root, (), None, names)))
 
 
@@ -162,7 +158,7 @@ def references(part: Part) -> dict[str, type[BaseModel]]:
 
 
 def _form(name: str, group: Group, path: Path) -> Form:
-    return Form(name, name, group.doc, tuple(_rows(group, path, 0, certain=group.required)), group.required)
+    return Form(name, group.doc, path, tuple(_rows(group, path, 0, certain=group.required)), group.required)
 
 
 def _rows(group: Group, path: Path, depth: int, *, certain: bool) -> Iterator[Row]:

@@ -38,18 +38,21 @@ def to_cells(leaf: Leaf, data: Any) -> tuple[Value, str | None]:
     """
     if leaf.kind == "quantity" and isinstance(data, str):
         match = NUMBER_UNIT.fullmatch(data)
-        if match is not None and match[2]:
-            return _number_cell(float(match[1])), match[2]
-        return data, None
-    if leaf.kind == "switch" and isinstance(data, bool):
-        return (YES if data else NO), None
-    if leaf.kind == "list":
-        return _joined(leaf, data), None
-    if leaf.kind == "json":
-        return _json_text(data), None
+        return (_number_cell(float(match[1])), match[2]) if match is not None and match[2] else (data, None)
+    return _value(leaf, data), None
+
+
+def _value(leaf: Leaf, data: Any) -> Value:
+    writers: dict[LeafKind, Callable[[Any], Value]] = {
+        "switch": lambda given: YES if given else NO,
+        "list": lambda given: _joined(leaf, given),
+        "json": _json_text,
+    }
+    if leaf.kind in writers:
+        return writers[leaf.kind](data)
     if isinstance(data, int | float) and not isinstance(data, bool):
-        return _number_cell(data), None
-    return (EMPTY if data == "" else data), None
+        return _number_cell(data)
+    return EMPTY if data == "" else str(data)
 
 
 def _number_cell(number: float) -> Value:
@@ -143,7 +146,7 @@ def _number(leaf: Leaf, value: Value) -> Any:
     return int(number) if whole and isinstance(number, float) else number
 
 
-def _switch(leaf: Leaf, value: Value) -> bool:
+def _switch(_leaf: Leaf, value: Value) -> bool:
     if isinstance(value, bool):
         return value
     known = _SWITCH.get(str(value).strip().casefold())
@@ -157,7 +160,7 @@ def _choice(leaf: Leaf, value: Value) -> Any:
     return next((choice for choice in leaf.choices if str(choice) == str(text).strip()), value)
 
 
-def _text(leaf: Leaf, value: Value) -> Any:
+def _text(_leaf: Leaf, value: Value) -> Any:
     if isinstance(value, bool):
         return value
     return "" if value == EMPTY else str(value).removesuffix(".0") if isinstance(value, float) else str(value)
@@ -181,7 +184,7 @@ def _list(leaf: Leaf, value: Value) -> Any:
     return items[0] if leaf.single and len(items) == 1 and not ended else items
 
 
-def _json(leaf: Leaf, value: Value) -> Any:
+def _json(_leaf: Leaf, value: Value) -> Any:
     if not isinstance(value, str):
         return value
     try:

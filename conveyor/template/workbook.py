@@ -131,22 +131,24 @@ def _check_parts(path: Path, content: bytes) -> None:
     """Refuse what would unpack to too much, and XML that defines entities, before anything is parsed."""
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
-            parts = archive.infolist()
-            if len(parts) > MOST_PARTS or sum(part.file_size for part in parts) > LARGEST_CONTENT:
-                raise InputError(
-                    f"{path}: unpacks to more than {LARGEST_CONTENT:,} bytes or {MOST_PARTS:,} parts; "
-                    "this is no input workbook"
-                )
-            if any(part.flag_bits & 1 for part in parts):
-                raise InputError(f"{path}: protected by a password; save it without one")
-            for part in parts:
-                # without its zero bytes UTF-16 reads as ASCII
-                if b"<!DOCTYPE" in archive.read(part).replace(b"\0", b""):
-                    raise InputError(f"{path}: {part.filename} has a document type, which workbooks have not")
-    except InputError:
-        raise
+            problem = _part_problem(archive)
     except _DAMAGED as error:
         raise InputError(f"{path}: damaged or cut short ({type(error).__name__}); copy it again") from None
+    if problem:
+        raise InputError(f"{path}: {problem}")
+
+
+def _part_problem(archive: zipfile.ZipFile) -> str:
+    parts = archive.infolist()
+    if len(parts) > MOST_PARTS or sum(part.file_size for part in parts) > LARGEST_CONTENT:
+        return f"unpacks to more than {LARGEST_CONTENT:,} bytes or {MOST_PARTS:,} parts; this is no input workbook"
+    if any(part.flag_bits & 1 for part in parts):
+        return "protected by a password; save it without one"
+    for part in parts:
+        # without its zero bytes UTF-16 reads as ASCII
+        if b"<!DOCTYPE" in archive.read(part).replace(b"\0", b""):
+            return f"{part.filename} declares a document type, which no workbook does"
+    return ""
 
 
 def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[Grid]:

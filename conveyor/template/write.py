@@ -70,7 +70,7 @@ def write_template(
 
 
 def _content(conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> bytes:
-    drawn = Book(conveyor.name).draw(filled(conveyor, shelves), shelf.names(shelves))
+    drawn = Book(conveyor.name, shelf.names(shelves)).draw(filled(conveyor, shelves))
     drawn.properties.title = legible(conveyor.name)
     drawn.properties.creator = f"conveyor {version('conveyor')}"
     content = BytesIO()

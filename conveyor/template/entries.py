@@ -1,0 +1,211 @@
+"""From the sheets of a filled-in workbook to entries: which cells belong to which field."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Final
+
+from conveyor.template.layout import Leaf, Path
+from conveyor.template.plan import Form, Plan, Sheet
+from conveyor.template.workbook import Found, Grid, address
+
+KEY, VALUE, UNIT = "Key", "Value", "Unit"
+"""Headers by which the columns of a form are found."""
+NUMBER, PARENT = "#", "^"
+"""Keys of the columns of a list that number its items and name the item of the list above."""
+NAMED: Final = "@"
+"""Key of the name that a written-out compound is referred to by."""
+UNIT_OF: Final = "[unit]"
+_HEADER_ROWS: Final = 60
+"""Rows in which the header of a form or list is looked for."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """The cells of one field."""
+
+    place: str
+    value: Found | None
+    unit: Found | None
+    unit_place: str
+
+
+@dataclass(frozen=True)
+class Item:
+    """A row of a list: where, its number, the number of the item it belongs to, its fields."""
+
+    place: str
+    number: int | None
+    parent: int | None
+    entries: dict[Path, Entry]
+
+
+@dataclass
+class Content:
+    """The entries of all sheets of a plan, and where each sheet begins."""
+
+    plan: Plan
+    entries: dict[Path, Entry] = field(default_factory=dict)
+    items: dict[str, list[Item]] = field(default_factory=dict)
+    places: dict[str, str] = field(default_factory=dict)
+
+
+class Sheets:
+    """Reads the sheets of a plan and notes every problem it meets."""
+
+    def __init__(self, path: str, grids: dict[str, Grid]) -> None:
+        self.path, self.grids = path, grids
+        self.problems: list[str] = []
+
+    def refuse(self, place: str, message: str) -> None:
+        """Note a problem of a cell."""
+        self.problems.append(f"{self.path}:{place} {message}")
+
+    def content(self, plan: Plan) -> Content:
+        """Read every sheet of a plan."""
+        content = Content(plan)
+        for form in plan.forms:
+            grid = self._sheet(form.name, required=form.required)
+            content.places[form.name] = address(form.name, 1, 1)
+            if grid is not None:
+                self._form(grid, form, content)
+        for sheet in plan.tables:
+            grid = self._sheet(sheet.name, required=sheet.table.required)
+            content.places[sheet.name] = address(sheet.name, 1, 1)
+            content.items[sheet.name] = [] if grid is None else self._table(grid, sheet, content)
+        for sheet in plan.tables:
+            if sheet.parent is not None:
+                self._check_parents(content, sheet, sheet.parent)
+        return content
+
+    def _sheet(self, name: str, *, required: bool) -> Grid | None:
+        """Return a sheet; one that may be empty may be missing too, unless another looks like it."""
+        if name in self.grids:
+            return self.grids[name]
+        folded = {other.casefold().strip(): other for other in self.grids}
+        near = difflib.get_close_matches(name.casefold(), folded, n=1, cutoff=0.8)
+        if required or near:
+            guess = f'; is it "{folded[near[0]]}"? Give it its name back' if near else ""
+            listed = ", ".join(f'"{other}"' for other in list(self.grids)[:20])
+            self.problems.append(
+                f'{self.path}: sheet "{name}" is missing{guess}; sheets found: {listed}; '
+                "write a new template with: conveyor template input.xlsx"
+            )
+        return None
+
+    def _form(self, grid: Grid, form: Form, content: Content) -> None:
+        top, columns = self._header(grid, (KEY, VALUE, UNIT))
+        if not columns:
+            return
+        wanted = {".".join(row.path): row.path for row in form.rows if isinstance(row.part, Leaf)}
+        wanted[NAMED] = (NAMED,)
+        self._refuse_merged(grid, top, {columns[name] for name in (KEY, VALUE, UNIT)})
+        first: dict[str, int] = {}
+        for row in (row for row in grid.rows() if row > top):
+            key, place = grid.text(row, columns[KEY]), address(grid.name, row, columns[VALUE])
+            value, unit = grid.cells.get((row, columns[VALUE])), grid.cells.get((row, columns[UNIT]))
+            if not key:
+                if value is not None:
+                    self.refuse(place, f'a value in a row without a field (column "{KEY}"); remove it')
+            elif key not in wanted:
+                self._unknown(address(grid.name, row, columns[KEY]), key, wanted)
+            elif key in first:
+                self.refuse(place, f"{key}: given twice, first in row {first[key]}; remove one of the rows")
+            else:
+                first[key] = row
+                unit_place = address(grid.name, row, columns[UNIT])
+                content.entries[wanted[key]] = Entry(place, value, unit, unit_place)
+
+    def _table(self, grid: Grid, sheet: Sheet, content: Content) -> list[Item]:
+        top, columns = self._header(grid, (NUMBER,))
+        if not columns:
+            return []
+        content.places[sheet.name] = address(grid.name, top, columns[NUMBER])
+        known = {".".join(column.path): column.path for column in sheet.columns}
+        allowed = [*known, *(f"{key} {UNIT_OF}" for key in known), NUMBER, PARENT]
+        for key, column in columns.items():
+            if key not in allowed:
+                self._unknown(address(grid.name, top, column), key, allowed)
+        self._refuse_merged(grid, top, set(columns.values()))
+        items = []
+        for row in (row for row in grid.rows() if row > top):
+            entries = {
+                path: _entry(grid, row, columns[key], columns.get(f"{key} {UNIT_OF}"))
+                for key, path in known.items()
+                if key in columns
+            }
+            if any(entry.value is not None for entry in entries.values()):
+                number = self._whole(grid, row, columns[NUMBER])
+                parent = self._whole(grid, row, columns[PARENT]) if PARENT in columns else None
+                items.append(Item(address(grid.name, row, columns[NUMBER]), number, parent, entries))
+            else:
+                self._refuse_strays(grid, row, set(columns.values()))
+        return items
+
+    def _header(self, grid: Grid, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
+        """Find the row that names the columns, and its names; no names where there is none."""
+        for row in range(1, _HEADER_ROWS + 1):
+            columns: dict[str, int] = {}
+            twice = []
+            for column in sorted(c for r, c in grid.cells if r == row):
+                name = grid.text(row, column)
+                if name in columns:
+                    twice.append((column, name))
+                columns.setdefault(name, column)
+            if all(name in columns for name in needed):
+                for column, name in twice:
+                    self.refuse(address(grid.name, row, column), f'column "{name}" twice; remove one')
+                return row, {name: column for name, column in columns.items() if name}
+        listed = ", ".join(f'"{name}"' for name in needed)
+        self.problems.append(
+            f'{self.path}: sheet "{grid.name}" has no row with {listed} in its first {_HEADER_ROWS}; '
+            "write a new template with: conveyor template input.xlsx"
+        )
+        return 0, {}
+
+    def _unknown(self, place: str, key: str, known: Iterable[str]) -> None:
+        near = difflib.get_close_matches(key, list(known), n=1)
+        guess = f'; did you mean "{near[0]}"?' if near else ""
+        self.refuse(place, f'unknown key "{key[:80]}"{guess}')
+
+    def _refuse_merged(self, grid: Grid, top: int, columns: set[int]) -> None:
+        for first_row, first, last_row, last in grid.merged:
+            if last_row > top and any(first <= column <= last for column in columns):
+                begin = address(grid.name, first_row, first)
+                end = address(grid.name, last_row, last).rpartition("!")[2]
+                self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
+
+    def _refuse_strays(self, grid: Grid, row: int, columns: set[int]) -> None:
+        """Refuse what stands beside the columns of a list in a row that gives no item."""
+        for (r, column), found in grid.cells.items():
+            if r == row and column not in columns and found.value is not None:
+                place = address(grid.name, row, column)
+                self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
+
+    def _whole(self, grid: Grid, row: int, column: int) -> int | None:
+        found = grid.cells.get((row, column))
+        if found is None:
+            return None
+        value = found.value
+        if isinstance(value, int | float) and not isinstance(value, bool) and value == int(value):
+            return int(value)
+        message = found.problem or f'got "{value}", expected the number of an item'
+        self.refuse(address(grid.name, row, column), message)
+        return None
+
+    def _check_parents(self, content: Content, sheet: Sheet, parent: str) -> None:
+        above = [item.number for item in content.items[parent]]
+        for item in content.items[sheet.name]:
+            count = above.count(item.parent) if item.parent is not None else 0
+            if count != 1:
+                given = "nothing" if item.parent is None else item.parent
+                found = "no row has" if count == 0 else "several rows have"
+                self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {found}')
+
+
+def _entry(grid: Grid, row: int, column: int, of_unit: int | None) -> Entry:
+    unit = None if of_unit is None else grid.cells.get((row, of_unit))
+    unit_place = "" if of_unit is None else address(grid.name, row, of_unit)
+    return Entry(address(grid.name, row, column), grid.cells.get((row, column)), unit, unit_place)
