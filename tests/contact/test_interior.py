@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import Chebyshev
 
-from conveyor.contact import ContactProblem, CreepSpectrum, HalfSpace, solve, solve_many
-from conveyor.contact.interior import _confined, _free, interior, interior_fields, path_amplitude
+from conveyor.contact import ContactProblem, CreepSpectrum, HalfSpace, general, solve, solve_many
+from conveyor.contact.interior import interior, interior_fields, path_amplitude
+from conveyor.contact.layer_shapes import confined_shapes, free_shapes
 from conveyor.contact.layers import confined_symbol, free_symbol
 from conveyor.errors import InputError, NoSolutionError
 
@@ -64,7 +65,7 @@ def mcewen(x, z):
 
 @pytest.mark.parametrize("poisson", [0.5, 0.4999, 0.3, 0.0])
 @pytest.mark.parametrize("q", [0.05, 0.5, 3.0, 12.0])
-@pytest.mark.parametrize("shapes", [_confined, _free])
+@pytest.mark.parametrize("shapes", [confined_shapes, free_shapes])
 def test_shapes_obey_equilibrium_and_compatibility(shapes, q, poisson):
     """T' = -(H+D), (H-D)' = T, U' = (1-2ν)H - D, U - (D + (1-2ν)H)' = 2T: with the faces they fix D, T, H, U."""
     domain, bulk = (0.0, q), 1.0 - 2.0 * poisson
@@ -79,7 +80,7 @@ def test_shapes_obey_equilibrium_and_compatibility(shapes, q, poisson):
     largest = max(np.abs(f(y)).max() for f in (D, T, H))
     # rounding of a derivative: each coefficient holds some ε, T_n' is n² at the ends, and there are n of them
     tolerance = 1e-15 * DEGREE**3 * max(2.0 / q, 1.0) * largest
-    if shapes is _free:
+    if shapes is free_shapes:
         tolerance /= min(1.0, q * q)  # cancels like q² against the plate's bending
     assert T.deriv()(y) == pytest.approx(-(H + D)(y), abs=tolerance)
     assert (H - D).deriv()(y) == pytest.approx(T(y), abs=tolerance)
@@ -96,18 +97,23 @@ def test_faces(q, poisson):
         (np.array([q]), np.array([0.0]), np.array([q])),
         (np.array([q]), np.array([q]), np.array([0.0])),
     )
-    symbols = {_confined: confined_symbol(np.array([q]), poisson), _free: free_symbol(np.array([q]))}
+    symbols = {
+        confined_shapes: confined_symbol(np.array([q]), poisson),
+        free_shapes: free_symbol(np.array([q])),
+    }
     for shapes, symbol in symbols.items():
         D, T, H, U = shapes(*top, poisson)
-        bending = max(1.0, 6.0 / q**2) if shapes is _free else 1.0
+        bending = max(1.0, 6.0 / q**2) if shapes is free_shapes else 1.0
         assert (H - D)[0] == pytest.approx(-1.0, abs=1e-14 * bending)
         assert T[0] == pytest.approx(0.0, abs=1e-14 * bending)
-        if q > 1e-3 or shapes is _free:  # below, its cancelling displacement is smaller than its own rounding
+        if (
+            q > 1e-3 or shapes is free_shapes
+        ):  # below, its cancelling displacement is smaller than its own rounding
             assert U[0] == pytest.approx(2.0 * (1.0 - poisson) * symbol[0], rel=1e-9)
-    D, T, H, U = _confined(*bottom, poisson)
+    D, T, H, U = confined_shapes(*bottom, poisson)
     assert (D + (1.0 - 2.0 * poisson) * H)[0] == pytest.approx(0.0, abs=1e-15)  # u_x
     assert U[0] == pytest.approx(0.0, abs=1e-15)
-    D, T, H, U = _free(*bottom, poisson)
+    D, T, H, U = free_shapes(*bottom, poisson)
     assert (H - D)[0] == pytest.approx(0.0, abs=1e-14 * max(1.0, 6.0 / q**2))
     assert T[0] == pytest.approx(0.0, abs=1e-14 * max(1.0, 6.0 / q**2))
 
@@ -241,7 +247,7 @@ def test_far_face_of_a_free_layer_carries_nothing(name):
 # invariances and limits
 
 
-def test_spacing_does_not_matter_to_a_confined_layer():
+def test_spacing_does_not_matter_to_aconfined_shapes_layer():
     """Spacing 1, 2, 4: R/λ, k h and ζ shrink, p̃_m = (1-ν²) w/(π E0 R) stays."""
     problems = [
         ContactProblem(
@@ -328,6 +334,17 @@ def test_strains_of_a_split_contact_change_steadily_with_the_load():
     near = solve(replace(SPLIT, pressure=0.1299), rtol=1e-6)
     assert len(found.patches) == len(near.patches) == 2
     assert interior(near).working_strain == pytest.approx(interior(found).working_strain, rel=5e-3)
+
+
+def test_contacts_known_on_a_grid_have_an_interior(monkeypatch):
+    monkeypatch.setattr(general, "_polished", lambda *_: None)
+    monkeypatch.setattr(general, "_FINEST", 6)
+    grid = solve(SPLIT, throw=False)
+    assert grid.stats.way == "grid"
+    inside, exact = interior(grid), interior(solved("split"))
+    # its pressure is straight between nodes: 1e-2 of the peak at the edges
+    assert inside.working_strain == pytest.approx(exact.working_strain, rel=1e-2)
+    assert inside.energy_error < 1e-2
 
 
 # refusals

@@ -1,0 +1,180 @@
+"""The equivalent-linear series: moduli at the strain amplitude that their own contact works at."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from conveyor.errors import NoSolutionError
+from conveyor.rubber.arrays import positive
+from conveyor.rubber.prony import PronySeries
+from conveyor.rubber.strain import AmplitudeFactors
+
+_LARGEST_STEP = math.log(3.0)
+_MOST_STEPS = 30
+
+
+def softened(series: PronySeries, *, storage_factor: float, loss_factor: float, omega: float) -> PronySeries:
+    """Equivalent-linear series at a working strain.
+
+    Parameters
+    ----------
+    series : PronySeries
+        At small strain, or at that of the master curve [Pa, s].
+    storage_factor : float
+        f' of E' at `omega` [-].
+    loss_factor : float
+        f'' of E'' at every frequency [-].
+    omega : float
+        Angular frequency at which the rubber works [rad/s].
+
+    Returns
+    -------
+    PronySeries
+        All moduli times f'', and E_e' = f' E'(omega) - f'' (E'(omega) - E_e): at `omega` E' is f' times, E'' f'' times
+        the old; a positive spectrum, so E' and E'' still belong together (Kramers-Kronig) at every frequency.
+
+    Raises
+    ------
+    InputError
+        If a number is not finite and > 0.
+    NoSolutionError
+        If E_e' is not > 0: so much loss does not go with so little stiffness.
+
+    Examples
+    --------
+    >>> series = PronySeries(4e6, [8e6], [1e-2])
+    >>> soft = softened(series, storage_factor=0.8, loss_factor=0.9, omega=100.0)
+    >>> (
+    ...     round(soft.equilibrium),
+    ...     round(float(soft.storage(100.0) / series.storage(100.0)), 12),
+    ...     soft.moduli.tolist(),
+    ... )
+    (2800000, 0.8, [7200000.0])
+    """
+    stiff, lossy = positive("storage_factor", storage_factor, "-"), positive("loss_factor", loss_factor, "-")
+    at = float(series.storage(positive("omega", omega, "rad/s")))
+    equilibrium = stiff * at - lossy * (at - series.equilibrium)
+    if not equilibrium > 0.0:
+        raise NoSolutionError(
+            f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave an equilibrium modulus of "
+            f"{equilibrium:.4g} Pa: no solid has so much loss at so little stiffness; check that sweep and master "
+            "curve are of one compound and the reference strain is right, or work at a smaller strain or load"
+        )
+    return PronySeries(equilibrium, lossy * series.moduli, series.times)
+
+
+@dataclass(frozen=True, eq=False)
+class EquivalentLinear:
+    """A series at the strain its own contact works at.
+
+    Attributes
+    ----------
+    series : PronySeries
+        Softened series [Pa, s].
+    strain : float
+        Working strain amplitude with it [-].
+    omega : float
+        Angular frequency at which the factors were taken [rad/s].
+    storage_factor, loss_factor : float
+        Of E' and E'' [-].
+    steps : int
+        Evaluations of the working strain.
+    """
+
+    series: PronySeries
+    strain: float
+    omega: float
+    storage_factor: float
+    loss_factor: float
+    steps: int
+
+
+def equivalent_linear(
+    series: PronySeries,
+    factors: AmplitudeFactors,
+    strain_of: Callable[[PronySeries], tuple[float, float]],
+    *,
+    temperature: float,
+    rtol: float = 1e-3,
+) -> EquivalentLinear:
+    """Iterate series, working strain, factors until the strain no longer changes.
+
+    Parameters
+    ----------
+    series : PronySeries
+        At the strain of the master curve, at the working temperature [Pa, s].
+    factors : AmplitudeFactors
+        Of the compound [-].
+    strain_of : callable
+        Working strain amplitude [-] and angular frequency [rad/s] of whatever is made of a series.
+    temperature : float
+        Absolute temperature [K].
+    rtol : float
+        Relative change of strain and frequency at which to stop [-].
+
+    Returns
+    -------
+    EquivalentLinear
+        Series, strain, frequency, factors, and steps taken.
+
+    Raises
+    ------
+    NoSolutionError
+        It does not settle within 30 steps, or the softened series would be a fluid.
+    RangeError
+        The working strain or the temperature are outside the sweeps.
+
+    Notes
+    -----
+    Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain, from the second
+    step on; a secant whose slope would lead away, or that steps by more than a factor 3, gives way to half the plain
+    step or to that factor.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from conveyor.rubber.kraus import KrausLaw
+    >>> from conveyor.rubber.strain import StrainSweep
+    >>> strain = np.geomspace(1e-4, 0.2, 12)
+    >>> law = KrausLaw(10e6, 4e6, 1.2e6, 0.8e6, 0.01, 0.6)
+    >>> sweep = StrainSweep(293.15, 1.0, strain, law.storage(strain), law.loss(strain))
+    >>> soft = equivalent_linear(  # stress of 0.1 MPa at 100 rad/s
+    ...     PronySeries(6e6, [4e6], [1e-2]),
+    ...     AmplitudeFactors([sweep], 1e-4),
+    ...     lambda s: (1e5 / float(abs(s.modulus(100.0))), 100.0),
+    ...     temperature=293.15,
+    ... )
+    >>> round(soft.strain, 4), round(soft.storage_factor, 3)
+    (0.0181, 0.6)
+    """
+    positive("rtol", rtol, "-")
+    strain, omega = strain_of(series)
+    trial = math.log(positive("strain_of's strain", strain, "-"))
+    before: tuple[float, float] | None = None
+    for step in range(2, _MOST_STEPS + 1):
+        amplitude = math.exp(trial)
+        f = float(factors.storage(amplitude, temperature))
+        g = float(factors.loss(amplitude, temperature))
+        soft = softened(series, storage_factor=f, loss_factor=g, omega=omega)
+        strain, heard = strain_of(soft)
+        change = math.log(positive("strain_of's strain", strain, "-")) - trial
+        if abs(change) < rtol and abs(math.log(heard / omega)) < rtol:
+            return EquivalentLinear(soft, strain, omega, f, g, step)
+        move = _next_move(trial, change, before)
+        before, omega = (trial, change), heard
+        trial += move
+    raise NoSolutionError(
+        f"the working strain did not settle in {_MOST_STEPS} steps: last {math.exp(trial):.4g}, "
+        f"changing by {abs(change):.2g} of itself; ask for a larger rtol, or smooth the strain sweeps (Kraus' law)"
+    )
+
+
+def _next_move(trial: float, change: float, before: tuple[float, float] | None) -> float:
+    """Secant of the change; half the plain step where the secant points away from the fixed point."""
+    move = change
+    if before is not None and trial != before[0]:
+        slope = (change - before[1]) / (trial - before[0])
+        move = -change / slope if slope < 0.0 else 0.5 * change
+    return math.copysign(min(abs(move), _LARGEST_STEP), move)

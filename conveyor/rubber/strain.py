@@ -1,0 +1,280 @@
+"""Strain amplitude (the Payne effect): strain sweeps and the factors on E' and E'' they give.
+
+Filled rubber softens with the amplitude of its strain: A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57-63.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
+
+from conveyor.errors import InputError, RangeError
+from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+
+SAME_TEMPERATURE = 0.5
+"""Sweeps this close are at one temperature, and this far beyond the last one it still counts [K]: control of a DMA."""
+LARGEST_STRAIN = 2.0
+"""A larger strain amplitude is taken for a percentage [-]."""
+PLATEAU_SPAN = 2.0
+"""A plateau is looked for from the lowest strain to this multiple of it [-] ..."""
+PLATEAU_SPREAD = 0.04
+"""... over which highest and lowest modulus differ by at most this part of their mean [-]: repeatability of a DMA."""
+_FEWEST_POINTS = 4
+_PLATEAU_POINTS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class StrainSweep:
+    """Moduli against strain amplitude at one temperature and frequency.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+    frequency : float
+        Cyclic frequency [Hz].
+    strain : array_like
+        Single strain amplitude, shape `(n,)`, ascending, n >= 4 [-].
+    storage : array_like
+        E', shape `(n,)` [Pa].
+    loss : array_like
+        E'', shape `(n,)` [Pa].
+
+    Raises
+    ------
+    InputError
+        If a value is not finite and > 0, lengths differ, strains do not ascend (several runs in one), or look like
+        percentages.
+
+    Examples
+    --------
+    >>> sweep = StrainSweep(283.15, 1.0, [1e-4, 1e-3, 1e-2, 1e-1], [11e6, 10.4e6, 7.7e6, 3.5e6], [1.4e6] * 4)
+    >>> sweep.strain.size
+    4
+    """
+
+    temperature: float
+    frequency: float
+    strain: FloatArray
+    storage: FloatArray
+    loss: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check, copy, freeze."""
+        object.__setattr__(self, "temperature", positive("temperature", self.temperature, "K"))
+        object.__setattr__(self, "frequency", positive("frequency", self.frequency, "Hz"))
+        for name, unit in (("strain", "-"), ("storage", "Pa"), ("loss", "Pa")):
+            values = positive_vector(name, getattr(self, name), unit)
+            values.setflags(write=False)
+            object.__setattr__(self, name, values)
+        if not self.strain.size == self.storage.size == self.loss.size >= _FEWEST_POINTS:
+            raise InputError(
+                f"strain, storage, loss: one length of at least {_FEWEST_POINTS} points; "
+                f"got {self.strain.size}, {self.storage.size}, {self.loss.size}"
+            )
+        falls = np.flatnonzero(np.diff(self.strain) <= 0.0)
+        if falls.size:
+            i = int(falls[0]) + 1
+            raise InputError(
+                f"strain[{i}] = {self.strain[i]:g} follows {self.strain[i - 1]:g}: amplitudes must ascend; "
+                "give every run as a sweep of its own"
+            )
+        if self.strain[-1] > LARGEST_STRAIN:
+            raise InputError(
+                f"strain reaches {self.strain[-1]:g}, allowed to {LARGEST_STRAIN:g}: amplitudes are numbers, "
+                "divide percentages by 100"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """One sweep relative to its modulus at the reference strain."""
+
+    strain: FloatArray
+    curve: PchipInterpolator
+    unit: float
+    plateau: bool
+
+    @classmethod
+    def of(cls, sweep: StrainSweep, name: str, reference: float) -> _Run:
+        values = getattr(sweep, name)
+        curve = PchipInterpolator(np.log(sweep.strain), values, extrapolate=False)
+        head = values[sweep.strain <= PLATEAU_SPAN * sweep.strain[0]]
+        flat = head.size >= _PLATEAU_POINTS and float(np.ptp(head)) <= PLATEAU_SPREAD * float(head.mean())
+        run = cls(sweep.strain, curve, 1.0, flat)
+        label = f"reference_strain at {sweep.temperature:.2f} K ({name})"
+        return cls(sweep.strain, curve, float(run.at(np.array([reference]), label)[0]), flat)
+
+    def at(self, strain: FloatArray, label: str) -> FloatArray:
+        """Interpolate the factor; below the measured strains it is constant on a plateau and refused elsewhere."""
+        low, high = float(self.strain[0]), float(self.strain[-1])
+        least, most = float(strain.min()), float(strain.max())
+        if most > high:
+            raise RangeError(
+                f"{label}: a strain of {most:.4g} is above the largest measured, {high:.4g}; "
+                "measure further, or lower it"
+            )
+        if least < low and not self.plateau:
+            raise RangeError(
+                f"{label}: a strain of {least:.4g} is below the lowest measured, {low:.4g}, where the data show no "
+                f"plateau (they differ by more than {PLATEAU_SPREAD:.0%} up to {PLATEAU_SPAN:g} times it); "
+                "measure smaller strains"
+            )
+        return np.asarray(self.curve(np.log(np.maximum(strain, low)))) / self.unit
+
+
+@dataclass(frozen=True, eq=False)
+class AmplitudeFactors:
+    """Factors of E' and E'' at a strain amplitude, relative to the amplitude at which the master curve was measured.
+
+    Parameters
+    ----------
+    sweeps : sequence of StrainSweep
+        One or more, at one or more temperatures; those within 0.5 K are runs at one temperature, whose factors are
+        averaged over the strains that all of them cover [-].
+    reference_strain : float
+        Single strain amplitude of the measurement the series comes from [-].
+
+    Raises
+    ------
+    InputError
+        No sweep.
+    RangeError
+        The reference strain lies outside a sweep.
+
+    Notes
+    -----
+    Monotone cubic (PCHIP) in ln strain, linear in temperature, never beyond either: above the measured strains and
+    temperatures (0.5 K apart) refused; below the lowest measured strain constant only where the data show a plateau,
+    i.e. the modulus asked for varies by no more than 4 % of its mean over three or more points up to twice that strain.
+    The factors are taken to be independent of frequency: they hold near that of the sweeps, in the sense of the
+    time-temperature shift.
+
+    Examples
+    --------
+    >>> strain = [1e-4, 1.5e-4, 2e-4, 1e-3, 1e-2, 1e-1]
+    >>> moduli = [11.0e6, 11.0e6, 10.9e6, 10.4e6, 7.7e6, 3.5e6]
+    >>> factors = AmplitudeFactors([StrainSweep(283.15, 1.0, strain, moduli, [1.4e6] * 6)], 1e-4)
+    >>> round(float(factors.storage(1e-2, 283.15)), 3), float(factors.loss(5e-5, 283.15))
+    (0.7, 1.0)
+    """
+
+    sweeps: Sequence[StrainSweep]
+    reference_strain: float
+
+    def __post_init__(self) -> None:
+        """Check and freeze; the levels are made at once, so that a bad reference strain shows here."""
+        object.__setattr__(self, "sweeps", tuple(sorted(self.sweeps, key=lambda s: s.temperature)))
+        object.__setattr__(self, "reference_strain", positive("reference_strain", self.reference_strain, "-"))
+        if not self.sweeps:
+            raise InputError("sweeps: at least one strain sweep is needed")
+        _ = self._runs
+
+    @cached_property
+    def _levels(self) -> list[list[StrainSweep]]:
+        levels: list[list[StrainSweep]] = []
+        for sweep in self.sweeps:
+            if levels and sweep.temperature - levels[-1][0].temperature <= SAME_TEMPERATURE:
+                levels[-1].append(sweep)
+            else:
+                levels.append([sweep])
+        return levels
+
+    @cached_property
+    def _runs(self) -> dict[str, list[list[_Run]]]:
+        return {
+            name: [[_Run.of(sweep, name, self.reference_strain) for sweep in level] for level in self._levels]
+            for name in ("storage", "loss")
+        }
+
+    @cached_property
+    def temperatures(self) -> FloatArray:
+        """Temperatures of the levels, mean of their runs, ascending, shape `(levels,)` [K]."""
+        return np.array([float(np.mean([sweep.temperature for sweep in level])) for level in self._levels])
+
+    @property
+    def strain_range(self) -> tuple[float, float]:
+        """Lowest and largest strain amplitude that every sweep covers [-]."""
+        return (
+            max(float(sweep.strain[0]) for sweep in self.sweeps),
+            min(float(sweep.strain[-1]) for sweep in self.sweeps),
+        )
+
+    def storage(self, strain: ArrayLike, temperature: float) -> FloatArray:
+        """Factor of E'.
+
+        Parameters
+        ----------
+        strain : array_like
+            Single strain amplitude, > 0, any shape [-].
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            E'(strain)/E'(reference strain), shape of `strain` [-].
+
+        Raises
+        ------
+        InputError
+            If a strain is not finite and > 0.
+        RangeError
+            If strain or temperature are outside the data.
+        """
+        return self._factor("storage", strain, temperature)
+
+    def loss(self, strain: ArrayLike, temperature: float) -> FloatArray:
+        """Factor of E''.
+
+        Parameters
+        ----------
+        strain : array_like
+            Single strain amplitude, > 0, any shape [-].
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            E''(strain)/E''(reference strain), shape of `strain` [-].
+
+        Raises
+        ------
+        InputError
+            If a strain is not finite and > 0.
+        RangeError
+            If strain or temperature are outside the data.
+        """
+        return self._factor("loss", strain, temperature)
+
+    def _factor(self, name: str, strain: ArrayLike, temperature: float) -> FloatArray:
+        array = np.asarray(strain, dtype=np.float64)
+        flat = positive_vector("strain", array.ravel(), "-")
+        out = np.zeros(flat.shape)
+        for level, weight in self._between(positive("temperature", temperature, "K")):
+            runs = self._runs[name][level]
+            label = f"factor of the {name} modulus at {self.temperatures[level]:.2f} K"
+            out += weight * np.mean([run.at(flat, label) for run in runs], axis=0)
+        return out.reshape(array.shape)[()]
+
+    def _between(self, temperature: float) -> list[tuple[int, float]]:
+        """Levels and weights of a linear interpolation; the last ones hold half a kelvin further."""
+        levels = self.temperatures
+        low, high = float(levels[0]), float(levels[-1])
+        if not low - SAME_TEMPERATURE <= temperature <= high + SAME_TEMPERATURE:
+            raise RangeError(
+                f"temperature = {temperature:.2f} K is outside the strain sweeps, {low:.2f} to {high:.2f} K: "
+                "measure a sweep there, or calculate inside this range"
+            )
+        at = min(max(temperature, low), high)
+        upper = int(np.searchsorted(levels, at))
+        if levels[upper] == at:
+            return [(upper, 1.0)]
+        share = float((at - levels[upper - 1]) / (levels[upper] - levels[upper - 1]))
+        return [(upper - 1, 1.0 - share), (upper, share)]
