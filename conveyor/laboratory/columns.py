@@ -130,6 +130,7 @@ def read_columns(
     used = _chosen(table)
     _check_width(table)
     cells = {column.index: _cells(table, column) for columns in used.values() for column in columns}
+    unneeded = _unneeded(used)
     label_column = used.pop("run")[0] if "run" in used else None
     run = None if label_column is None else _labels(grid, table, label_column, cells)
     mark = _mark(table, [c for columns in used.values() for c in columns], cells)
@@ -147,6 +148,7 @@ def read_columns(
             notes += column_notes
             read.append(found)
         series[quantity] = read[0] if len(read) == 1 else _agreed(table, read)
+    notes += [f"{column_label(grid, c)} is not needed" for c in unneeded]
     notes += [
         f"{column_label(grid, c)} is not used: "
         + ("it has no name" if not c.header else "its name is not a quantity read here")
@@ -202,6 +204,16 @@ def _chosen(table: Table) -> dict[str, list[Column]]:
     return used
 
 
+def _unneeded(used: dict[str, list[Column]]) -> list[Column]:
+    """Take out the clock of a dynamic test, and the complex modulus beside E' and E''."""
+    found: list[Column] = []
+    if {"storage", "loss", "complex"} & set(used) and "relaxation" not in used:
+        found += used.pop("time", [])
+    if {"storage", "loss"} <= set(used):
+        found += used.pop("complex", [])
+    return found
+
+
 def _check_width(table: Table) -> None:
     width = len(table.columns)
     for line in table.rows:
@@ -239,7 +251,10 @@ def _mark(table: Table, columns: list[Column], cells: Mapping[int, list[str]]) -
         for line, cell in zip(table.rows, cells[column.index], strict=True):
             if not is_number(cell):
                 raise table.grid.refusal(
-                    line.number, column.index, why_not_a_number(cell), header=column.header
+                    line.number,
+                    column.index,
+                    why_not_a_number(cell if any(map(is_number, line.cells)) else line.text),
+                    header=column.header,
                 )
     mark, doubtful = decimal_mark(cell for column in columns for cell in cells[column.index])
     if doubtful is None:
@@ -251,7 +266,7 @@ def _mark(table: Table, columns: list[Column], cells: Mapping[int, list[str]]) -
             why = (
                 "a comma here and decimal points elsewhere"
                 if point
-                else "a decimal comma or a thousands separator?"
+                else "a decimal comma or a thousands separator cannot be told apart"
             )
             raise table.grid.refusal(
                 line.number,
@@ -315,7 +330,7 @@ def _in_si(
         unit = next((u for u in stated if u is not None), Unit("?", 1.0))
         how = f"{unit.name} by the {'header' if meaning.unit else 'unit row'}"
     values, scale = _converted(meaning, numbers, unit)
-    words = [f"{label}: {_spoken(meaning)}", *([f"in {how}"] if how else []), *([scale] if scale else [])]
+    words = [f"{label}: {spoken(meaning)}", *([f"in {how}"] if how else []), *([scale] if scale else [])]
     return Series(column, meaning, values, unit, override is not None), [", ".join(words)]
 
 
@@ -338,7 +353,19 @@ def _unit_problem(meaning: Meaning, dimension: str, written: list[str], stated: 
     return ""
 
 
-def _spoken(meaning: Meaning) -> str:
+def spoken(meaning: Meaning) -> str:
+    """How messages name a quantity.
+
+    Parameters
+    ----------
+    meaning : Meaning
+        Of the column [-].
+
+    Returns
+    -------
+    str
+        As in `tan delta` [-].
+    """
     words = meaning.quantity.replace("_", " ") if meaning.quantity not in {"a_T", "b_T"} else meaning.quantity
     return f"{words} (peak to peak)" if meaning.peak_to_peak else words
 

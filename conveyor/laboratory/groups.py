@@ -136,6 +136,32 @@ def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float) -> 
     return run if run.any() else None
 
 
+def restarts(frequency: FloatArray) -> int:
+    """How often a frequency sweep begins anew in the order of the file.
+
+    Parameters
+    ----------
+    frequency : numpy.ndarray
+        Of each row, shape `(n,)` [Hz].
+
+    Returns
+    -------
+    int
+        0 for one sweep, and for rows in no order [-].
+
+    Examples
+    --------
+    >>> restarts(np.array([1.0, 2, 4, 1, 2, 4])), restarts(np.array([1.0, 2, 4, 3, 6, 9]))
+    (1, 0)
+    """
+    points = levels(frequency)
+    stretch = _stretches(points)
+    first = np.unique(stretch, return_index=True)[1]
+    lengths = np.bincount(stretch)
+    same = np.unique(points[first]).size == 1
+    return lengths.size - 1 if same and lengths.min() >= _SHORTEST_RUN else 0
+
+
 def _stretches(points: IntArray) -> IntArray:
     """Number the strictly monotone stretches of a sequence."""
     number = np.zeros(points.size, dtype=np.int64)

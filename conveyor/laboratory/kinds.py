@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from conveyor.laboratory.groups import levels, temperature_groups
+from conveyor.laboratory.groups import levels, restarts, temperature_groups
 from conveyor.laboratory.table import FloatArray, IntArray
 
 STRAIN_SPAN = 2.0
@@ -106,7 +106,8 @@ def _dynamic(columns: dict[str, FloatArray], run: IntArray | None) -> Decision:
     temperatures = 1 if temperature is None else np.unique(group[:, None], axis=0).size
     if temperature is not None and run is not None:
         temperatures = int(np.unique(_whole_groups(temperature)).size)
-    return _stepped(size, temperatures, swept, frequency is not None)
+    restarted = temperature is None and frequency is not None and restarts(frequency) > 0
+    return _stepped(size, temperatures, swept, has_frequency=frequency is not None, restarted=restarted)
 
 
 def _whole_groups(temperature: FloatArray) -> IntArray:
@@ -115,13 +116,19 @@ def _whole_groups(temperature: FloatArray) -> IntArray:
     return np.arange(temperature.size, dtype=np.int64) if found is None else found
 
 
-def _stepped(size: int, temperatures: int, swept: int, has_frequency: bool) -> Decision:
+def _stepped(size: int, temperatures: int, swept: int, *, has_frequency: bool, restarted: bool) -> Decision:
     if temperatures > 1:
         if swept > 1:
             return Decision("isotherms", f"the frequency varies at {swept} temperatures")
         if swept == 0:
             return Decision("temperature sweep", "the temperature varies, the frequency does not")
         return Decision("", "the frequency varies at one temperature only, yet there are several")
+    if has_frequency and restarted:
+        return Decision(
+            "",
+            "the frequencies begin anew, as isotherms do, but there is no temperature; add a column temperature_degC,"
+            " or for repeats at one temperature give temperature (--temperature)",
+        )
     if has_frequency and (swept or size == 1):
         return Decision("master curve", "the frequency varies at one temperature (also: one frequency sweep)")
     return Decision("", "neither frequency, temperature nor strain varies")

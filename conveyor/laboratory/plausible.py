@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laboratory.columns import Question, Series, remedy
+from conveyor.laboratory.columns import Question, Series, remedy, spoken
 from conveyor.laboratory.layout import Table
 from conveyor.laboratory.moduli import Moduli
 
@@ -65,7 +65,7 @@ def check_possible(table: Table, series: Mapping[str, Series]) -> None:
                 found.values <= 0.0,
                 f"must be > 0; if the column is log10, name it 'log10 {quantity}'",
             )
-        if quantity == "phase":
+        if quantity == "phase" and found.unit.name != "?":
             _refuse(
                 table,
                 found,
@@ -81,7 +81,7 @@ def _refuse(table: Table, found: Series, bad: NDArray[np.bool_], what: str) -> N
         raise table.grid.refusal(
             line.number,
             found.column.index,
-            f"{found.meaning.quantity.replace('_', ' ')} = {line.cells[found.column.index]} {what}",
+            f"{spoken(found.meaning)} = {line.cells[found.column.index]} {what}",
             header=found.column.header,
         )
 
@@ -116,7 +116,7 @@ def doubts(table: Table, series: Mapping[str, Series], moduli: Moduli | None) ->
                 table,
                 strain,
                 rows[0],
-                f"is {100.0 * strain.values[rows[0]]:g} % in {strain.unit.name}, more than 100 %;"
+                f"in {strain.unit.name}, that is {100.0 * strain.values[rows[0]]:g} %, more than 100 %;"
                 f" {remedy('strain', '-' if strain.unit.name == '%' else '%')}",
             )
 
@@ -124,7 +124,7 @@ def doubts(table: Table, series: Mapping[str, Series], moduli: Moduli | None) ->
 def _question(table: Table, found: Series, row: int, text: str) -> Question:
     line = table.rows[row]
     value = line.cells[found.column.index]
-    return Question(line.number, found.column, f"{found.meaning.quantity.replace('_', ' ')} = {value} {text}")
+    return Question(line.number, found.column, f"{spoken(found.meaning)} = {value} {text}")
 
 
 def _modulus_doubts(table: Table, series: Mapping[str, Series]) -> Iterator[Question]:
@@ -140,7 +140,7 @@ def _modulus_doubts(table: Table, series: Mapping[str, Series]) -> Iterator[Ques
                 table,
                 found,
                 rows[0],
-                f"is {value:g} Pa in {found.unit.name}, a solid has {low:g} to {high:g} Pa;"
+                f"in {found.unit.name}, but a solid has {low:g} to {high:g} Pa;"
                 f" {remedy('modulus', 'Pa' if value > high else 'MPa')}",
             )
 

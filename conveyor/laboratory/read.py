@@ -18,9 +18,11 @@ from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
 from conveyor.laboratory.layout import EXAMPLE, Table, find_table, has_table
 from conveyor.laboratory.moduli import Moduli, dynamic_moduli, to_tensile
+from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import check_possible, doubts
 from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import KINDS, DmaData, FloatArray, IntArray
+from conveyor.laboratory.trend import check_trend
 from conveyor.laboratory.workbook import MAGIC, workbook_grids
 
 
@@ -104,8 +106,12 @@ def read_dma(
     for dimension, unit in given.items():
         if not any(s.explicit and s.unit == unit for s in series.values()):
             notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
+    if len(set(table.blocks)) > 1 and labels is None:
+        labels = np.array(table.blocks, dtype=np.int64)
+        notes.append("each block of the file is a run of its own")
     decision = _decision(table, columns, labels, series, kind)
     found = arrange(decision.kind, columns, labels)
+    check_trend(table, decision.kind, columns, found)
     notes = [*table.grid.notes, *table.notes, *notes, *derived, f"{decision.kind}: {decision.reason}"]
     notes += _order_notes(table, decision.kind, found)
     return replace(_assembled(Path(path), table, decision.kind, columns, found), understood=tuple(notes))
@@ -187,8 +193,18 @@ def _ask(table: Table, questions: list[Question]) -> None:
     if not questions:
         return
     first, *others = questions
-    more = "".join(f"; and {column_label(table.grid, q.column)}: {q.text}" for q in others)
+    asked = {_dimension(first)}
+    more = ""
+    for question in others:
+        label = column_label(table.grid, question.column)
+        more += f"; likewise {label}" if _dimension(question) in asked else f"; and {label}: {question.text}"
+        asked.add(_dimension(question))
     raise table.grid.refusal(first.row, first.column.index, first.text + more, header=first.column.header)
+
+
+def _dimension(question: Question) -> str:
+    meaning = question.column.meaning
+    return "" if meaning is None else DIMENSIONS[meaning.quantity]
 
 
 def _tensile(
@@ -234,7 +250,7 @@ def _decision(
         raise table.grid.refusal(
             table.header_row,
             0,
-            f'{decision.reason or "several kinds fit"}; give kind, for example kind="{choices[0]}"'
+            f'{decision.reason or "several kinds fit"}; else give kind, for example kind="{choices[0]}"'
             f" (--kind), one of {', '.join(choices)}",
             header=table.columns[0].header,
         )
@@ -243,12 +259,14 @@ def _decision(
 
 def _missing(table: Table, present: set[str], what: str) -> InputError:
     unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
-    have = ", ".join(sorted(present)) or "nothing complete"
+    named = {c.meaning.quantity for c in table.columns if c.meaning is not None}
+    have = ", ".join(sorted(present | named))
     advice = "; give temperature (--temperature)" if {"storage", "loss", "frequency"} <= present else ""
     return table.grid.refusal(
         table.header_row,
         unknown.index,
-        f"{what} (found: {have}{advice}); name the missing column as in {EXAMPLE}, with temperature_degC, strain_%,"
+        f"{what} (found: {have}{advice}); beside E' stands E'' or tan delta; name the"
+        f" missing column as in {EXAMPLE}, with temperature_degC, strain_%,"
         " 't [s]' and 'E(t) [MPa]', or a_T",
         header=unknown.header,
     )

@@ -63,15 +63,15 @@ def text_grid(text: str, name: str, notes: tuple[str, ...]) -> Grid:
 def _separator(lines: list[str]) -> tuple[str, int]:
     """The separator, and how many cells most rows of numbers have."""
     sample = lines[:: max(1, len(lines) // _SAMPLE)]
-    best, best_rows, best_width = ",", 0, 0
+    best, best_score, best_width = ",", (0, 0), 0
     for separator in _SEPARATORS:
-        widths = [
-            len(cells)
-            for cells in (_split(line, separator) for line in sample)
-            if (numbers := sum(map(is_number, cells))) >= 2 and 2 * numbers >= sum(map(bool, cells))
-        ]
-        if len(widths) > best_rows:
-            best, best_rows = separator, len(widths)
+        cells = [_split(line, separator) for line in sample]
+        numbers = [sum(map(is_number, row)) for row in cells]
+        filled = [sum(map(bool, row)) for row in cells]
+        widths = [len(c) for c, n, m in zip(cells, numbers, filled, strict=True) if n >= 2 and 2 * n >= m]
+        score = (sum(n == m and n >= 2 for n, m in zip(numbers, filled, strict=True)), len(widths))
+        if score > best_score:
+            best, best_score = separator, score
             best_width = Counter(widths).most_common(1)[0][0]
     return best, best_width
 
