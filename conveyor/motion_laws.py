@@ -1,0 +1,330 @@
+"""Starting and stopping: moving masses, starting force, acceleration, coasting, brake, sliding of the bulk.
+
+Source: Newton, with the belt as a rigid ring, as DIN 22101 treats the non-steady states.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from conveyor.errors import NoSolutionError
+from conveyor.require import (
+    require,
+    require_finite,
+    require_not_negative,
+    require_positive,
+    require_slope,
+)
+
+
+def shell_reduced_mass(mass: float, *, outer_diameter: float, inner_diameter: float) -> float:
+    """Mass of a rotating tube reduced to its rim, m (1 + (d/D)²)/2.
+
+    Parameters
+    ----------
+    mass : float
+        m, rotating [kg], at least 0.
+    outer_diameter : float
+        D [m], positive.
+    inner_diameter : float
+        d [m], from 0 (solid) to below D.
+
+    Returns
+    -------
+    float
+        Reduced mass [kg].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(shell_reduced_mass(10.0, outer_diameter=0.159, inner_diameter=0.150), 3)
+    9.45
+    """
+    require_not_negative(mass=mass)
+    require_positive(outer_diameter=outer_diameter)
+    ok = 0.0 <= inner_diameter < outer_diameter
+    require(ok, "inner_diameter", inner_diameter, f"0 to below outer_diameter = {outer_diameter!r} m")
+    return mass * (1.0 + (inner_diameter / outer_diameter) ** 2) / 2.0
+
+
+def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
+    """Mass of a rotating part reduced to the belt, m = J i²/r².
+
+    Parameters
+    ----------
+    inertia : float
+        J about its own axis [kg m²], at least 0.
+    radius : float
+        r of the pulley at the belt [m], positive.
+    ratio : float
+        i, speed of the part over speed of the pulley [-], positive: the gear's ratio for motor and coupling.
+
+    Returns
+    -------
+    float
+        Reduced mass [kg].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(reduced_mass(2.0, radius=0.5, ratio=20.0), 9)
+    3200.0
+    """
+    require_not_negative(inertia=inertia)
+    require_positive(radius=radius, ratio=ratio)
+    return inertia * (ratio / radius) ** 2
+
+
+def strand_moving_mass(length: float, *, belt_mass: float, bulk_mass: float, roll_mass: float) -> float:
+    """Moving mass of a strand section, l (m'_belt + m'_bulk + m'_R,red).
+
+    Parameters
+    ----------
+    length : float
+        l [m], at least 0.
+    belt_mass : float
+        m'_belt [kg/m], at least 0.
+    bulk_mass : float
+        m'_bulk [kg/m], at least 0; 0 on the return strand.
+    roll_mass : float
+        m'_R,red of the rolls reduced to the rim [kg/m], at least 0.
+
+    Returns
+    -------
+    float
+        Mass [kg].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> strand_moving_mass(100.0, belt_mass=16.0, bulk_mass=133.0, roll_mass=11.0)
+    16000.0
+    """
+    require_not_negative(length=length, belt_mass=belt_mass, bulk_mass=bulk_mass, roll_mass=roll_mass)
+    return length * (belt_mass + bulk_mass + roll_mass)
+
+
+def start_force(
+    rated_power: float, *, torque_factor: float, efficiency: float, rated_belt_speed: float
+) -> float:
+    """Force at the belt at the start, F = k η P/v.
+
+    Parameters
+    ----------
+    rated_power : float
+        P of all motors [W], positive.
+    torque_factor : float
+        k, starting over rated torque as the coupling or converter limits it [-], positive.
+    efficiency : float
+        η of the drive train [-], above 0, at most 1.
+    rated_belt_speed : float
+        v at rated speed [m/s], positive.
+
+    Returns
+    -------
+    float
+        F [N], the masses of motor and gear still to be accelerated with it.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(start_force(90e3, torque_factor=1.4, efficiency=0.92, rated_belt_speed=4.8))
+    24150
+    """
+    require_positive(rated_power=rated_power, torque_factor=torque_factor, rated_belt_speed=rated_belt_speed)
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
+    return torque_factor * efficiency * rated_power / rated_belt_speed
+
+
+def start_acceleration(drive_force: float, *, resistance: float, moving_mass: float) -> float:
+    """Acceleration of the belt at the start, a = (F - W)/m.
+
+    Parameters
+    ----------
+    drive_force : float
+        F at the belt [N], at least 0, see `start_force`.
+    resistance : float
+        W, all resistances with the lift, after standstill [N]; negative if the belt runs by itself.
+    moving_mass : float
+        m, everything reduced to the belt [kg], positive.
+
+    Returns
+    -------
+    float
+        a [m/s²].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    NoSolutionError
+        The force does not overcome the resistance: the conveyor does not start.
+
+    Examples
+    --------
+    >>> start_acceleration(30e3, resistance=20e3, moving_mass=50e3)
+    0.2
+    """
+    require_not_negative(drive_force=drive_force)
+    require_finite(resistance=resistance)
+    require_positive(moving_mass=moving_mass)
+    if drive_force <= resistance:
+        raise NoSolutionError(
+            f"the starting force of {drive_force:.6g} N does not overcome {resistance:.6g} N: "
+            "choose a larger motor or torque factor, or start with less bulk"
+        )
+    return (drive_force - resistance) / moving_mass
+
+
+def bulk_slip_limits(belt_friction: float, *, inclination: float, gravity: float) -> tuple[float, float]:
+    """Accelerations at which the bulk stays on the belt, |a + g sin δ| ≤ μ g cos δ.
+
+    Parameters
+    ----------
+    belt_friction : float
+        μ, bulk on belt at rest [-], positive.
+    inclination : float
+        δ in the direction of travel [rad], between -pi/2 and pi/2, positive uphill.
+    gravity : float
+        g [m/s²], positive.
+
+    Returns
+    -------
+    braking : float
+        Lowest acceleration [m/s²], negative: the hardest braking.
+    starting : float
+        Highest acceleration [m/s²].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    NoSolutionError
+        The bulk slides on the belt even at constant speed.
+
+    Examples
+    --------
+    >>> [round(a, 3) for a in bulk_slip_limits(0.5, inclination=math.radians(15), gravity=9.81)]
+    [-7.277, 2.199]
+    """
+    require_positive(belt_friction=belt_friction, gravity=gravity)
+    require_slope(inclination=inclination)
+    grip = belt_friction * gravity * math.cos(inclination)
+    pull = gravity * math.sin(inclination)
+    if abs(pull) >= grip:
+        raise NoSolutionError(
+            f"the bulk slides at a slope of {math.degrees(inclination):.3g} deg with friction {belt_friction:g}: "
+            "choose a flatter route or a belt with cleats"
+        )
+    return -grip - pull, grip - pull
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """How a conveyor comes to rest.
+
+    Parameters
+    ----------
+    deceleration : float
+        b [m/s²], positive.
+    time : float
+        t [s].
+    distance : float
+        s [m].
+    """
+
+    deceleration: float
+    time: float
+    distance: float
+
+
+def stop(belt_speed: float, *, retarding_force: float, moving_mass: float) -> Stop:
+    """Stop under a constant force, b = F/m, t = v/b, s = v²/(2 b).
+
+    Parameters
+    ----------
+    belt_speed : float
+        v [m/s], at least 0.
+    retarding_force : float
+        F, resistances with the lift plus brake [N].
+    moving_mass : float
+        m, everything reduced to the belt that stops with it [kg], positive.
+
+    Returns
+    -------
+    Stop
+        Deceleration, time, distance.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    NoSolutionError
+        The force is not positive: the conveyor does not stop.
+
+    Examples
+    --------
+    >>> stop(5.0, retarding_force=25e3, moving_mass=50e3)
+    Stop(deceleration=0.5, time=10.0, distance=25.0)
+    """
+    require_not_negative(belt_speed=belt_speed)
+    require_finite(retarding_force=retarding_force)
+    require_positive(moving_mass=moving_mass)
+    if retarding_force <= 0.0:
+        raise NoSolutionError(
+            f"a retarding force of {retarding_force:.6g} N does not stop the belt: a brake of more than "
+            f"{-retarding_force:.6g} N is needed"
+        )
+    deceleration = retarding_force / moving_mass
+    time = belt_speed / deceleration
+    return Stop(deceleration=deceleration, time=time, distance=belt_speed * time / 2.0)
+
+
+def brake_force(deceleration: float, *, resistance: float, moving_mass: float) -> float:
+    """Force a brake has to add at the belt, F = m b - W.
+
+    Parameters
+    ----------
+    deceleration : float
+        b wanted [m/s²], at least 0; 0 to hold the belt.
+    resistance : float
+        W, the least resistances with the lift [N]; negative if the belt runs by itself.
+    moving_mass : float
+        m [kg], positive.
+
+    Returns
+    -------
+    float
+        F [N]; negative: the conveyor stops harder than that without a brake.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> brake_force(0.4, resistance=-10e3, moving_mass=50e3)
+    30000.0
+    """
+    require_not_negative(deceleration=deceleration)
+    require_finite(resistance=resistance)
+    require_positive(moving_mass=moving_mass)
+    return moving_mass * deceleration - resistance

@@ -1,0 +1,204 @@
+"""Vertical curves: lift-off on concave ones, stress of edges and middle on both.
+
+Sources: statics of a belt on a curve, and plane sections of the troughed belt; see also DIN 22101, and Pitcher,
+Calculation of correct radii for vertical curves in troughed belt conveyors, Beltcon 17.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from conveyor.require import (
+    require,
+    require_angle,
+    require_not_negative,
+    require_positive,
+    require_slope,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class TroughSection:
+    """Where the belt lies in its trough, against the height of its own centre.
+
+    Parameters
+    ----------
+    edge_above : float
+        Height of the edges above the centre [m].
+    middle_below : float
+        Depth of the middle below the centre [m].
+    """
+
+    edge_above: float
+    middle_below: float
+
+
+def trough_section(belt_width: float, *, middle_roll_length: float, trough_angle: float) -> TroughSection:
+    """Heights of the troughed belt, edges w sin λ - z, middle z = w² sin λ/B, with w = (B - l_M)/2.
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    middle_roll_length : float
+        l_M, belt on the middle roll [m], from 0 (two rolls) to B (flat).
+    trough_angle : float
+        λ [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    TroughSection
+        Heights against the belt's centre [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Three straight pieces of a thin belt of even stiffness across.
+
+    Examples
+    --------
+    >>> s = trough_section(1.2, middle_roll_length=0.4, trough_angle=math.radians(30))
+    >>> round(s.edge_above, 4), round(s.middle_below, 4)
+    (0.1333, 0.0667)
+    """
+    require_positive(belt_width=belt_width)
+    ok = 0.0 <= middle_roll_length <= belt_width
+    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
+    require_angle(0.0, trough_angle=trough_angle)
+    wing = (belt_width - middle_roll_length) / 2.0
+    edge = wing * math.sin(trough_angle)
+    centre = edge * wing / belt_width
+    return TroughSection(edge_above=edge - centre, middle_below=centre)
+
+
+def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gravity: float) -> float:
+    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ).
+
+    Parameters
+    ----------
+    tension : float
+        T in the curve [N], at least 0: the largest with no bulk on the curve, the start included.
+    belt_mass : float
+        m'_belt [kg/m], positive.
+    inclination : float
+        δ of the belt, at its steepest in the curve [rad], between -pi/2 and pi/2.
+    gravity : float
+        g [m/s²], positive.
+
+    Returns
+    -------
+    float
+        r [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Moving belt: T - m' v² lifts it; T alone is on the safe side.
+
+    Examples
+    --------
+    >>> round(lift_off_radius(60e3, belt_mass=20.0, inclination=0.0, gravity=9.81), 1)
+    305.8
+    """
+    require_not_negative(tension=tension)
+    require_positive(belt_mass=belt_mass, gravity=gravity)
+    require_slope(inclination=inclination)
+    return tension / (belt_mass * gravity * math.cos(inclination))
+
+
+def overstress_radius(
+    tension_per_width: float, *, distance: float, stiffness_per_width: float, allowed_per_width: float
+) -> float:
+    """Least radius at which the strip that is stretched stays below its limit, r = E d/(k_max - k).
+
+    Parameters
+    ----------
+    tension_per_width : float
+        k, mean of the belt in the curve [N/m], at least 0.
+    distance : float
+        d of the strip from the belt's centre [m], at least 0: `edge_above` on a convex curve, `middle_below` on
+        a concave one.
+    stiffness_per_width : float
+        E of the belt per width [N/m], positive.
+    allowed_per_width : float
+        k_max [N/m], more than k.
+
+    Returns
+    -------
+    float
+        r [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range; no radius helps a belt that is overstressed on the straight.
+
+    Notes
+    -----
+    Plane sections: the strip is longer by d/r than the centre.
+
+    Examples
+    --------
+    >>> overstress_radius(100e3, distance=0.125, stiffness_per_width=72 * 1e6, allowed_per_width=150e3)
+    180.0
+    """
+    require_not_negative(tension_per_width=tension_per_width, distance=distance)
+    require_positive(stiffness_per_width=stiffness_per_width)
+    ok = tension_per_width < allowed_per_width < math.inf
+    require(
+        ok,
+        "allowed_per_width",
+        allowed_per_width,
+        f"more than the mean {tension_per_width:.6g} N/m is needed",
+    )
+    return stiffness_per_width * distance / (allowed_per_width - tension_per_width)
+
+
+def buckling_radius(
+    tension_per_width: float, *, distance: float, stiffness_per_width: float, least_per_width: float
+) -> float:
+    """Least radius at which the strip that is slackened stays taut, r = E d/(k - k_min).
+
+    Parameters
+    ----------
+    tension_per_width : float
+        k, mean of the belt in the curve, the lowest that occurs [N/m], more than k_min.
+    distance : float
+        d of the strip from the belt's centre [m], at least 0: `middle_below` on a convex curve, `edge_above` on
+        a concave one.
+    stiffness_per_width : float
+        E of the belt per width [N/m], positive.
+    least_per_width : float
+        k_min left in the strip [N/m], at least 0.
+
+    Returns
+    -------
+    float
+        r [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range; no radius helps a belt that is too slack on the straight.
+
+    Examples
+    --------
+    >>> buckling_radius(40e3, distance=0.05, stiffness_per_width=36e6, least_per_width=4e3)
+    50.0
+    """
+    require_not_negative(least_per_width=least_per_width, distance=distance)
+    require_positive(stiffness_per_width=stiffness_per_width)
+    ok = least_per_width < tension_per_width < math.inf
+    require(
+        ok, "tension_per_width", tension_per_width, f"more than the least {least_per_width:.6g} N/m is needed"
+    )
+    return stiffness_per_width * distance / (tension_per_width - least_per_width)
