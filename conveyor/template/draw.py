@@ -83,6 +83,7 @@ class Book:
         for column, (name, width) in enumerate(_HEADERS.items(), start=1):
             _bar(sheet.cell(_HEAD, column), name)
             sheet.column_dimensions[get_column_letter(column)].width = width
+        sheet.row_dimensions[_HEAD].height = 20
         row = _HEAD
         if sheets.called:
             row += 1
@@ -291,7 +292,7 @@ def _key(cell: Cell | MergedCell, key: str) -> None:
 def _heading(sheet: Worksheet, row: int, line: Row) -> None:
     """Draw the heading of a nested model across the form."""
     doc = line.part.doc if line.part.required else f"{line.part.doc} May be left empty."
-    put(sheet.cell(row, 1), label(line.part.key), HEADING)
+    put(sheet.cell(row, 1), ": ".join(label(key) for key in line.path[-1 - line.depth :]), HEADING)
     sheet.cell(row, 1).alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="center")
     put(sheet.cell(row, 4), doc, GREY)
     sheet.cell(row, 4).alignment = Alignment(horizontal="left", vertical="center", indent=1)

@@ -11,7 +11,6 @@ from pydantic import BaseModel
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.models import Conveyor
 from conveyor.template.layout import Group, Leaf, Part, Path, Table
 from conveyor.template.plan import Plan, references, whole, written_out
 from conveyor.template.values import Value, to_cells
@@ -39,13 +38,14 @@ class Sheets:
     items: dict[str, list[FilledRow]] = field(default_factory=dict)
 
 
-def filled(conveyor: Conveyor, shelves: Iterable[str | FilePath] = ()) -> list[Sheets]:
-    """Return the cells of a conveyor: its own sheets first, then those of its written-out compounds.
+def filled(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> list[Sheets]:
+    """Return the cells of a model: its own sheets first, then those of its written-out compounds.
 
     A compound that is on the shelf under its name, with the same content, is given by name.
     """
-    filler = _Filler(tuple(shelves))
-    own = filler.fill(whole(Conveyor), stated(conveyor))
+    plan = whole(type(model))
+    filler = _Filler(plan, tuple(shelves))
+    own = filler.fill(plan, stated(model))
     return [own, *filler.written.values()]
 
 
@@ -68,7 +68,8 @@ class _At:
 
 
 class _Filler:
-    def __init__(self, shelves: tuple[str | FilePath, ...]) -> None:
+    def __init__(self, plan: Plan, shelves: tuple[str | FilePath, ...]) -> None:
+        self._stems = {model: stem for stem, model in references(plan.root).items()}
         self.shelves = shelves
         self._taken = set(shelf.names(shelves))
         self.written: dict[str, Sheets] = {}
@@ -120,9 +121,8 @@ class _Filler:
         while called.casefold() in self._taken or self._contents.get(called, whole_data) != whole_data:
             called, number = f"{name} ({number})", number + 1
         if called not in self._contents:
-            stem = next(stem for stem, other in references(whole(Conveyor).root).items() if other is model)
             self._contents[called] = whole_data
-            plan = written_out(model, f"{stem} {len(self._contents)}")
+            plan = written_out(model, f"{self._stems[model]} {len(self._contents)}")
             self.written[called] = self.fill(plan, data, called)
         return called
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any, Final
 
+from pydantic import BaseModel
+
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path
@@ -57,9 +59,19 @@ def read_template(path: str | FilePath) -> Filled:
         The workbook cannot be read, lacks sheets, or has cells that cannot be taken for one value;
         all of them at once, each on a line ``file:sheet!cell field: message``.
     """
-    where = FilePath(path)
+    return read_filled(FilePath(path), Conveyor)
+
+
+def read_filled(where: FilePath, model: type[BaseModel]) -> Filled:
+    """Read a workbook of any model's plan, as `read_template` does that of a conveyor.
+
+    Raises
+    ------
+    InputError
+        As `read_template`.
+    """
     sheets = Sheets(str(where), read_workbook(where))
-    plan = whole(Conveyor)
+    plan = whole(model)
     content = sheets.content(plan)
     reader = _Reader(sheets, {} if sheets.problems else _written_out(plan, sheets))
     reader.cells[()] = content.places[plan.forms[0].name]
