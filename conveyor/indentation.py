@@ -8,13 +8,14 @@ Scales (paper, section 3): k = 2π/λ with λ the idler spacing, E0 the rubbery 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact import ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curve, solve
+from conveyor.contact import ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curves, solve
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber import PronySeries
 
@@ -57,6 +58,43 @@ class RollContact:
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+
+
+MEMORY = 4.0
+"""Of (h/λ)³: what the spacing changes of friction. Rubber on a stiff base forgets a roll within a few thicknesses, but
+for its slowest terms: at most 1.8 (h/λ)³ was seen on the shelf's rubbers (λ/h 25 to 800, 0.5 and 8 m/s, -27 to 77 °C).
+"""
+
+
+def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact, RollContact]:
+    """For each contact the one to solve: those that differ in spacing only share the closest, where rtol allows.
+
+    Parameters
+    ----------
+    contacts : iterable of RollContact
+        Contacts of one conveyor.
+    rtol : float
+        Relative error allowed [-]; spacings that change friction by more, by 4 (h/λ)³, are kept apart.
+
+    Returns
+    -------
+    dict
+        A representative for every contact: itself, or the one of the closest spacing.
+    """
+    alike: dict[RollContact, list[RollContact]] = {}
+    for contact in contacts:
+        alike.setdefault(replace(contact, spacing=1.0), []).append(contact)
+    found = {}
+    for members in alike.values():
+        closest = min(members, key=lambda contact: contact.spacing)
+        shared = closest.support == "confined" and closest.poisson == 0.5 and spacing_error(closest) <= rtol
+        found.update({contact: closest if shared else contact for contact in members})
+    return found
+
+
+def spacing_error(contact: RollContact) -> float:
+    """Relative change of a confined contact's friction if its rolls stood farther apart, an upper estimate [-]."""
+    return MEMORY * (contact.cover_thickness / contact.spacing) ** 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +190,17 @@ class IndentationCurve:
         """What the curve cost."""
         return self.curve.stats
 
+    def resistance(self, line_load: ArrayLike) -> Array:
+        """Indentation resistance per width f = μ w [N/m] at line loads w [N/m]; nothing else is formed.
+
+        Raises
+        ------
+        RangeError
+            A load outside the curve.
+        """
+        w = np.asarray(line_load, dtype=float)
+        return np.asarray(self.curve.at(w * (self.curve.problem.pressure / self.highest)).friction * w)
+
     def at(self, line_load: ArrayLike) -> Indentation:
         """Back from dimensionless to physical.
 
@@ -204,15 +253,43 @@ def indentation_curve(
     NoSolutionError
         The contact splits or wraps the roll; the message names the roll and the load.
     """
-    problem = to_problem(contact, highest)
-    try:
-        curve = load_curve(problem, problem.pressure * (lowest / highest), problem.pressure, rtol)
-    except NoSolutionError as error:
-        raise NoSolutionError(
+    (found,) = indentation_curves([contact], [lowest], [highest], rtol)
+    if isinstance(found, NoSolutionError):
+        raise found
+    return found
+
+
+def indentation_curves(
+    contacts: Sequence[RollContact], lowest: Sequence[float], highest: Sequence[float], rtol: float = 1e-6
+) -> list[IndentationCurve | NoSolutionError]:
+    """Solve many rolls' contacts side by side, each for every line load between two; where there is none, why.
+
+    Parameters
+    ----------
+    contacts : sequence of RollContact
+        Rolls, covers, speeds and rubbers.
+    lowest, highest : sequence of float
+        Range of the line load w of each [N/m].
+    rtol : float
+        Relative error asked for [-].
+
+    Raises
+    ------
+    InputError
+        A value outside what the contact allows.
+    """
+    problems = [to_problem(contact, w) for contact, w in zip(contacts, highest, strict=True)]
+    pressures = np.array([problem.pressure for problem in problems])
+    curves = load_curves(problems, pressures * (np.asarray(lowest) / np.asarray(highest)), pressures, rtol)
+    return [
+        NoSolutionError(
             f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
-            f"({contact.support}), {lowest:.4g} to {highest:.4g} N/m: {error}{_advice(contact)}"
-        ) from error
-    return IndentationCurve(contact, curve, lowest, highest)
+            f"({contact.support}), {low:.4g} to {high:.4g} N/m: {curve}{_advice(contact)}"
+        )
+        if isinstance(curve, NoSolutionError)
+        else IndentationCurve(contact, curve, low, high)
+        for contact, curve, low, high in zip(contacts, curves, lowest, highest, strict=True)
+    ]
 
 
 def _advice(contact: RollContact) -> str:

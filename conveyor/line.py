@@ -1,94 +1,41 @@
-"""Walks the route: both strands, section by section, from masses to the forces of every stretch.
+"""Walks the route: the contact of every roll, and from it the forces of every stretch of both strands.
 
-The only place, with balance.py, where models meet laws: quantities become SI here, once.
+The only place, with stretches.py and balance.py, where models meet laws.
 """
 
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curve
-from conveyor.loading import RollLoad, bulk_line_mass, roll_loads
-from conveyor.models import Conveyor, IdlerSet, Roll, Section
-from conveyor.resistance import (
-    ROLL_ON_BELT_FRICTION,
-    TILT_COEFFICIENT_30,
-    TILT_COEFFICIENT_45,
-    flexure_resistance,
-    idler_rotation_resistance,
-    idler_tilt_resistance,
-    roll_drag,
-    roll_line_mass,
-    section_main_resistance,
-    slope_resistance,
+from conveyor.errors import NoSolutionError
+from conveyor.indentation import (
+    Indentation,
+    IndentationCurve,
+    RollContact,
+    forgotten,
+    indentation_curves,
 )
+from conveyor.loading import RollLoad
+from conveyor.models import Conveyor
+from conveyor.resistance import flexure_resistance
 from conveyor.rubber import PronySeries
-from conveyor.units import Quantity, si
+from conveyor.stretches import FixedForces, Strand, Stretch, roll_at, stretches
+from conveyor.units import si
 
 Array = NDArray[np.float64]
-Strand = Literal["carry", "return"]
 
 _CURVE_DOWN_TO = 0.25  # of the highest load: a curve to be looked at, also where all rolls bear the same
-_TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """One section of one strand, SI, in running direction of that strand.
-
-    Attributes
-    ----------
-    section : str
-        Name of the section.
-    strand : {"carry", "return"}
-        Which strand.
-    length, rise : float
-        Along the belt, and upward in running direction [m].
-    spacing : float
-        Of the idler sets [m].
-    idlers : IdlerSet
-        The sets.
-    belt_mass, bulk_mass : float
-        m'_belt, m'_bulk [kg/m].
-    loads : tuple of RollLoad
-        Load of each roll of one set.
-    """
-
-    section: str
-    strand: Strand
-    length: float
-    rise: float
-    spacing: float
-    idlers: IdlerSet
-    belt_mass: float
-    bulk_mass: float
-    loads: tuple[RollLoad, ...]
-
-    @property
-    def inclination(self) -> float:
-        """Slope angle δ [rad]."""
-        return math.asin(self.rise / self.length)
-
-    @property
-    def sets(self) -> float:
-        """Number of idler sets, a broken number allowed."""
-        return self.length / self.spacing
-
-    @property
-    def line_mass(self) -> float:
-        """m'_belt + m'_bulk [kg/m]."""
-        return self.belt_mass + self.bulk_mass
 
 
 @dataclass(frozen=True, eq=False)
 class RollResult:
-    """One roll of a set: its load, its contact at the highest line load, its indentation.
+    """One roll of a set: its load and its indentation.
 
     Attributes
     ----------
@@ -96,16 +43,18 @@ class RollResult:
         Force and distribution.
     curve : IndentationCurve
         The load curve it was read from.
-    peak : Indentation
-        Contact at the highest line load, for a wing that of its inner end.
     resistance : float
-        Indentation resistance of the roll [N].
+        Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
     """
 
     load: RollLoad
     curve: IndentationCurve
-    peak: Indentation
     resistance: float
+
+    @cached_property
+    def peak(self) -> Indentation:
+        """Contact at the highest line load, for a wing that of its inner end."""
+        return self.curve.at(self.load.peak_line_load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,12 +90,15 @@ def excited_band(results: tuple[StretchResult, ...], strand: Strand) -> tuple[fl
 
 
 @dataclass(frozen=True)
-class _Surface:
-    """What the rolls of a strand run on, SI."""
+class Surface:
+    """What the rolls of a strand run on: thickness [m], rubber at its temperature, Poisson's ratio."""
 
     thickness: float
     rubber: PronySeries
     poisson: float
+
+
+Surfaces = Mapping[Strand, Surface]
 
 
 def walk(conveyor: Conveyor) -> tuple[StretchResult, ...]:
@@ -159,180 +111,192 @@ def walk(conveyor: Conveyor) -> tuple[StretchResult, ...]:
     RangeError
         A compound is not known at the belt's temperature.
     """
-    route = stretches(conveyor)
-    surfaces = _surfaces(conveyor)
-    curves = _solve_curves(conveyor, route, surfaces)
-    return tuple(_resist(conveyor, stretch, surfaces, curves) for stretch in route)
+    (found,) = indented([Track(conveyor)], [surfaces(conveyor)])
+    if isinstance(found, NoSolutionError):
+        raise found
+    return found
 
 
-def stretches(conveyor: Conveyor) -> tuple[Stretch, ...]:
-    """Both strands of every section, SI."""
-    sections = conveyor.route.sections
-    carry = [_stretch(conveyor, section, "carry") for section in sections]
-    back = [_stretch(conveyor, section, "return") for section in reversed(sections)]
-    return (*carry, *back)
+def indented(
+    tracks: Sequence[Track], covers: Sequence[Surfaces]
+) -> list[tuple[StretchResult, ...] | NoSolutionError]:
+    """Forces along the belt for many conveyors or many rubbers of one; all contacts are solved side by side.
+
+    Parameters
+    ----------
+    tracks : sequence of Track
+        One for each scene; scenes that differ in rubber and temperature only share theirs.
+    covers : sequence of mapping
+        What the rolls of each strand run on, for each scene.
+
+    Returns
+    -------
+    list
+        In their order the stretches' forces, or why a scene has none.
+    """
+    scenes = [_Scene(track, cover) for track, cover in zip(tracks, covers, strict=True)]
+    jobs: dict[float, dict[RollContact, tuple[float, float]]] = {}
+    for scene in scenes:
+        _widen(jobs.setdefault(scene.track.rtol, {}), scene.loads)
+    solved = {rtol: _solved(loads, rtol) for rtol, loads in jobs.items()}
+    return [scene.results(solved[scene.track.rtol]) for scene in scenes]
 
 
-def _stretch(conveyor: Conveyor, section: Section, strand: Strand) -> Stretch:
-    carrying = strand == "carry"
-    idlers = conveyor.idlers.carry if carrying else conveyor.idlers.return_
-    own = section.carry_spacing if carrying else section.return_spacing
-    spacing = si(idlers.spacing if own is None else own)
-    loaded = carrying and section.loaded
-    flow = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed)) if loaded else 0.0
-    length = si(section.length)
-    rise = section.rise if carrying else -section.rise
-    return Stretch(
-        section=section.name,
-        strand=strand,
-        length=length,
-        rise=rise,
-        spacing=spacing,
-        idlers=idlers,
-        belt_mass=conveyor.belt.line_mass,
-        bulk_mass=flow,
-        loads=roll_loads(
-            bulk_line_mass=flow,
-            belt_line_mass=conveyor.belt.line_mass,
-            spacing=spacing,
-            n_rolls=idlers.rolls,
-            trough_angle=si(idlers.trough_angle),
-            roll_length=si(idlers.roll.length),
-            belt_width=si(conveyor.belt.width),
-            inclination=math.asin(rise / length),
-            gravity=si(conveyor.calculation.gravity),
-            bulk_shares=_shares(idlers.load_shares),
-            belt_shares=_shares(idlers.belt_shares),
-        ),
-    )
+def _widen(
+    spans: dict[RollContact, tuple[float, float]], others: Mapping[RollContact, tuple[float, float]]
+) -> None:
+    """Ranges of load that hold the others', too."""
+    for contact, (low, high) in others.items():
+        known = spans.get(contact, (low, high))
+        spans[contact] = min(low, known[0]), max(high, known[1])
 
 
-def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
-    return None if given is None else tuple(si(share) for share in given)
+def _solved(
+    loads: Mapping[RollContact, tuple[float, float]], rtol: float
+) -> dict[RollContact, IndentationCurve | NoSolutionError]:
+    contacts = list(loads)
+    lowest, highest = zip(*loads.values(), strict=True)
+    return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
 
 
-def _surfaces(conveyor: Conveyor) -> dict[Strand, _Surface]:
-    """The cover under each strand at the belt's temperature; one series per compound."""
+def surfaces(conveyor: Conveyor) -> dict[Strand, Surface]:
+    """The cover under each strand at the belt's temperature; one series per compound.
+
+    Raises
+    ------
+    RangeError
+        A compound is not known at the belt's temperature.
+    """
     temperature = si(conveyor.ambient.belt)
     carry, back = conveyor.carry_compound, conveyor.return_compound
     series = carry.series(temperature)
     same = back is carry or back == carry
     other = series if same else back.series(temperature)
     return {
-        "carry": _Surface(si(conveyor.belt.bottom_cover.thickness), series, carry.poisson_ratio),
-        "return": _Surface(si(conveyor.return_cover_thickness), other, back.poisson_ratio),
+        "carry": Surface(si(conveyor.belt.bottom_cover.thickness), series, carry.poisson_ratio),
+        "return": Surface(si(conveyor.return_cover_thickness), other, back.poisson_ratio),
     }
 
 
-def roll_at(idlers: IdlerSet, place: int) -> Roll:
-    """Roll at a place of the set, left to right."""
-    middle = idlers.rolls in {3, 5} and place == idlers.rolls // 2
-    return idlers.middle if middle else idlers.roll
+@dataclass(frozen=True)
+class _Kind:
+    """Rolls of one radius and spacing on one strand: all their line loads in one array.
+
+    `rolls` are (stretch, place), `starts` where each one's loads begin, `weights` the quadrature's along the roll.
+    """
+
+    strand: Strand
+    radius: float
+    spacing: float
+    rolls: tuple[tuple[int, int], ...]
+    starts: NDArray[np.int_]
+    line_loads: Array
+    weights: Array
+    lowest: float
+    highest: float
 
 
-def _contact(conveyor: Conveyor, stretch: Stretch, place: int, surface: _Surface) -> RollContact:
-    return RollContact(
-        radius=0.5 * si(roll_at(stretch.idlers, place).diameter),
-        spacing=stretch.spacing,
-        cover_thickness=surface.thickness,
-        speed=si(conveyor.belt.speed),
-        rubber=surface.rubber,
-        poisson=surface.poisson,
-        support=conveyor.calculation.support,
-    )
+class Track:
+    """A conveyor whose rolls' loads are known, and every force along the belt but the rubber's.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        Its compounds and its temperature play no part.
+    rtol : float, optional
+        Relative tolerance of the contacts; the spec's without it [-].
+    """
+
+    def __init__(self, conveyor: Conveyor, rtol: float | None = None) -> None:
+        self.conveyor = conveyor
+        self.rtol = conveyor.calculation.rtol if rtol is None else rtol
+        self.speed = si(conveyor.belt.speed)
+        self.flexure_share = si(conveyor.calculation.flexure_share)
+        self.stretches = stretches(conveyor)
+        self.kinds = _kinds(self.stretches, conveyor.calculation.gauss_points)
+        gravity = si(conveyor.calculation.gravity)
+        self.fixed = tuple(FixedForces.of(stretch, gravity) for stretch in self.stretches)
 
 
-def _solve_curves(
-    conveyor: Conveyor, route: tuple[Stretch, ...], surfaces: dict[Strand, _Surface]
-) -> dict[RollContact, IndentationCurve]:
-    """One load curve per distinct roll, cover, speed and spacing, over the loads that occur on it."""
-    points = conveyor.calculation.gauss_points
-    occurring: dict[RollContact, list[Array]] = defaultdict(list)
-    for stretch in route:
-        for place, load in enumerate(stretch.loads):
-            contact = _contact(conveyor, stretch, place, surfaces[stretch.strand])
-            occurring[contact] += [load.line_loads(points)[0], np.array([load.peak_line_load])]
-    rtol = conveyor.calculation.rtol
-    ranges = {contact: np.concatenate(loads) for contact, loads in occurring.items()}
-    return {
-        contact: indentation_curve(
-            contact, min(float(w.min()), _CURVE_DOWN_TO * float(w.max())), float(w.max()), rtol
+def _kinds(route: tuple[Stretch, ...], points: int) -> tuple[_Kind, ...]:
+    """Rolls that share a contact, with the line loads that occur on them."""
+    gathered: dict[tuple[Strand, float, float], list[tuple[int, int]]] = {}
+    for i, stretch in enumerate(route):
+        for place in range(len(stretch.loads)):
+            radius = 0.5 * si(roll_at(stretch.idlers, place).diameter)
+            gathered.setdefault((stretch.strand, radius, stretch.spacing), []).append((i, place))
+    found = []
+    for (strand, radius, spacing), rolls in gathered.items():
+        loads = [route[i].loads[place] for i, place in rolls]
+        sampled = [load.line_loads(points) for load in loads]
+        lines = np.concatenate([w for w, _ in sampled])
+        highest = max(float(lines.max()), *(load.peak_line_load for load in loads))
+        found.append(
+            _Kind(
+                strand=strand,
+                radius=radius,
+                spacing=spacing,
+                rolls=tuple(rolls),
+                starts=np.cumsum([0, *(w.size for w, _ in sampled[:-1])]),
+                line_loads=lines,
+                weights=np.concatenate([weights for _, weights in sampled]),
+                lowest=min(float(lines.min()), _CURVE_DOWN_TO * highest),
+                highest=highest,
+            )
         )
-        for contact, w in ranges.items()
-    }
+    return tuple(found)
 
 
-def _resist(
-    conveyor: Conveyor,
-    stretch: Stretch,
-    surfaces: dict[Strand, _Surface],
-    curves: dict[RollContact, IndentationCurve],
-) -> StretchResult:
-    rolls = tuple(
-        _roll(curves[_contact(conveyor, stretch, place, surfaces[stretch.strand])], load, conveyor)
-        for place, load in enumerate(stretch.loads)
-    )
-    indentation = stretch.sets * math.fsum(roll.resistance for roll in rolls)
-    rotation = _rotation(stretch)
-    gravity = si(conveyor.calculation.gravity)
-    share = si(conveyor.calculation.flexure_share)
-    return StretchResult(
-        stretch=stretch,
-        rolls=rolls,
-        indentation=indentation,
-        rotation=rotation,
-        flexure=flexure_resistance(indentation + rotation, share=share),
-        tilt=_tilt(stretch, gravity),
-        lift=slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity),
-        unit_main=section_main_resistance(
-            friction_factor=1.0,
-            length=stretch.length,
-            roll_mass=roll_line_mass(_set_mass(stretch.idlers), spacing=stretch.spacing),
-            belt_mass=stretch.belt_mass,
-            bulk_mass=stretch.bulk_mass,
-            inclination=stretch.inclination,
-            gravity=gravity,
-        ),
-    )
+class _Scene:
+    """A track under one pair of covers: the contacts its rolls need, and the forces once they are solved."""
 
+    def __init__(self, track: Track, covers: Surfaces) -> None:
+        self.track = track
+        contacts = [
+            RollContact(
+                radius=kind.radius,
+                spacing=kind.spacing,
+                cover_thickness=covers[kind.strand].thickness,
+                speed=track.speed,
+                rubber=covers[kind.strand].rubber,
+                poisson=covers[kind.strand].poisson,
+                support=track.conveyor.calculation.support,
+            )
+            for kind in track.kinds
+        ]
+        shared = forgotten(contacts, track.rtol)
+        self.contacts = [shared[contact] for contact in contacts]
+        self.loads: dict[RollContact, tuple[float, float]] = {}
+        for contact, kind in zip(self.contacts, track.kinds, strict=True):
+            _widen(self.loads, {contact: (kind.lowest, kind.highest)})
 
-def _roll(curve: IndentationCurve, load: RollLoad, conveyor: Conveyor) -> RollResult:
-    """Indentation of one roll, ∫ f(w(y)) dy along it."""
-    line_load, weights = load.line_loads(conveyor.calculation.gauss_points)
-    found = curve.at(line_load)
-    return RollResult(load, curve, curve.at(load.peak_line_load), float(found.resistance @ weights))
-
-
-def _set_mass(idlers: IdlerSet) -> float:
-    """Rotating mass of one set [kg]."""
-    return math.fsum(si(roll_at(idlers, place).rotating_mass) for place in range(idlers.rolls))
-
-
-def _rotation(stretch: Stretch) -> float:
-    """Drag of all rolls of the stretch [N]."""
-    total = 0.0
-    for place in range(stretch.idlers.rolls):
-        roll = roll_at(stretch.idlers, place)
-        drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
-        total += idler_rotation_resistance(
-            drag.force, n_rolls=1, spacing=stretch.spacing, length=stretch.length
+    def results(
+        self, curves: Mapping[RollContact, IndentationCurve | NoSolutionError]
+    ) -> tuple[StretchResult, ...] | NoSolutionError:
+        """Forces of every stretch, or the first contact's error."""
+        route = self.track.stretches
+        rolls: list[list[RollResult | None]] = [[None] * len(stretch.loads) for stretch in route]
+        for contact, kind in zip(self.contacts, self.track.kinds, strict=True):
+            curve = curves[contact]
+            if isinstance(curve, NoSolutionError):
+                return curve
+            forces = np.add.reduceat(curve.resistance(kind.line_loads) * kind.weights, kind.starts)
+            for (i, place), force in zip(kind.rolls, forces.tolist(), strict=True):
+                rolls[i][place] = RollResult(route[i].loads[place], curve, force)
+        return tuple(
+            self._result(stretch, fixed, tuple(roll for roll in found if roll is not None))
+            for stretch, fixed, found in zip(route, self.track.fixed, rolls, strict=True)
         )
-    return total
 
-
-def _tilt(stretch: Stretch, gravity: float) -> float:
-    """Resistance of wings tilted forward [N]; zero where they are not."""
-    angle = si(stretch.idlers.tilt_angle)
-    if angle == 0.0:
-        return 0.0
-    steep = si(stretch.idlers.trough_angle) > _TILT_STEEP
-    return idler_tilt_resistance(
-        tilt_coefficient=(TILT_COEFFICIENT_45 if steep else TILT_COEFFICIENT_30).value,
-        roll_friction=ROLL_ON_BELT_FRICTION.value,
-        length=stretch.length,
-        belt_mass=stretch.belt_mass,
-        bulk_mass=stretch.bulk_mass,
-        inclination=stretch.inclination,
-        tilt_angle=angle,
-        gravity=gravity,
-    )
+    def _result(self, stretch: Stretch, fixed: FixedForces, rolls: tuple[RollResult, ...]) -> StretchResult:
+        indentation = stretch.sets * math.fsum(roll.resistance for roll in rolls)
+        return StretchResult(
+            stretch=stretch,
+            rolls=rolls,
+            indentation=indentation,
+            rotation=fixed.rotation,
+            flexure=flexure_resistance(indentation + fixed.rotation, share=self.track.flexure_share),
+            tilt=fixed.tilt,
+            lift=fixed.lift,
+            unit_main=fixed.unit_main,
+        )

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.balance import Balance
-from conveyor.line import StretchResult, excited_band, roll_at
+from conveyor.line import StretchResult, excited_band
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
+from conveyor.stretches import Strand, roll_at
 from conveyor.units import display, si, text
 
 DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
@@ -50,7 +51,7 @@ def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Bala
     )
 
 
-def _compounds(conveyor: Conveyor) -> dict[str, RubberCompound]:
+def _compounds(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 

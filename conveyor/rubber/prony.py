@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -205,6 +206,10 @@ class PronySeries:
         -----
         J*E* = 1 to 1e-14 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
         """
+        return self._creep
+
+    @cached_property
+    def _creep(self) -> CreepSeries:
         excess, compliances = interlaced(self.equilibrium, self.moduli, self.times)
         return CreepSeries(1.0 / self.glassy, *_one_per_time(compliances, self.times * (1.0 + excess)))
 

@@ -116,13 +116,19 @@ def test_a_wing_integrated_by_single_solves(result):
 
 
 def test_one_curve_for_each_distinct_contact(result):
-    curves = {id(roll.curve) for stretch in result.stretches for roll in stretch.rolls}
-    contacts = {
-        (roll.curve.contact.radius, roll.curve.contact.spacing, stretch.stretch.strand)
-        for stretch in result.stretches
-        for roll in stretch.rolls
-    }
-    assert len(curves) == len(contacts) == 4
+    # two covers; the rubber forgets a roll long before the next, so that spacings share a curve
+    curves = {id(roll.curve): roll.curve for stretch in result.stretches for roll in stretch.rolls}
+    assert len(curves) == 2
+    assert {curve.contact.spacing for curve in curves.values()} == {1.2, 2.4}
+
+
+def test_spacings_that_matter_keep_their_own_curves(line):
+    # 4 (h/λ)³ is 1.5e-7 for 4 mm at 1.2 m, 4e-8 for 5 mm at 2.4 m
+    tight = conveyor.analyse(line.replace(calculation=line.calculation.replace(rtol=1e-7)))
+    loose = conveyor.analyse(line.replace(calculation=line.calculation.replace(rtol=1e-4)))
+    for found, count in ((tight, 3), (loose, 2)):
+        assert len({id(roll.curve) for stretch in found.stretches for roll in stretch.rolls}) == count
+    assert loose.balance.forces.indentation == pytest.approx(tight.balance.forces.indentation, rel=1e-4)
 
 
 def test_a_larger_middle_roll_saves_indentation(line, result):

@@ -75,8 +75,8 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book):
                     assert all(isinstance(cell.value, int | float) for row in block for cell in row)
                     count += 1
     assert count == 1 + 2 * (
-        2 + 4 + 2 * 2
-    )  # bars; x and y of 2 tensions, 4 contacts, 2 moduli of 2 compounds
+        2 + 2 + 2 * 2
+    )  # bars; x and y of 2 tensions, 2 contacts, 2 moduli of 2 compounds
 
 
 def test_indentation_curves_of_the_chart_are_single_contacts(book, overland):
