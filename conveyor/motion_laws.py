@@ -290,7 +290,7 @@ def stop(belt_speed: float, *, retarding_force: float, moving_mass: float) -> St
     if retarding_force <= 0.0:
         raise NoSolutionError(
             f"a retarding force of {retarding_force:.6g} N does not stop the belt: a brake of more than "
-            f"{-retarding_force:.6g} N is needed"
+            f"{abs(retarding_force):.6g} N is needed"
         )
     deceleration = retarding_force / moving_mass
     time = belt_speed / deceleration

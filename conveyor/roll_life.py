@@ -1,0 +1,184 @@
+"""Rating life of the bearings of a roll: an indicator, not a forecast.
+
+Source: ISO 281 (basic rating life). Seals, dirt and grease end most rolls before fatigue does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+from conveyor.require import require, require_not_negative, require_positive
+
+RATED_REVOLUTIONS: Final = 1e6  # [-], ISO 281: revolutions of the basic rating life at P = C
+BALL_EXPONENT: Final = 3.0  # [-], ISO 281, ball bearings
+ROLLER_EXPONENT: Final = 10.0 / 3.0  # [-], ISO 281, roller bearings
+WEIBULL_SLOPE_BALL: Final = 10.0 / 9.0  # [-], Lundberg and Palmgren, ball bearings
+SECONDS_PER_HOUR: Final = 3600.0
+
+
+def heavier_bearing_load(
+    bulk_force: float, *, belt_force: float, loaded_length: float, bearing_distance: float, triangular: bool
+) -> float:
+    """Load of the heavier bearing of a roll, by moments about the other one.
+
+    Parameters
+    ----------
+    bulk_force : float
+        Of the bulk on the roll [N], at least 0.
+    belt_force : float
+        Of belt and curve, even along the loaded length [N], at least 0.
+    loaded_length : float
+        Length under the belt from the inner bearing on [m], positive, at most the distance of the bearings.
+    bearing_distance : float
+        Between the two bearings [m], positive.
+    triangular : bool
+        True [-]: the bulk falls from the inner end to 0 at the loaded length's end (wing); False: even.
+
+    Returns
+    -------
+    float
+        Load [N], between half and all of the roll's.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    The loaded length is taken to begin at the inner bearing; the mass of the shell left out.
+
+    Examples
+    --------
+    >>> load = heavier_bearing_load(
+    ...     600.0, belt_force=100.0, loaded_length=0.4, bearing_distance=0.4, triangular=True
+    ... )
+    >>> round(load, 6)
+    450.0
+    """
+    require_not_negative(bulk_force=bulk_force, belt_force=belt_force)
+    require_positive(loaded_length=loaded_length, bearing_distance=bearing_distance)
+    allowed = f"at most bearing_distance = {bearing_distance!r} m is needed"
+    require(loaded_length <= bearing_distance, "loaded_length", loaded_length, allowed)
+    reach = loaded_length / bearing_distance
+    bulk_centre = reach / 3.0 if triangular else reach / 2.0
+    return bulk_force * (1.0 - bulk_centre) + belt_force * (1.0 - reach / 2.0)
+
+
+def rating_life_hours(
+    load: float, *, dynamic_rating: float, rotation: float, exponent: float = BALL_EXPONENT
+) -> float:
+    """Basic rating life, L10h = (C/P)^p 1e6/(3600 n) (ISO 281).
+
+    Parameters
+    ----------
+    load : float
+        P, equivalent load of the bearing [N], positive.
+    dynamic_rating : float
+        C of the bearing [N], positive.
+    rotation : float
+        n, revolutions [1/s], positive.
+    exponent : float
+        p [-], 3 for ball and 10/3 for roller bearings.
+
+    Returns
+    -------
+    float
+        L10h [h], reached by 90 % of the bearings.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    P up to C/2; below C/100 or so the figure means nothing: fatigue does not end such a bearing.
+
+    Examples
+    --------
+    >>> round(rating_life_hours(1000.0, dynamic_rating=20e3, rotation=10.0))
+    222222
+    """
+    require_positive(load=load, dynamic_rating=dynamic_rating, rotation=rotation)
+    require(1.0 <= exponent <= 4.0, "exponent", exponent, "3 (ball) or 10/3 (roller) is needed")
+    revolutions: float = RATED_REVOLUTIONS * (dynamic_rating / load) ** exponent
+    return revolutions / (rotation * SECONDS_PER_HOUR)
+
+
+def equivalent_bearing_load(
+    loads: Sequence[float], *, revolutions: Sequence[float], exponent: float = BALL_EXPONENT
+) -> float:
+    """Equivalent load of a duty, P = (Σ P_i^p N_i/Σ N_i)^(1/p) (ISO 281, linear damage).
+
+    Parameters
+    ----------
+    loads : sequence of float
+        P_i of each step of the duty [N], at least 0.
+    revolutions : sequence of float
+        N_i of each step, or its share [-], at least 0, not all 0.
+    exponent : float
+        p [-], 3 for ball and 10/3 for roller bearings.
+
+    Returns
+    -------
+    float
+        P [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range, or the lengths differ.
+
+    Examples
+    --------
+    >>> round(equivalent_bearing_load([1000.0, 2000.0], revolutions=[0.5, 0.5]), 1)
+    1651.0
+    """
+    ok = len(revolutions) == len(loads)
+    require(ok, "revolutions", list(revolutions), f"one for each of {len(loads)} loads is needed")
+    require(1.0 <= exponent <= 4.0, "exponent", exponent, "3 (ball) or 10/3 (roller) is needed")
+    for load, number in zip(loads, revolutions, strict=True):
+        require_not_negative(loads=load, revolutions=number)
+    whole = math.fsum(revolutions)
+    require(whole > 0.0, "revolutions", list(revolutions), "some revolutions are needed")
+    damage = math.fsum(n * load**exponent for load, n in zip(loads, revolutions, strict=True)) / whole
+    mean: float = damage ** (1.0 / exponent)
+    return mean
+
+
+def system_life_hours(lives: Sequence[float], *, weibull_slope: float = WEIBULL_SLOPE_BALL) -> float:
+    """Rating life of several bearings together, L = (Σ L_i^-e)^(-1/e) (Lundberg and Palmgren).
+
+    Parameters
+    ----------
+    lives : sequence of float
+        L10h of each bearing [h], positive.
+    weibull_slope : float
+        e of the lives' Weibull distribution [-], positive; 10/9 for ball bearings.
+
+    Returns
+    -------
+    float
+        L10h of all: 90 % of such groups run so long without a failure [h].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(system_life_hours([50e3, 50e3]))
+    26794
+    """
+    require(len(lives) > 0, "lives", list(lives), "at least one bearing is needed")
+    for life in lives:
+        require_positive(lives=life)
+    require_positive(weibull_slope=weibull_slope)
+    shortest = min(lives)
+    rates = math.fsum((shortest / life) ** weibull_slope for life in lives)
+    factor: float = rates ** (-1.0 / weibull_slope)
+    return shortest * factor

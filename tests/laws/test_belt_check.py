@@ -1,0 +1,71 @@
+"""Belt and pulleys: round trips, order of the figures, the series, refusals."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from conveyor import belt_check
+from conveyor.errors import InputError, RangeError
+
+ROUNDING = 1e-13
+
+
+def test_safety_times_tension_is_the_breaking_force():
+    safety = belt_check.belt_safety(150e3, nominal_strength=1.25e6, belt_width=1.2)
+    assert safety * 150e3 == pytest.approx(1.5e6, rel=ROUNDING)
+
+
+def test_a_belt_of_the_needed_strength_has_its_safety_at_the_splice():
+    strength = belt_check.needed_strength(200e3, splice_strength=0.45, s0=1.1, s1=1.7)
+    assert 0.45 * strength / 200e3 == pytest.approx(1.1 * 1.7, rel=ROUNDING)
+    assert belt_check.needed_strength(200e3, splice_strength=1.0, s0=1.0, s1=1.0) == 200e3
+
+
+@pytest.mark.parametrize("table", [belt_check.SPLICE_SAFETY, belt_check.DUTY_SAFETY])
+def test_worse_conditions_ask_for_more(table):
+    assert 1.0 <= table["favourable"] < table["normal"] < table["unfavourable"]
+
+
+def test_groups_are_steps_of_the_r10_series():
+    # 10^(1/10) per step, R10 values are rounded to 1.5 %
+    factors = [belt_check.GROUP_FACTOR[group] for group in ("A", "B", "C")]
+    for large, small in pairwise(factors):
+        assert large / small == pytest.approx(10**0.1, rel=0.015)
+    assert belt_check.pulley_group_diameter(0.5, group="B") == 0.4
+
+
+def test_next_pulley_is_the_first_that_is_large_enough():
+    for small, large in pairwise(belt_check.PULLEY_DIAMETERS):
+        assert belt_check.next_pulley_diameter(large) == large
+        assert belt_check.next_pulley_diameter(small + 1e-5) == large
+    # a step of the series taken from the drive pulley stays in the series: 0.63 · 0.5 is 0.315
+    assert belt_check.next_pulley_diameter(belt_check.pulley_group_diameter(0.5, group="C")) == 0.315
+    with pytest.raises(RangeError, match=r"2\.1 m is more than the largest pulley of the series, 2 m"):
+        belt_check.next_pulley_diameter(2.1)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: belt_check.belt_safety(0.0, nominal_strength=1e6, belt_width=1.0),
+            r"largest_tension = 0\.0",
+        ),
+        (
+            lambda: belt_check.needed_strength(1e5, splice_strength=1.2, s0=1.1, s1=1.7),
+            r"splice_strength = 1\.2 is not allowed: above 0 and at most 1",
+        ),
+        (lambda: belt_check.needed_strength(1e5, splice_strength=0.4, s0=0.9, s1=1.7), r"s0 = 0\.9"),
+        (lambda: belt_check.needed_strength(1e5, splice_strength=0.4, s0=1.1, s1=0.9), r"s1 = 0\.9"),
+        (
+            lambda: belt_check.pulley_group_diameter(1.0, group="D"),
+            r"group = 'D' is not allowed: one of A, B, C",
+        ),
+        (lambda: belt_check.next_pulley_diameter(0.0), r"least_diameter = 0\.0"),
+    ],
+)
+def test_refusals(call, message):
+    with pytest.raises(InputError, match=message):
+        call()
