@@ -138,7 +138,7 @@ def equivalent_linear(
     >>> from conveyor.rubber.kraus import KrausLaw
     >>> from conveyor.rubber.strain import StrainSweep
     >>> strain = np.geomspace(1e-4, 0.2, 12)
-    >>> law = KrausLaw(10e6, 4e6, 1.2e6, 0.8e6, 0.01, 0.6)
+    >>> law = KrausLaw(10e6, 4e6, 1.2e6, 0.8e6, 0.01, 0.6, 0.01, 0.6)
     >>> sweep = StrainSweep(293.15, 1.0, strain, law.storage(strain), law.loss(strain))
     >>> soft = equivalent_linear(  # stress of 0.1 MPa at 100 rad/s
     ...     PronySeries(6e6, [4e6], [1e-2]),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,9 +18,9 @@ _KRAUS_STARTS = (0.3, 0.6, 0.9)  # about the exponents of carbon blacks, 0.5 to 
 
 @dataclass(frozen=True)
 class KrausLaw:
-    r"""Kraus' law of de-agglomerating filler, ``x = (strain/critical_strain)^m``.
+    r"""Kraus' law of de-agglomerating filler, ``x = (strain/critical_strain)^m``, ``y`` the same of E''.
 
-    ``E' = far + (plateau - far)/(1 + x^2)`` and ``E'' = far_loss + 2 (peak_loss - far_loss) x/(1 + x^2)``.
+    ``E' = far + (plateau - far)/(1 + x^2)`` and ``E'' = far_loss + 2 (peak_loss - far_loss) y/(1 + y^2)``.
 
     Parameters
     ----------
@@ -27,10 +28,10 @@ class KrausLaw:
         E' at vanishing and at large strain [Pa].
     peak_loss, far_loss : float
         E'' at the critical strain and far from it [Pa].
-    critical_strain : float
-        Where E' has fallen half way [-].
-    exponent : float
-        m [-].
+    critical_strain, loss_strain : float
+        Where E' has fallen half way, and where E'' is largest [-]; one and the same in Kraus' theory.
+    exponent, loss_exponent : float
+        m of E' and of E'' [-]; one and the same in Kraus' theory.
 
     References
     ----------
@@ -44,6 +45,8 @@ class KrausLaw:
     far_loss: float
     critical_strain: float
     exponent: float
+    loss_strain: float
+    loss_exponent: float
 
     def storage(self, strain: ArrayLike) -> FloatArray:
         """Return E' at strain amplitudes [-], shape of `strain` [Pa]."""
@@ -52,7 +55,7 @@ class KrausLaw:
 
     def loss(self, strain: ArrayLike) -> FloatArray:
         """Return E'' at strain amplitudes [-], shape of `strain` [Pa]."""
-        _, rate = _kraus_shapes(np.asarray(strain, dtype=np.float64), self.critical_strain, self.exponent)
+        _, rate = _kraus_shapes(np.asarray(strain, dtype=np.float64), self.loss_strain, self.loss_exponent)
         return np.asarray(self.far_loss + (self.peak_loss - self.far_loss) * rate)[()]
 
 
@@ -82,13 +85,15 @@ def _kraus_shapes(strain: FloatArray, critical: float, exponent: float) -> tuple
     return np.asarray(0.5 * (1.0 + np.tanh(x))), np.asarray(1.0 / np.cosh(x))
 
 
-def fit_kraus(sweep: StrainSweep) -> KrausFit:
+def fit_kraus(sweep: StrainSweep, *, shared: bool = False) -> KrausFit:
     """Fit Kraus' law to both moduli of a sweep, relative errors, least squares.
 
     Parameters
     ----------
     sweep : StrainSweep
         Measured moduli [Pa].
+    shared : bool
+        One critical strain and exponent for both moduli, as in Kraus' theory, in place of each its own [-].
 
     Returns
     -------
@@ -97,42 +102,61 @@ def fit_kraus(sweep: StrainSweep) -> KrausFit:
 
     Notes
     -----
-    The four moduli are linear in the law (non-negative least squares); critical strain and exponent are searched.
+    The four moduli are linear in the law (non-negative least squares); critical strains and exponents are searched.
 
     Examples
     --------
-    >>> law = KrausLaw(10e6, 3e6, 1.5e6, 0.5e6, 0.01, 0.6)
+    >>> law = KrausLaw(10e6, 3e6, 1.5e6, 0.5e6, 0.01, 0.6, 0.01, 0.6)
     >>> strain = np.geomspace(1e-4, 0.3, 20)
-    >>> fit = fit_kraus(StrainSweep(293.15, 1.0, strain, law.storage(strain), law.loss(strain)))
+    >>> sweep = StrainSweep(293.15, 1.0, strain, law.storage(strain), law.loss(strain))
+    >>> fit = fit_kraus(sweep, shared=True)
     >>> round(fit.law.critical_strain, 6), round(fit.law.exponent, 6)
     (0.01, 0.6)
     """
+    strain = sweep.strain
+    if shared:
+        both = _searched(
+            strain,
+            lambda place: np.concatenate(
+                [_moduli(strain, sweep.storage, 0, place)[1], _moduli(strain, sweep.loss, 1, place)[1]]
+            ),
+        )
+        places = (both, both)
+    else:
+        places = (
+            _searched(strain, lambda place: _moduli(strain, sweep.storage, 0, place)[1]),
+            _searched(strain, lambda place: _moduli(strain, sweep.loss, 1, place)[1]),
+        )
+    (plateau, far), missed = _moduli(strain, sweep.storage, 0, places[0])
+    (far_loss, peak_loss), missed_loss = _moduli(strain, sweep.loss, 1, places[1])
+    law = KrausLaw(
+        plateau, far, peak_loss, far_loss, *np.exp(places[0]).tolist(), *np.exp(places[1]).tolist()
+    )
+    return KrausFit(
+        law,
+        float(np.sqrt(np.mean(missed**2))),
+        float(np.sqrt(np.mean(missed_loss**2))),
+        StrainSweep(sweep.temperature, sweep.frequency, strain, law.storage(strain), law.loss(strain)),
+    )
 
-    def solved(unknown: FloatArray) -> tuple[KrausLaw, FloatArray]:
-        critical, exponent = math.exp(unknown[0]), math.exp(unknown[1])
-        broken, rate = _kraus_shapes(sweep.strain, critical, exponent)
-        moduli, missed = [], []
-        for share, measured in ((broken, sweep.storage), (rate, sweep.loss)):
-            columns = np.stack([1.0 - share, share], axis=1) / measured[:, None]
-            scaled, _ = nnls(columns * measured.max(), np.ones(measured.size))
-            moduli += [float(v) * float(measured.max()) for v in scaled]
-            missed.append(columns @ (scaled * measured.max()) - 1.0)
-        law = KrausLaw(moduli[0], moduli[1], moduli[3], moduli[2], critical, exponent)
-        return law, np.concatenate(missed)
 
-    middle = 0.5 * (math.log(sweep.strain[0]) + math.log(sweep.strain[-1]))
+def _moduli(
+    strain: FloatArray, measured: FloatArray, which: int, place: FloatArray
+) -> tuple[tuple[float, float], FloatArray]:
+    """The two moduli of one branch of the law at ln critical strain and ln m, and the relative errors left."""
+    share = _kraus_shapes(strain, math.exp(place[0]), math.exp(place[1]))[which]
+    unit = float(measured.max())
+    columns = np.stack([1.0 - share, share], axis=1) * (unit / measured)[:, None]
+    scaled, _ = nnls(columns, np.ones(measured.size))
+    return (unit * float(scaled[0]), unit * float(scaled[1])), np.asarray(columns @ scaled - 1.0)
 
-    def misses(unknown: FloatArray) -> FloatArray:
-        return solved(unknown)[1]
 
+def _searched(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Best of several starts in ln critical strain and ln m."""
+    middle = 0.5 * (math.log(strain[0]) + math.log(strain[-1]))
     best, least = np.zeros(2), math.inf
     for exponent in _KRAUS_STARTS:
-        found = least_squares(misses, [middle, math.log(exponent)], xtol=1e-12, ftol=1e-12, gtol=1e-12)
+        found = least_squares(missed, [middle, math.log(exponent)], xtol=1e-12, ftol=1e-12, gtol=1e-12)
         if float(found.cost) < least:
             best, least = np.asarray(found.x, dtype=np.float64), float(found.cost)
-    law, miss = solved(best)
-    rms = np.sqrt(np.mean(miss.reshape(2, -1) ** 2, axis=1))
-    smoothed = StrainSweep(
-        sweep.temperature, sweep.frequency, sweep.strain, law.storage(sweep.strain), law.loss(sweep.strain)
-    )
-    return KrausFit(law, float(rms[0]), float(rms[1]), smoothed)
+    return best
