@@ -24,6 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from conveyor.rubber import WLF, PronyFit, PronySeries, fit_prony, read_master_curve
+from conveyor.rubber.band import METHOD, ReplicaBand, bootstrap
 
 ZERO_CELSIUS = 273.15
 SHELF = Path(__file__).resolve().parent.parent / "materials"
@@ -42,6 +43,8 @@ SLOWEST = 1.0e3
 """tau_s, where the network has settled at 20 degC [s]."""
 TIMES = np.logspace(-14, 4, 37)
 """Two lines a decade [s]."""
+REPLICAS = 20
+"""Replicas of a fit in a file; the band they span, 5 to 95 %, is known to a few tenths of its width."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,8 @@ MEASURED = (
     Measured(
         "S100",
         "Filled rubber of tyre type, not a belt cover: master curve as published, raw. Its E'' scatters"
-        " by 28 % and contradicts its E' (no positive spectrum does much better): for trends, no guarantees.",
+        " by 24 % from row to row and contradicts its E' (no positive spectrum does much better): for trends,"
+        " no guarantees.",
         UNKNOWN,
     ),
     Measured(
@@ -105,6 +109,19 @@ def prony_lines(series: PronySeries) -> list[str]:
         for e, t in zip(series.moduli, series.times, strict=True)
     ]
     return ["prony:", f"  equilibrium: {number(series.equilibrium / 1e6)} MPa", "  terms:", *terms]
+
+
+def band_lines(band: ReplicaBand) -> list[str]:
+    """Six digits: the band is known to one or two."""
+    rows = [f"      - {listing([f'{e / 1e6:.6g}' for e in row])}" for row in band.moduli]
+    return [
+        f"  band:  # {len(rows)} replicas of the fit, moduli in the order of the terms",
+        f'    method: "{METHOD}"',
+        f"    equilibrium: {listing([f'{e / 1e6:.6g} MPa' for e in band.equilibrium])}",
+        "    unit: MPa",
+        "    moduli:",
+        *rows,
+    ]
 
 
 def listing(items: list[str]) -> str:
@@ -141,6 +158,7 @@ def measured_text(compound: Measured) -> str:
         "strain: not stated",
         f"reference_temperature: {number(reference)} degC  # where a_T = 1; quoted as 40 degC",
         *prony_lines(fit.series),
+        *band_lines(bootstrap(fit, replicas=REPLICAS)),
         "shift:",
         "  law: table",
         f"  temperature: {listing([number(t) + ' degC' for t in temperatures])}",
@@ -153,9 +171,11 @@ def measured_text(compound: Measured) -> str:
         f"  loss_rms: {fit.loss.rms:.6g}",
         f"  storage_worst: {abs(fit.storage.worst):.6g}",
         f"  loss_worst: {abs(fit.loss.worst):.6g}",
-        "  method: \"NNLS on relative errors of E' and E'', one relaxation time per decade inside the data"
-        " window, equilibrium free; the best positive spectrum of all leaves"
-        f' {fit.consistency_floor:.1%} rms of both"',
+        "  method: \"NNLS on errors of E' and E'' relative to the fit,"
+        f" {fit.candidates[0].terms_per_decade:g} relaxation times per decade inside the data window and penalty"
+        f" {fit.regularisation:g} on the curvature of the spectrum by AICc, equilibrium free; leaves"
+        f" {fit.residual:.1%} rms of both, the best positive spectrum of all {fit.consistency_floor:.1%};"
+        f" scatter of the data from row to row {fit.storage_noise:.1%} (E') and {fit.loss_noise:.1%} (E'')\"",
         "missing:",
         *[f"  - {item}" for item in compound.missing],
     ]
@@ -244,8 +264,14 @@ def main(folder: Path) -> None:
             f"{compound.name}: {fit.active_terms} of {fit.grid_terms} terms,"
             f" E_e {fit.series.equilibrium / 1e6:.3f} MPa,"
             f" rms E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}, tan delta {fit.tan_delta.rms:.1%};"
-            f" both together {fit.residual:.1%}, at best {fit.consistency_floor:.1%}"
+            f" both together {fit.residual:.1%}, at best {fit.consistency_floor:.1%};"
+            f" scatter {fit.storage_noise:.1%} and {fit.loss_noise:.1%}"
         )
+        for line in fit.candidates[:5]:
+            print(
+                f"  {line.terms_per_decade:g} per decade, penalty {line.regularisation:g}: {line.terms} terms,"
+                f" {line.freedom:.1f} parameters, {line.residual:.2%}, AICc {line.score:.1f}"
+            )
     for cover in ILLUSTRATIVE:
         series, _ = construct(cover)
         print(f"{cover.name}: {series.times.size} terms, E_e {series.equilibrium / 1e6:.3f} MPa")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
@@ -37,6 +37,8 @@ PositiveTime = Annotated[Time, Bounds(gt="0 s")]
 PositiveFrequency = Annotated[Frequency, Bounds(gt="0 Hz")]
 RelativeError = Annotated[Fraction, Bounds(ge="0 %")]
 
+_PASCALS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+
 CONVERSION_ROUNDING = 1e-9
 """Relative difference of one temperature given in degC, degF or K: rounding of the conversion only."""
 
@@ -63,6 +65,48 @@ class PronyTerm(Model):
     """Relaxation time τ_i at the reference temperature."""
 
 
+class Band(Model):
+    """Replicas of a fitted series at the same times: what the data behind it allow as well."""
+
+    method: str
+    """How the replicas were drawn."""
+    equilibrium: Annotated[tuple[PositiveModulus, ...], Field(min_length=1)]
+    """E_e of each replica."""
+    unit: Literal["Pa", "kPa", "MPa", "GPa"]
+    """Unit of `moduli`."""
+    moduli: tuple[tuple[Annotated[Number, Field(ge=0)], ...], ...]
+    """E_i of each replica, in the order of the terms; 0 is a term that the replica does not have."""
+
+    @model_validator(mode="after")
+    def _one_list_per_replica(self) -> Self:
+        if len(self.moduli) != len(self.equilibrium):
+            message = f"got {len(self.moduli)} lists for {len(self.equilibrium)} values of equilibrium"
+            refuse("Band", [Problem(("moduli",), f"{message}, one list per replica is needed")])
+        return self
+
+    def series(self, times: Sequence[float]) -> tuple[PronySeries, ...]:
+        """Return the replicas.
+
+        Parameters
+        ----------
+        times : sequence of float
+            Relaxation times of the terms, in their order [s].
+
+        Returns
+        -------
+        tuple of PronySeries
+            One per replica, SI; terms of modulus 0 left out.
+        """
+        from conveyor.rubber import PronySeries
+
+        tau, scale = np.array(times), _PASCALS[self.unit]
+        found = []
+        for equilibrium, row in zip(self.equilibrium, self.moduli, strict=True):
+            moduli = np.array(row) * scale
+            found.append(PronySeries(si(equilibrium), moduli[moduli > 0.0], tau[moduli > 0.0]))
+        return tuple(found)
+
+
 class Prony(Model):
     """Relaxation modulus E(t) = E_e + Σ E_i exp(-t/τ_i) at the reference temperature."""
 
@@ -70,6 +114,21 @@ class Prony(Model):
     """E_e, the modulus at rest."""
     terms: Annotated[tuple[PronyTerm, ...], Field(max_length=500)]
     """Terms, in any order, with distinct times."""
+    band: Band | None = None
+    """Replicas of the fit, for the uncertainty of every result."""
+
+    @model_validator(mode="after")
+    def _one_modulus_per_term(self) -> Self:
+        count = len(self.terms)
+        refuse(
+            "Prony",
+            [
+                Problem(("band", "moduli", i), f"got {len(row)} moduli, {count} are needed, one per term")
+                for i, row in enumerate(self.band.moduli if self.band else ())
+                if len(row) != count
+            ],
+        )
+        return self
 
 
 class TableShift(Model):
@@ -244,20 +303,45 @@ class RubberCompound(Model):
         RangeError
             The temperature is outside the compound's stated range or its shift law, or it has no law.
         """
+        return self._at(temperature, (self._reference_series(),))[0]
+
+    def replicas(self, temperature: float) -> tuple[PronySeries, ...]:
+        """Return the replicas of the fit at a temperature, alternatives to `series`.
+
+        Parameters
+        ----------
+        temperature : float
+            Absolute temperature [K].
+
+        Returns
+        -------
+        tuple of PronySeries
+            SI; empty for a compound without a band.
+
+        Raises
+        ------
+        RangeError
+            As `series`.
+        """
+        band, terms = self.prony.band, self.prony.terms
+        reference = () if band is None else band.series([si(term.time) for term in terms])
+        return self._at(temperature, reference)
+
+    def _at(self, temperature: float, reference: tuple[PronySeries, ...]) -> tuple[PronySeries, ...]:
+        """Shift series of the reference temperature to another [K]."""
         from conveyor.rubber import shifted
 
         self._refuse_extrapolation(temperature)
         law = self.shift_law()
-        reference = si(self.reference_temperature)
         if law is not None:
-            return shifted(self._reference_series(), law, temperature)
-        if not math.isclose(temperature, reference, rel_tol=CONVERSION_ROUNDING):
+            return tuple(shifted(series, law, temperature) for series in reference)
+        if not math.isclose(temperature, si(self.reference_temperature), rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '
                 f"{text(self.reference_temperature)} only, not at {display(temperature, 'temperature', digits=6)}; "
                 "give it a shift law, or calculate at its reference temperature"
             )
-        return self._reference_series()
+        return reference
 
 
 def _resolved(value: Any, info: ValidationInfo) -> Any:

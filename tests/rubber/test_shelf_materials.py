@@ -104,7 +104,8 @@ def test_script_reproduces_the_committed_file(name: str, script: dict[str, Any])
     for (path, a), (_, b) in zip(fresh, kept, strict=True):
         if isinstance(a, float):
             # twelve digits written, condition of the fit below 10, other linear algebra libraries allowed
-            assert a == pytest.approx(b, rel=1e-9), path
+            # the replicas are written with six digits: a last one may round the other way
+            assert a == pytest.approx(b, rel=2e-5 if ".band." in path else 1e-9, abs=0), path
         else:
             assert a == b, path
 

@@ -1,0 +1,254 @@
+"""How many terms, and how smooth a spectrum, the data support: penalised fits compared by one criterion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+from conveyor.errors import InputError
+from conveyor.rubber.arrays import FloatArray
+from conveyor.rubber.rows import DUST, Rows, even_times
+
+DENSITIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 8.0)
+"""Offered terms per decade. At eight, twins stand for a line between them to (0.29)^2/8 = 1 % of E'' or less."""
+BARE_DENSITY = 8.0
+"""From here on no penalty is offered: a spectrum that is smooth needs fewer lines [1/decade]."""
+STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
+"""Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
+SUPPORT = 2.0
+"""Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
+ROUNDING = 1e-13
+"""Relative errors below this are rounding, not information [-]."""
+SMOOTHING = 0.5 * np.log(10.0)
+"""Standard deviation in ln(frequency) of the smoothing of E'': half a decade."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One line of the criterion's table.
+
+    Parameters
+    ----------
+    terms_per_decade : float
+        Density of the relaxation times offered [1/decade].
+    regularisation : float
+        Strength of the penalty [-].
+    terms : int
+        Active terms [-].
+    freedom : float
+        Effective number of fitted parameters, trace of the hat matrix [-].
+    residual : float
+        Root mean square of the relative errors, E' and E'' together [-].
+    score : float
+        The corrected Akaike criterion AICc; differences count, below 2 is a tie [-].
+    """
+
+    terms_per_decade: float
+    regularisation: float
+    terms: int
+    freedom: float
+    residual: float
+    score: float
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Moduli of one penalised fit and what they cost.
+
+    Parameters
+    ----------
+    moduli : numpy.ndarray
+        Equilibrium first, shape `(1 + m,)` [Pa].
+    freedom : float
+        Trace of the hat matrix [-].
+    residual : float
+        Root mean square of the relative errors [-].
+    """
+
+    moduli: FloatArray
+    freedom: float
+    residual: float
+
+
+class Penalised:
+    """Rows of a fit on given times, factorised once, for any strength of the penalty and any data.
+
+    Parameters
+    ----------
+    rows : Rows
+        The measurements.
+    tau : numpy.ndarray
+        Relaxation times, shape `(m,)`, ascending [s].
+    held : float or None
+        Equilibrium modulus held; fitted without one [Pa].
+
+    Notes
+    -----
+    Minimised is, over moduli >= 0,
+
+        sum of squared relative errors  +  lambda (N/L) integral (d^2 g/du^2)^2 du,   u = ln tau,
+
+    with N rows of E' and E'' over L = ln(omega_max/omega_min), and g = H/H0: the spectrum over its own
+    first estimate H0(tau) = (2/pi) E''(1/tau), E'' smoothed. So each decade of a spectrum that spans many
+    is smoothed alike, as it would be by a penalty on ln H, while the problem stays linear.
+
+    References
+    ----------
+    J. Honerkamp, J. Weese, Macromolecules 22 (1989) 4372-4377 (regularised spectra).
+    N. W. Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior (1989), chapter 4
+    (H0, first approximation).
+    """
+
+    def __init__(self, rows: Rows, tau: FloatArray, held: float | None) -> None:
+        self.tau, self.held = tau, held
+        u = np.log(tau)
+        cell = np.gradient(u) if tau.size > 1 else np.ones(1)
+        first = (2.0 / np.pi) * _smoothed_loss(rows, tau) * cell
+        self.unit = np.concatenate([[float(rows.storage.min())], first])
+        matrix = rows.matrix(tau) * self.unit
+        self.count = len(matrix)
+        self.fixed = matrix[:, 0] * (0.0 if held is None else held / self.unit[0])
+        self.columns = matrix if held is None else matrix[:, 1:]
+        self.basis, self.triangle = np.linalg.qr(self.columns)
+        length = float(np.log(rows.frequency[-1] / rows.frequency[0]))
+        bends = _second_derivative(u) * np.sqrt(self.count / length)
+        self.bends = np.column_stack([np.zeros(len(bends)), bends]) if held is None else bends
+        self.dust = DUST * float(rows.storage.min()) / self.unit
+
+    def solve(self, target: FloatArray, strength: float) -> FloatArray:
+        """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa]."""
+        right = self.basis.T @ (target - self.fixed)
+        matrix = self._stacked(strength)
+        found, _ = nnls(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
+        full = found if self.held is None else np.concatenate([[self.held / self.unit[0]], found])
+        return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
+
+    def leverage(self, moduli: FloatArray, strength: float) -> FloatArray:
+        """Diagonal of the hat matrix on the active set, shape `(2n,)` [-]."""
+        active = moduli > 0.0 if self.held is None else moduli[1:] > 0.0
+        penalty = np.sqrt(strength) * self.bends[:, active]
+        factor, _ = np.linalg.qr(np.vstack([self.columns[:, active], penalty]))
+        return np.asarray(np.sum(factor[: self.count] ** 2, axis=1))
+
+    def judged(self, target: FloatArray, strength: float) -> Solution:
+        """Solve, and count parameters and errors."""
+        moduli = self.solve(target, strength)
+        active = moduli > 0.0 if self.held is None else moduli[1:] > 0.0
+        factor, _ = np.linalg.qr(self._stacked(strength)[:, active])
+        freedom = float(np.sum(factor[: len(self.triangle)] ** 2))
+        weights = moduli / self.unit if self.held is None else (moduli / self.unit)[1:]
+        error = self.columns @ weights + self.fixed - target
+        return Solution(moduli, freedom, float(np.sqrt(np.mean(error**2))))
+
+    def _stacked(self, strength: float) -> FloatArray:
+        if strength == 0.0:
+            return self.triangle
+        return np.vstack([self.triangle, np.sqrt(strength) * self.bends])
+
+
+def _smoothed_loss(rows: Rows, tau: FloatArray) -> FloatArray:
+    """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa]."""
+    distance = (np.log(rows.omega) + np.log(tau)[:, None]) / SMOOTHING
+    nearest = np.min(np.abs(distance), axis=1, keepdims=True)
+    weights = np.exp(0.5 * (nearest**2 - distance**2))
+    return np.asarray(np.exp(weights @ np.log(rows.loss) / weights.sum(axis=1)))
+
+
+def _second_derivative(u: FloatArray) -> FloatArray:
+    """Rows whose sum of squares is the integral of (g'')^2 over u, shape `(m - 2, m)`."""
+    if u.size < 3:
+        return np.zeros((0, u.size))
+    step = np.diff(u)
+    slopes = np.diff(np.eye(u.size), axis=0) / step[:, None]
+    middle = 0.5 * (step[1:] + step[:-1])
+    return np.asarray(np.diff(slopes, axis=0) / np.sqrt(middle)[:, None])
+
+
+def aicc(count: int, freedom: float, residual: float) -> float:
+    """Corrected Akaike criterion, ``N [ln s^2 + 1 + 2 (k + 1)/(N - k - 2)]``.
+
+    C. M. Hurvich, J. S. Simonoff, C.-L. Tsai, J. R. Stat. Soc. B 60 (1998) 271-293, Eq. for AICc with k the
+    trace of the hat matrix: it chooses the number of terms and the strength of the penalty alike.
+
+    Parameters
+    ----------
+    count : int
+        Number N of rows, E' and E'' together [-].
+    freedom : float
+        Effective number k of parameters, below N - 2 [-].
+    residual : float
+        Root mean square relative error s [-].
+
+    Returns
+    -------
+    float
+        AICc [-].
+
+    Examples
+    --------
+    >>> aicc(100, 10.0, 0.01) < aicc(100, 20.0, 0.0099)
+    True
+    """
+    s = max(residual, ROUNDING)
+    return float(count * (2.0 * np.log(s) + 1.0 + 2.0 * (freedom + 1.0) / (count - freedom - 2.0)))
+
+
+def choose(
+    rows: Rows, held: float | None, strengths: tuple[float, ...] = STRENGTHS
+) -> tuple[FloatArray, float, tuple[Candidate, ...]]:
+    """Fit every density and strength and take the fewest terms that the data support.
+
+    Parameters
+    ----------
+    rows : Rows
+        The measurements.
+    held : float or None
+        Equilibrium modulus held; fitted without one [Pa].
+    strengths : tuple of float
+        Strengths of the penalty to offer [-].
+
+    Returns
+    -------
+    tuple
+        Times offered by the chosen candidate [s], its strength [-], and the table, chosen candidate first,
+        the rest by score.
+
+    Raises
+    ------
+    InputError
+        If there are too few rows to judge even the smallest series.
+
+    Notes
+    -----
+    Of all candidates within `SUPPORT` of the smallest AICc, the one with the fewest active terms is taken,
+    among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
+    (fluids) count only if no other has that support.
+    """
+    found: list[tuple[Candidate, FloatArray, bool]] = []
+    target = rows.target
+    for density in DENSITIES:
+        tau = even_times(rows.omega, density)
+        if any(tau.size == other.size for _, other, _ in found):
+            continue  # a short window: the same two or three times again
+        problem = Penalised(rows, tau, held)
+        for strength in strengths if tau.size > 2 and density < BARE_DENSITY else strengths[:1]:
+            one = problem.judged(target, strength)
+            terms = int(np.count_nonzero(one.moduli[1:]))
+            if target.size - one.freedom - 2.0 <= 0.0 or terms == 0:
+                continue
+            score = aicc(target.size, one.freedom, one.residual)
+            line = Candidate(density, strength, terms, one.freedom, one.residual, score)
+            found.append((line, tau, bool(one.moduli[0] > 0.0)))
+    if not found:
+        raise InputError(
+            f"{target.size // 2} rows are too few to choose the number of terms: measure more frequencies,"
+            " or give terms_per_decade= or times="
+        )
+    best = min(line.score for line, _, _ in found)
+    supported = [c for c in found if c[0].score <= best + SUPPORT]
+    solid = [c for c in supported if c[2]]
+    chosen = min(solid or supported, key=lambda c: (c[0].terms, c[0].freedom))
+    others = sorted((c[0] for c in found if c is not chosen), key=lambda line: line.score)
+    return chosen[1], chosen[0].regularisation, (chosen[0], *others)
