@@ -27,7 +27,7 @@ ComplexArray = NDArray[np.complex128]
 
 _HARMONICS = 4.0  # m α up to this many times `points`: two wave numbers for each spacing of the places
 _DEEPEST = 12.0  # k z where e^{-2kz} leaves 4e-11 of the dissipation of a half-space
-_GRADE = 0.5  # of the half width: depths are linear in z above it, logarithmic below
+_GRADE = 0.5  # of the half width: depths are evenly spread above it, logarithmically below
 _NEAR = 2.0  # half widths about a strip that are sampled evenly, octaves beyond
 _OCTAVE = 6  # an octave on one side takes a sixth of the places of the near field
 # outside the strips the field is smooth over the distance d to them: a flat window ½ erfc((m - m1)/w) ending at 40/d
