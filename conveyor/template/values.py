@@ -70,9 +70,9 @@ def _joined(leaf: Leaf, data: Any) -> str | None:
         return _quoted(_plain(data))
     if not data:
         return None
-    return f"{_SEPARATOR} ".join(_quoted(_plain(item)) for item in data) + (
-        _SEPARATOR if leaf.single and len(data) == 1 else ""
-    )
+    # one separator at the end is no item: it tells a list of one from one item, and keeps an empty last one
+    ended = (leaf.single and len(data) == 1) or (len(data) > 1 and data[-1] == "")
+    return f"{_SEPARATOR} ".join(_quoted(_plain(item)) for item in data) + _SEPARATOR * ended
 
 
 def _plain(item: Any) -> str:

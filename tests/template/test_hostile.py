@@ -1,0 +1,419 @@
+"""Workbooks as people and programs spoil them: each ends in messages with sheet and cell."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+from openpyxl import Workbook, load_workbook
+from openpyxl.worksheet.worksheet import Worksheet
+
+from conveyor import spec
+from conveyor.errors import InputError
+from conveyor.models import Conveyor
+from conveyor.template.read import read_template
+from conveyor.template.workbook import LARGEST_CONTENT, LARGEST_FILE, MOST_PARTS
+from conveyor.template.write import write_template
+
+
+@pytest.fixture(scope="session")
+def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_template(tmp_path_factory.mktemp("template") / "pristine.xlsx")
+
+
+@pytest.fixture
+def path(pristine: Path, tmp_path: Path) -> Path:
+    copy = tmp_path / "input.xlsx"
+    copy.write_bytes(pristine.read_bytes())
+    return copy
+
+
+def load(path: Path) -> Conveyor:
+    read = read_template(path)
+    return spec.from_data(read.data, where=read.where, base=path.parent)
+
+
+def cell(book: Workbook, key: str, column: int = 2) -> Any:
+    """The value cell (the unit cell: column 3) of a field of a form."""
+    for sheet in book.worksheets:
+        for row in range(1, sheet.max_row + 1):
+            if sheet.cell(row, 7).value == key:
+                return sheet.cell(row, column)
+    raise KeyError(key)
+
+
+def place(path: Path, where: Any) -> str:
+    return f"{path}:{where.parent.title}!{where.coordinate}"
+
+
+# -- cells
+
+CELLS: list[tuple[str, Any, Any, str]] = [
+    ("belt.width", "1,2", "m", 'belt.width: got "1,2 m": a comma is ambiguous; write a decimal point'),
+    ("belt.width", "1 200", "mm", "belt.width: got .* write the number without a thousands sign"),
+    ("belt.width", "1200 mm", "m", 'belt.width: got "1200 mm" beside the unit "m"; give the number alone'),
+    ("belt.width", 1200, None, 'belt.width: got 1200.* without a unit; give the unit, e.g. "1200'),
+    ("belt.width", 1200, "kg", r'belt.width: got "1200 kg" \(a mass\), expected a length such as "1200 mm"'),
+    ("belt.width", 1200, "milimeter", 'belt.width: .*unknown unit "milimeter"'),
+    ("belt.width", 12, "m", "belt.width: got 12 m, allowed: >= 0.1 m and <= 5 m"),
+    ("belt.width", True, "m", "belt.width: expected a length"),
+    ("belt.width", "nan", "m", "belt.width: got .* expected a finite number"),
+    ("belt.width", None, "mm", "belt.width: missing; expected a length"),
+    ("belt.width", " ", "mm", "belt.width: missing; expected a length"),
+    (
+        "belt.width",
+        datetime(2024, 5, 1, tzinfo=UTC).replace(tzinfo=None),
+        "m",
+        "belt.width: holds a date or time .2024-05-01",
+    ),
+    ("belt.width", "=A1*2", "m", "belt.width: holds a formula without a result; open the workbook in a"),
+    ("belt.width", "#REF!", "m", "belt.width: holds the error #REF!; correct its formula"),
+    ("drive.friction", "0,35", None, 'drive.friction: expected a number, got "0,35"'),
+    ("drive.friction", 7, None, "drive.friction: got 7.*, allowed: <= 1"),
+    ("idlers.carry.rolls", 4, None, "idlers.carry.rolls: got 4, allowed: 1, 2, 3 or 5"),
+    ("idlers.carry.rolls", "three", None, 'idlers.carry.rolls: got "three", allowed: 1, 2, 3 or 5'),
+    ("idlers.carry.load_shares", "20 %; 60 %", None, "load_shares: got 2 shares for rolls: 3"),
+    ("idlers.carry.load_shares", '"20', None, "load_shares: got .* expected values separated by"),
+    ("belt.carcass.kind", "steelcord", None, "belt.carcass.kind: got \"steelcord\", allowed: 'steel cord'"),
+    ("belt.bottom_cover.compound", "standard-cove", None, 'did you mean "standard-cover"'),
+    ("route.turned_over", "maybe", None, 'route.turned_over: got "maybe", allowed: yes, no'),
+    ("calculation.gauss_points", 2.5, None, "calculation.gauss_points: expected a whole number, got 2.5"),
+    ("operation.price", "0.12", None, "operation.price: got .* expected a price"),
+]
+
+
+@pytest.mark.parametrize(("key", "value", "unit", "message"), CELLS, ids=lambda case: str(case)[:30])
+def test_spoilt_cells_are_named(path: Path, key: str, value: Any, unit: Any, message: str) -> None:
+    book = load_workbook(path)
+    changed = cell(book, key)
+    changed.value, cell(book, key, 3).value = value, unit
+    book.save(path)
+    with pytest.raises(InputError, match=re.escape(place(path, changed)) + " .*" + message):
+        load(path)
+
+
+ACCEPTED: list[tuple[str, Any, Any, str, Any]] = [
+    ("belt.width", "1200 mm", None, "width", "1200 mm"),
+    ("belt.width", "1200 mm", "mm", "width", "1200 mm"),
+    ("belt.width", "1200", "mm", "width", "1200 mm"),
+    ("belt.width", 1200.0, " mm ", "width", "1200 mm"),
+    ("belt.width", 1.2, "m", "width", "1.2 m"),
+]
+
+
+@pytest.mark.parametrize(("key", "value", "unit", "name", "expected"), ACCEPTED)
+def test_what_has_one_meaning_is_read(
+    path: Path, key: str, value: Any, unit: Any, name: str, expected: Any
+) -> None:
+    book = load_workbook(path)
+    cell(book, key).value, cell(book, key, 3).value = value, unit
+    book.save(path)
+    assert load(path).as_data()["belt"][name] == expected
+
+
+def test_switches_and_numbers_as_the_spreadsheet_stores_them(path: Path) -> None:
+    book = load_workbook(path)
+    cell(book, "route.turned_over").value = True
+    cell(book, "idlers.carry.rolls").value = "3"
+    cell(book, "calculation.gauss_points").value = 9.0
+    cell(book, "drive.friction").value = "0.3"
+    cell(book, "name").value = 12
+    book.save(path)
+    read = load(path)
+    assert (read.route.turned_over, read.idlers.carry.rolls, read.calculation.gauss_points) == (True, 3, 9)
+    assert (read.drive.friction, read.name) == (0.3, "12")
+
+
+def test_a_percentage_beside_a_percent_sign_is_refused(path: Path) -> None:
+    book = load_workbook(path)
+    changed = cell(book, "drive.efficiency")
+    changed.value, changed.number_format = 0.94, "0%"
+    book.save(path)
+    with pytest.raises(InputError, match=re.escape(place(path, changed)) + ".*shown as a percentage beside"):
+        load(path)
+    cell(book, "drive.efficiency", 3).value = None
+    book.save(path)
+    assert load(path).as_data()["drive"]["efficiency"] == 0.94
+
+
+def test_formulas_with_results_are_read(path: Path, tmp_path: Path) -> None:
+    # openpyxl writes no results; so the result is put into the sheet's XML as spreadsheet programs do
+    book = load_workbook(path)
+    where = cell(book, "belt.width").coordinate
+    names = book.sheetnames
+    book["Belt"][where] = "=600*2"
+    book.save(path)
+    part = f"xl/worksheets/sheet{names.index('Belt') + 1}.xml"
+    edit(path, part, lambda xml: re.sub(rb"<f>600\*2</f><v ?/>", b"<f>600*2</f><v>1200</v>", xml))
+    assert load(path).as_data()["belt"]["width"] == "1200 mm"
+    edit(path, part, lambda xml: xml.replace(b"<v>1200</v>", b"<v>1e999</v>"))
+    with pytest.raises(InputError, match=rf"Belt!{where} belt.width: holds a number that is not finite"):
+        load(path)
+
+
+def test_all_spoilt_cells_are_told_at_once(path: Path) -> None:
+    book = load_workbook(path)
+    cell(book, "belt.width").value = "=1+1"
+    book["Sections"]["C8"] = "=1+1"
+    book.save(path)
+    with pytest.raises(InputError) as refused:
+        load(path)
+    assert [line.split()[1] for line in str(refused.value).splitlines()] == [
+        "belt.width:",
+        "route.sections[1].length:",
+    ]
+
+
+# -- rows, columns, sheets
+
+
+def test_empty_rows_of_lists_are_passed_over_and_places_stay_right(path: Path) -> None:
+    before = [section.name for section in load(path).route.sections]
+    book = load_workbook(path)
+    book["Sections"].insert_rows(9, 3)
+    book.save(path)
+    assert [section.name for section in load(path).route.sections] == before
+    book["Sections"]["C12"] = -5
+    book.save(path)
+    with pytest.raises(
+        InputError, match=r"Sections!C12 route.sections\[2\].length: got -5 m, allowed: > 0 m"
+    ):
+        load(path)
+
+
+def test_missing_cells_of_a_list_are_named(path: Path) -> None:
+    book = load_workbook(path)
+    book["Sections"]["C8"] = None
+    book.save(path)
+    with pytest.raises(
+        InputError, match=r"Sections!C8 route.sections\[1\].length: missing; expected a length"
+    ):
+        load(path)
+
+
+def test_a_list_without_items_points_at_its_sheet(path: Path) -> None:
+    book = load_workbook(path)
+    book["Sections"].delete_rows(7, 100)
+    book.save(path)
+    with pytest.raises(InputError, match=r"Sections!A6 route.sections: got 0 entries, at least 1 needed"):
+        load(path)
+
+
+def change(edit_book: Callable[[Workbook], object]) -> Callable[[Path], None]:
+    def apply(path: Path) -> None:
+        book = load_workbook(path)
+        edit_book(book)
+        book.save(path)
+
+    return apply
+
+
+def belt(book: Workbook) -> Worksheet:
+    return book["Belt"]
+
+
+SHEETS: dict[str, tuple[Callable[[Workbook], object], str]] = {
+    "sheet missing": (lambda b: b.remove(belt(b)), r'input.xlsx: sheet "Belt" is missing; sheets found: "Conveyor"'),
+    "sheet renamed": (lambda b: setattr(belt(b), "title", "belt "), r'sheet "Belt" is missing; is it "belt "\? Give it its name back'),
+    "optional sheet renamed": (lambda b: setattr(b["Operation"], "title", "Operations"), r'"Operation" is missing; is it "Operations"'),
+    "header gone": (lambda b: belt(b).delete_rows(1, 4), r'sheet "Belt" has no row with "Key", "Value", "Unit"'),
+    "list header gone": (lambda b: b["Sections"].delete_rows(1, 6), r'sheet "Sections" has no row with "#"'),
+    "key misspelt": (lambda b: belt(b).__setitem__("G5", "belt.widht"), r'Belt!G5 unknown key "belt.widht"; did you mean "belt.width"\?'),
+    "column misspelt": (lambda b: b["Sections"].__setitem__("C6", "lenght"), r'Sections!C6 unknown key "lenght"; did you mean "length"\?'),
+    "column twice": (lambda b: b["Sections"].__setitem__("E6", "length"), r'Sections!E6 column "length" twice; remove one'),
+    "key twice": (lambda b: belt(b).__setitem__("G6", "belt.width"), r"Belt!B6 belt.width: given twice, first in row 5"),
+    "value without field": (lambda b: belt(b).__setitem__("B40", 5), r'Belt!B40 a value in a row without a field \(column "Key"\)'),
+    "stray beside a list": (lambda b: b["Sections"].__setitem__("Z40", 5), r"Sections!Z40 outside the columns of the list"),
+    "merged value": (lambda b: belt(b).merge_cells("B5:C5"), r"Belt!B5:C5 cells are merged; unmerge them"),
+    "merged items": (lambda b: b["Sections"].merge_cells("B7:B9"), r"Sections!B7:B9 cells are merged; unmerge them"),
+    "far cell": (lambda b: belt(b).__setitem__("XFD1048576", 1), r'sheet "Belt" reaches to XFD1048576; delete the empty rows'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", SHEETS)
+def test_spoilt_sheets_are_named(path: Path, case: str) -> None:
+    spoil, message = SHEETS[case]
+    change(spoil)(path)
+    with pytest.raises(InputError, match=message):
+        load(path)
+
+
+def test_other_sheets_moved_rows_and_optional_sheets_are_no_error(path: Path) -> None:
+    before = load(path).as_data()
+
+    def spoil(book: Workbook) -> None:
+        other = book.create_sheet("My notes", 0)
+        other["A1"] = "=1/0"
+        other.merge_cells("B1:C3")
+        belt(book).insert_rows(1, 3)
+        belt(book).insert_cols(4)
+        belt(book).move_range("A8:H8", rows=40)
+        book.remove(book["Operation"])
+
+    change(spoil)(path)
+    assert load(path).as_data() == {key: value for key, value in before.items() if key != "operation"}
+
+
+def test_an_absent_optional_column_is_empty_and_a_needed_one_is_missing(path: Path) -> None:
+    change(lambda book: book["Sections"].delete_cols(3, 2))(path)
+    with pytest.raises(InputError, match=r"Sections!A7 route.sections\[0\].length: missing"):
+        load(path)
+
+
+def test_written_out_compounds_are_named_once(path: Path) -> None:
+    from conveyor import shelf
+
+    data = load(path).as_data()
+    data["belt"]["bottom_cover"]["compound"] = shelf.compound("s120").as_data() | {"name": "mine"}
+    write_template(path, spec.from_data(data))
+    book = load_workbook(path)
+    own = book["Rubber compound 1"]
+    assert (own["B5"].value, own["G5"].value) == ("mine", "@")
+    own["B5"] = None
+    book.save(path)
+    with pytest.raises(InputError, match=r"'Rubber compound 1'!B5 needs a name to be referred to by"):
+        load(path)
+    own["B5"] = "mine"
+    book.copy_worksheet(own).title = "Rubber compound 2"
+    book.copy_worksheet(book["Rubber compound 1 terms"]).title = "Rubber compound 2 terms"
+    book.save(path)
+    with pytest.raises(InputError, match=r"'Rubber compound 2'!B5 \"mine\" is written out twice"):
+        load(path)
+    book["Rubber compound 2"]["B5"] = "other"
+    book["Rubber compound 1 terms"]["B9"] = -1
+    book.save(path)
+    with pytest.raises(
+        InputError,
+        match=r"'Rubber compound 1 terms'!B9 belt.bottom_cover.compound.prony.terms\[2\].modulus: got -1",
+    ):
+        load(path)
+
+
+# -- files
+
+
+def edit(path: Path, part: str, how: Callable[[bytes], bytes]) -> None:
+    """Rewrite one part of a workbook."""
+    with zipfile.ZipFile(path) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    changed = how(parts[part])
+    assert changed != parts[part]
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in parts.items():
+            archive.writestr(name, changed if name == part else content)
+
+
+def bomb(path: Path) -> None:
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/media/bomb", b"\0" * (LARGEST_CONTENT + 1))
+    assert path.stat().st_size < 10**6
+
+
+def crowd(path: Path) -> None:
+    with zipfile.ZipFile(path, "a") as archive:
+        for i in range(MOST_PARTS):
+            archive.writestr(f"xl/media/{i}", b"")
+
+
+def lying_bomb(path: Path) -> None:
+    """State a small size for a part that unpacks to a large one."""
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/media/bomb", b"\0" * 50_000_000)
+    size = (50_000_000).to_bytes(4, "little")
+    path.write_bytes(path.read_bytes().replace(size, (100).to_bytes(4, "little")))
+
+
+def encrypted_part(path: Path) -> None:
+    """Set the bit that marks encrypted parts in the directory of the archive."""
+    content = bytearray(path.read_bytes())
+    content[content.index(b"PK\x01\x02") + 8] |= 1
+    path.write_bytes(bytes(content))
+
+
+def entities(encoding: str) -> Callable[[Path], None]:
+    text = '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "bbbb"><!ENTITY c "&b;&b;">]>'
+
+    def put_in(path: Path) -> None:
+        edit(path, "xl/workbook.xml", lambda xml: text.encode(encoding) + xml)
+
+    return put_in
+
+
+OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 600
+FILES: dict[str, tuple[Callable[[Path], object], str]] = {
+    "password": (lambda p: p.write_bytes(OLE + "EncryptedPackage".encode("utf-16-le")), "protected by a password; save it without one"),
+    "old xls": (lambda p: p.write_bytes(OLE), "not a workbook of the .xlsx format; save it as .xlsx"),
+    "encrypted zip": (encrypted_part, "protected by a password; save it without one"),
+    "truncated": (lambda p: p.write_bytes(p.read_bytes()[:20_000]), "damaged or cut short .BadZipFile.; copy it again"),
+    "not a zip": (lambda p: p.write_text("name: x"), r"not a workbook \(.xlsx\); write one with: conveyor template"),
+    "empty": (lambda p: p.write_bytes(b""), "empty; write one with"),
+    "zip bomb": (bomb, "unpacks to more than 30,000,000 bytes or 2,000 parts; this is no input workbook"),
+    "many parts": (crowd, "unpacks to more than 30,000,000 bytes or 2,000 parts"),
+    "lying zip bomb": (lying_bomb, r"damaged or cut short"),
+    "entities": (entities("utf-8"), "xl/workbook.xml declares a document type"),
+    "entities in UTF-16": (entities("utf-16"), "xl/workbook.xml declares a document type"),
+    "bad checksum": (lambda p: p.write_bytes(p.read_bytes()[:2000] + b"\xff" * 40 + p.read_bytes()[2040:]), "damaged or cut short"),
+    "no workbook part": (lambda p: edit(p, "[Content_Types].xml", lambda _: b"<a/>"), "damaged or incomplete"),
+    "broken XML": (lambda p: edit(p, "xl/workbook.xml", lambda xml: xml[:-30]), "damaged or incomplete .ParseError."),
+    "other zip": (lambda p: zipfile.ZipFile(p, "w").close(), "not a workbook|damaged or incomplete"),
+    "large": (lambda p: p.write_bytes(b"PK" + b"\0" * LARGEST_FILE), "larger than 5,000,000 bytes"),
+    "gone": (lambda p: p.unlink(), "no such file"),
+    "folder": (lambda p: (p.unlink(), p.mkdir()), "cannot be read: Is a directory"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", FILES)
+def test_files_that_are_no_workbooks_are_refused(path: Path, case: str) -> None:
+    spoil, message = FILES[case]
+    spoil(path)
+    with pytest.raises(InputError, match=f"{re.escape(str(path))}: .*(?:{message})"):
+        read_template(path)
+
+
+def test_only_xlsx_is_read(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r'expected a workbook that ends in .xlsx, got "a.xlsm"'):
+        read_template(tmp_path / "a.xlsm")
+
+
+def test_a_workbook_of_something_else_is_refused(tmp_path: Path) -> None:
+    Workbook().save(tmp_path / "other.xlsx")
+    with pytest.raises(
+        InputError, match='sheet "Conveyor" is missing; sheets found: "Sheet"; write a new template'
+    ):
+        read_template(tmp_path / "other.xlsx")
+
+
+# -- writing
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("a.xls", "a workbook's name ends in .xlsx"),
+        ("none/a.xlsx", "its folder does not exist"),
+        ("folder.xlsx", "is a folder"),
+    ],
+)
+def test_paths_that_cannot_be_written_are_refused(tmp_path: Path, name: str, message: str) -> None:
+    (tmp_path / "folder.xlsx").mkdir()
+    with pytest.raises(InputError, match=message):
+        write_template(tmp_path / name)
+    assert [found.name for found in tmp_path.iterdir()] == ["folder.xlsx"]
+
+
+def test_a_full_disk_leaves_the_old_workbook_alone(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = path.read_bytes()
+
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(InputError, match="cannot be written .No space left on device."):
+        write_template(path)
+    assert path.read_bytes() == before
+    assert list(path.parent.iterdir()) == [path]
