@@ -205,7 +205,7 @@ def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBa
     3 % and 3 %, neighbours correlated by 0.7               82 to 86 %    86 to 90 %
     ======================================================  ============  ============
 
-    At a single frequency it goes down to 60 to 80 %: at the ends of the window, and in valleys of E'' between
+    At its worst frequency it is 57 to 83 %: at the ends of the window, and in valleys of E'' between
     lines of a spectrum that IS discrete.
 
     Draws whose best equilibrium modulus is 0 are drawn again: a cover is a solid.

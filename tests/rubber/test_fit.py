@@ -238,7 +238,8 @@ def test_errors_relative_to_the_fit_are_right_in_the_mean() -> None:
 
 def test_no_more_terms_than_the_data_support() -> None:
     terms = [fit_prony(*noisy(sigma, 1)).freedom for sigma in (0.01, 0.05, 0.2)]
-    assert terms[0] > terms[1] > terms[2]
+    # the criterion asks each parameter for a fall of the residual: at 20 % noise a third of them has to go
+    assert terms[2] < 0.7 * min(terms[:2])
 
 
 def test_table_of_the_criterion() -> None:
