@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -16,8 +17,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor import spec
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
+from conveyor.template import read
 from conveyor.template.read import read_template
-from conveyor.template.workbook import LARGEST_CONTENT, LARGEST_FILE, MOST_PARTS
+from conveyor.template.workbook import LARGEST_CONTENT, LARGEST_FILE, MOST_PARTS, Found, Grid, read_workbook
 from conveyor.template.write import write_template
 
 
@@ -34,8 +36,8 @@ def path(pristine: Path, tmp_path: Path) -> Path:
 
 
 def load(path: Path) -> Conveyor:
-    read = read_template(path)
-    return spec.from_data(read.data, where=read.where, base=path.parent)
+    filled = read_template(path)
+    return spec.from_data(filled.data, where=filled.where, base=path.parent)
 
 
 def cell(book: Workbook, key: str, column: int = 2) -> Any:
@@ -53,6 +55,35 @@ def place(path: Path, where: Any) -> str:
 
 # -- cells
 
+
+Edit = Callable[[str, Any, Any], str]
+
+
+@pytest.fixture(scope="session")
+def sheets(pristine: Path) -> dict[str, Grid]:
+    return read_workbook(pristine)
+
+
+@pytest.fixture
+def retype(path: Path, sheets: dict[str, Grid], monkeypatch: pytest.MonkeyPatch) -> Edit:
+    """Type a value and a unit over those of a field; gives the place of its value cell."""
+    grids = {name: replace(grid, cells=dict(grid.cells)) for name, grid in sheets.items()}
+    monkeypatch.setattr(read, "read_workbook", lambda _: grids)
+
+    def typed(key: str, value: Any, unit: Any) -> str:
+        for grid in grids.values():
+            row = next((row for row in grid.rows() if grid.text(row, 7) == key), None)
+            if row is not None:
+                grid.cells[row, 2], grid.cells[row, 3] = Found(value), Found(unit)
+                for column, given in ((2, value), (3, unit)):
+                    if given is None or not str(given).strip():
+                        del grid.cells[row, column]
+                return f"{path}:{grid.name}!B{row}"
+        raise KeyError(key)
+
+    return typed
+
+
 CELLS: list[tuple[str, Any, Any, str]] = [
     ("belt.width", "1,2", "m", 'belt.width: got "1,2 m": a comma is ambiguous; write a decimal point'),
     ("belt.width", "1 200", "mm", "belt.width: got .* write the number without a thousands sign"),
@@ -65,14 +96,6 @@ CELLS: list[tuple[str, Any, Any, str]] = [
     ("belt.width", "nan", "m", "belt.width: got .* expected a finite number"),
     ("belt.width", None, "mm", "belt.width: missing; expected a length"),
     ("belt.width", " ", "mm", "belt.width: missing; expected a length"),
-    (
-        "belt.width",
-        datetime(2024, 5, 1, tzinfo=UTC).replace(tzinfo=None),
-        "m",
-        "belt.width: holds a date or time .2024-05-01",
-    ),
-    ("belt.width", "=A1*2", "m", "belt.width: holds a formula without a result; open the workbook in a"),
-    ("belt.width", "#REF!", "m", "belt.width: holds the error #REF!; correct its formula"),
     ("drive.friction", "0,35", None, 'drive.friction: expected a number, got "0,35"'),
     ("drive.friction", 7, None, "drive.friction: got 7.*, allowed: <= 1"),
     ("idlers.carry.rolls", 4, None, "idlers.carry.rolls: got 4, allowed: 1, 2, 3 or 5"),
@@ -87,33 +110,52 @@ CELLS: list[tuple[str, Any, Any, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("key", "value", "unit", "message"), CELLS, ids=lambda case: str(case)[:30])
-def test_spoilt_cells_are_named(path: Path, key: str, value: Any, unit: Any, message: str) -> None:
-    book = load_workbook(path)
-    changed = cell(book, key)
-    changed.value, cell(book, key, 3).value = value, unit
-    book.save(path)
-    with pytest.raises(InputError, match=re.escape(place(path, changed)) + " .*" + message):
+@pytest.mark.parametrize("case", CELLS, ids=lambda case: f"{case[0]} {case[1]} {case[2]}")
+def test_spoilt_cells_are_named(path: Path, retype: Edit, case: tuple[str, Any, Any, str]) -> None:
+    key, value, unit, message = case
+    where = retype(key, value, unit)
+    with pytest.raises(InputError, match=re.escape(where) + " .*" + message):
         load(path)
 
 
-ACCEPTED: list[tuple[str, Any, Any, str, Any]] = [
-    ("belt.width", "1200 mm", None, "width", "1200 mm"),
-    ("belt.width", "1200 mm", "mm", "width", "1200 mm"),
-    ("belt.width", "1200", "mm", "width", "1200 mm"),
-    ("belt.width", 1200.0, " mm ", "width", "1200 mm"),
-    ("belt.width", 1.2, "m", "width", "1.2 m"),
+def test_cells_without_a_value_of_their_own_are_named(path: Path) -> None:
+    book = load_workbook(path)
+    spoilt = {
+        "belt.width": (
+            datetime(2024, 5, 1, tzinfo=UTC).replace(tzinfo=None),
+            "holds a date or time .2024-05-01",
+        ),
+        "belt.speed": (
+            "=A1*2",
+            "holds a formula without a result; open the workbook in a spreadsheet program",
+        ),
+        "belt.mass": ("#REF!", "holds the error #REF!; correct its formula or type the value"),
+    }
+    for key, (value, _) in spoilt.items():
+        cell(book, key).value = value
+    book.save(path)
+    with pytest.raises(InputError) as refused:
+        load(path)
+    told = str(refused.value).splitlines()
+    assert len(told) == len(spoilt)
+    for key, (_, message) in spoilt.items():
+        line = re.escape(place(path, cell(book, key))) + f" {key}: {message}"
+        assert sum(re.match(line, given) is not None for given in told) == 1
+
+
+ACCEPTED: list[tuple[Any, Any, str]] = [
+    ("1200 mm", None, "1200 mm"),
+    ("1200 mm", "mm", "1200 mm"),
+    ("1200", "mm", "1200 mm"),
+    (1200.0, " mm ", "1200 mm"),
+    (1.2, "m", "1.2 m"),
 ]
 
 
-@pytest.mark.parametrize(("key", "value", "unit", "name", "expected"), ACCEPTED)
-def test_what_has_one_meaning_is_read(
-    path: Path, key: str, value: Any, unit: Any, name: str, expected: Any
-) -> None:
-    book = load_workbook(path)
-    cell(book, key).value, cell(book, key, 3).value = value, unit
-    book.save(path)
-    assert load(path).as_data()["belt"][name] == expected
+@pytest.mark.parametrize(("value", "unit", "expected"), ACCEPTED)
+def test_what_has_one_meaning_is_read(path: Path, retype: Edit, value: Any, unit: Any, expected: str) -> None:
+    retype("belt.width", value, unit)
+    assert load(path).as_data()["belt"]["width"] == expected
 
 
 def test_switches_and_numbers_as_the_spreadsheet_stores_them(path: Path) -> None:
@@ -124,9 +166,9 @@ def test_switches_and_numbers_as_the_spreadsheet_stores_them(path: Path) -> None
     cell(book, "drive.friction").value = "0.3"
     cell(book, "name").value = 12
     book.save(path)
-    read = load(path)
-    assert (read.route.turned_over, read.idlers.carry.rolls, read.calculation.gauss_points) == (True, 3, 9)
-    assert (read.drive.friction, read.name) == (0.3, "12")
+    line = load(path)
+    assert (line.route.turned_over, line.idlers.carry.rolls, line.calculation.gauss_points) == (True, 3, 9)
+    assert (line.drive.friction, line.name) == (0.3, "12")
 
 
 def test_a_percentage_beside_a_percent_sign_is_refused(path: Path) -> None:
@@ -141,7 +183,7 @@ def test_a_percentage_beside_a_percent_sign_is_refused(path: Path) -> None:
     assert load(path).as_data()["drive"]["efficiency"] == 0.94
 
 
-def test_formulas_with_results_are_read(path: Path, tmp_path: Path) -> None:
+def test_formulas_with_results_are_read(path: Path) -> None:
     # openpyxl writes no results; so the result is put into the sheet's XML as spreadsheet programs do
     book = load_workbook(path)
     where = cell(book, "belt.width").coordinate
@@ -218,21 +260,57 @@ def belt(book: Workbook) -> Worksheet:
 
 
 SHEETS: dict[str, tuple[Callable[[Workbook], object], str]] = {
-    "sheet missing": (lambda b: b.remove(belt(b)), r'input.xlsx: sheet "Belt" is missing; sheets found: "Conveyor"'),
-    "sheet renamed": (lambda b: setattr(belt(b), "title", "belt "), r'sheet "Belt" is missing; is it "belt "\? Give it its name back'),
-    "optional sheet renamed": (lambda b: setattr(b["Operation"], "title", "Operations"), r'"Operation" is missing; is it "Operations"'),
-    "header gone": (lambda b: belt(b).delete_rows(1, 4), r'sheet "Belt" has no row with "Key", "Value", "Unit"'),
+    "sheet missing": (
+        lambda b: b.remove(belt(b)),
+        r'input.xlsx: sheet "Belt" is missing; sheets found: "Conveyor"',
+    ),
+    "sheet renamed": (
+        lambda b: setattr(belt(b), "title", "belt "),
+        r'sheet "Belt" is missing; is it "belt "\? Give it its name back',
+    ),
+    "optional sheet renamed": (
+        lambda b: setattr(b["Operation"], "title", "Operations"),
+        r'"Operation" is missing; is it "Operations"',
+    ),
+    "header gone": (
+        lambda b: belt(b).delete_rows(1, 4),
+        r'sheet "Belt" has no row with "Key", "Value", "Unit"',
+    ),
     "list header gone": (lambda b: b["Sections"].delete_rows(1, 6), r'sheet "Sections" has no row with "#"'),
-    "key misspelt": (lambda b: belt(b).__setitem__("G5", "belt.widht"), r'Belt!G5 unknown key "belt.widht"; did you mean "belt.width"\?'),
-    "column misspelt": (lambda b: b["Sections"].__setitem__("C6", "lenght"), r'Sections!C6 unknown key "lenght"; did you mean "length"\?'),
-    "column twice": (lambda b: b["Sections"].__setitem__("E6", "length"), r'Sections!E6 column "length" twice; remove one'),
-    "key twice": (lambda b: belt(b).__setitem__("G6", "belt.width"), r"Belt!B6 belt.width: given twice, first in row 5"),
-    "value without field": (lambda b: belt(b).__setitem__("B40", 5), r'Belt!B40 a value in a row without a field \(column "Key"\)'),
-    "stray beside a list": (lambda b: b["Sections"].__setitem__("Z40", 5), r"Sections!Z40 outside the columns of the list"),
+    "key misspelt": (
+        lambda b: belt(b).__setitem__("G5", "belt.widht"),
+        r'Belt!G5 unknown key "belt.widht"; did you mean "belt.width"\?',
+    ),
+    "column misspelt": (
+        lambda b: b["Sections"].__setitem__("C6", "lenght"),
+        r'Sections!C6 unknown key "lenght"; did you mean "length"\?',
+    ),
+    "column twice": (
+        lambda b: b["Sections"].__setitem__("E6", "length"),
+        r'Sections!E6 column "length" twice; remove one',
+    ),
+    "key twice": (
+        lambda b: belt(b).__setitem__("G6", "belt.width"),
+        r"Belt!B6 belt.width: given twice, first in row 5",
+    ),
+    "value without field": (
+        lambda b: belt(b).__setitem__("B40", 5),
+        r'Belt!B40 a value in a row without a field \(column "Key"\)',
+    ),
+    "stray beside a list": (
+        lambda b: b["Sections"].__setitem__("Z40", 5),
+        r"Sections!Z40 outside the columns of the list",
+    ),
     "merged value": (lambda b: belt(b).merge_cells("B5:C5"), r"Belt!B5:C5 cells are merged; unmerge them"),
-    "merged items": (lambda b: b["Sections"].merge_cells("B7:B9"), r"Sections!B7:B9 cells are merged; unmerge them"),
-    "far cell": (lambda b: belt(b).__setitem__("XFD1048576", 1), r'sheet "Belt" reaches to XFD1048576; delete the empty rows'),
-}  # fmt: skip
+    "merged items": (
+        lambda b: b["Sections"].merge_cells("B7:B9"),
+        r"Sections!B7:B9 cells are merged; unmerge them",
+    ),
+    "far cell": (
+        lambda b: belt(b).__setitem__("XFD1048576", 1),
+        r'sheet "Belt" reaches to XFD1048576; delete the empty rows',
+    ),
+}
 
 
 @pytest.mark.parametrize("case", SHEETS)
@@ -346,25 +424,43 @@ def entities(encoding: str) -> Callable[[Path], None]:
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 600
 FILES: dict[str, tuple[Callable[[Path], object], str]] = {
-    "password": (lambda p: p.write_bytes(OLE + "EncryptedPackage".encode("utf-16-le")), "protected by a password; save it without one"),
+    "password": (
+        lambda p: p.write_bytes(OLE + "EncryptedPackage".encode("utf-16-le")),
+        "protected by a password; save it without one",
+    ),
     "old xls": (lambda p: p.write_bytes(OLE), "not a workbook of the .xlsx format; save it as .xlsx"),
     "encrypted zip": (encrypted_part, "protected by a password; save it without one"),
-    "truncated": (lambda p: p.write_bytes(p.read_bytes()[:20_000]), "damaged or cut short .BadZipFile.; copy it again"),
-    "not a zip": (lambda p: p.write_text("name: x"), r"not a workbook \(.xlsx\); write one with: conveyor template"),
+    "truncated": (
+        lambda p: p.write_bytes(p.read_bytes()[:20_000]),
+        "damaged or cut short .BadZipFile.; copy it again",
+    ),
+    "not a zip": (
+        lambda p: p.write_text("name: x"),
+        r"not a workbook \(.xlsx\); write one with: conveyor template",
+    ),
     "empty": (lambda p: p.write_bytes(b""), "empty; write one with"),
     "zip bomb": (bomb, "unpacks to more than 30,000,000 bytes or 2,000 parts; this is no input workbook"),
     "many parts": (crowd, "unpacks to more than 30,000,000 bytes or 2,000 parts"),
     "lying zip bomb": (lying_bomb, r"damaged or cut short"),
     "entities": (entities("utf-8"), "xl/workbook.xml declares a document type"),
     "entities in UTF-16": (entities("utf-16"), "xl/workbook.xml declares a document type"),
-    "bad checksum": (lambda p: p.write_bytes(p.read_bytes()[:2000] + b"\xff" * 40 + p.read_bytes()[2040:]), "damaged or cut short"),
-    "no workbook part": (lambda p: edit(p, "[Content_Types].xml", lambda _: b"<a/>"), "damaged or incomplete"),
-    "broken XML": (lambda p: edit(p, "xl/workbook.xml", lambda xml: xml[:-30]), "damaged or incomplete .ParseError."),
+    "bad checksum": (
+        lambda p: p.write_bytes(p.read_bytes()[:2000] + b"\xff" * 40 + p.read_bytes()[2040:]),
+        "damaged or cut short",
+    ),
+    "no workbook part": (
+        lambda p: edit(p, "[Content_Types].xml", lambda _: b"<a/>"),
+        "damaged or incomplete",
+    ),
+    "broken XML": (
+        lambda p: edit(p, "xl/workbook.xml", lambda xml: xml[:-30]),
+        "damaged or incomplete .ParseError.",
+    ),
     "other zip": (lambda p: zipfile.ZipFile(p, "w").close(), "not a workbook|damaged or incomplete"),
     "large": (lambda p: p.write_bytes(b"PK" + b"\0" * LARGEST_FILE), "larger than 5,000,000 bytes"),
     "gone": (lambda p: p.unlink(), "no such file"),
     "folder": (lambda p: (p.unlink(), p.mkdir()), "cannot be read: Is a directory"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", FILES)
@@ -413,7 +509,7 @@ def test_a_full_disk_leaves_the_old_workbook_alone(path: Path, monkeypatch: pyte
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(InputError, match="cannot be written .No space left on device."):
+    with pytest.raises(InputError, match=r"cannot be written .No space left on device."):
         write_template(path)
     assert path.read_bytes() == before
     assert list(path.parent.iterdir()) == [path]
