@@ -13,6 +13,7 @@ from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.styles.differential import DifferentialStyle
 from openpyxl.utils import get_column_letter
 from openpyxl.workbook import Workbook
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, print_set_up, put
@@ -22,7 +23,7 @@ from conveyor.template.layout import Group, Leaf
 from conveyor.template.plan import Column, Form, Row, Sheet, label
 from conveyor.template.rules import Rules, default_text, said
 
-_HEADERS: Final = {"Field": 24, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
+_HEADERS: Final = {"Field": 26, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
 """Columns of a form and their widths [characters]."""
 _HEAD: Final = 4
 """Row of the headers."""
@@ -226,7 +227,7 @@ class Book:
         for other in self.book.worksheets[1:]:
             row += 1
             put(sheet.cell(row, 1), other.title, LINK)
-            sheet.cell(row, 1).hyperlink = f"#'{other.title}'!A1"
+            sheet.cell(row, 1).hyperlink = Hyperlink(ref=f"A{row}", location=f"'{other.title}'!A1")
             put(sheet.cell(row, 4), docs[other.title])
         put(sheet.cell(row + 2, 1), f"Template of conveyor {version('conveyor')}", GREY)
 

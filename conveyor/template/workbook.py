@@ -21,10 +21,11 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.errors import InputError
 from conveyor.template.values import Value
 
-LARGEST_FILE: Final = 5_000_000
+LARGEST_FILE: Final = 3_000_000
 """Bytes; a template of a thousand sections has a twentieth of it."""
-LARGEST_CONTENT: Final = 30_000_000
-"""Bytes of all parts together, unpacked, as the file states them (no more is ever unpacked)."""
+LARGEST_CONTENT: Final = 10_000_000
+"""Bytes of all parts together, unpacked, as the file states them (no more is ever unpacked); a template of a
+thousand sections has a tenth of it, and so much takes some seconds to parse."""
 MOST_PARTS: Final = 2_000
 MOST_CELLS: Final = 300_000
 """Rows times columns of one sheet; a template of a thousand sections has a tenth of it."""
