@@ -69,8 +69,9 @@ def arrange(kind: str, columns: dict[str, FloatArray], labels: IntArray | None) 
     if SWEPT[kind] == "temperature":
         duplicates = duplicate_runs(swept, condition, tolerance=SAME_TEMPERATURE)
     else:
-        tolerance = SAME_REDUCED_FREQUENCY if kind == "master curve" else SAME_SET_POINT
-        duplicates = duplicate_runs(np.log(swept), condition, tolerance=tolerance)
+        merged = kind == "master curve"
+        tolerance = SAME_REDUCED_FREQUENCY if merged else SAME_SET_POINT
+        duplicates = duplicate_runs(np.log(swept), condition, tolerance=tolerance, merged=merged)
     run = labels if labels is not None else duplicates
     again = np.zeros(swept.size) if duplicates is None else duplicates
     first = condition if group is None else group

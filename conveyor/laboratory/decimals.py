@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?")
 _THOUSANDS_LIKE = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _DATE = re.compile(
-    r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ](?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
+    r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ]{1,2}(?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
 )
 _WITH_UNIT = re.compile(r"[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*[A-Za-z%°µ].*")
 _REASONS = (

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from conveyor.laboratory.table import FloatArray, IntArray
 
-ISOTHERM_GAP = 1.0
-"""Temperatures further apart than this are different isotherms [K]; furnaces hold about 0.5 K (general knowledge)."""
+ISOTHERM_GAP = 0.8
+"""Temperatures further apart than this are different isotherms [K]: steps are 1 K or more, furnaces hold 0.5 K
+(general knowledge)."""
 ISOTHERM_DRIFT = 3.0
 """Most that one isotherm may drift [K]; beyond it the temperature is a ramp."""
 SAME_SET_POINT = 5e-3
@@ -17,6 +20,8 @@ SAME_TEMPERATURE = 0.01
 SAME_REDUCED_FREQUENCY = 1e-9
 """A master curve merges shifted isotherms: only equal frequencies, to rounding, are repeats [-]."""
 _SHORTEST_RUN = 3
+_SHORTEST_OTHER_RUN = 5
+"""Rows in no order rarely fall into rising or falling stretches of five: ten rows in 4/(5! 5!) of all orders."""
 
 
 def temperature_groups(temperature: FloatArray, run: IntArray | None) -> IntArray | None:
@@ -93,7 +98,9 @@ def _clusters(values: FloatArray, gap: float) -> IntArray:
     return found
 
 
-def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float) -> IntArray | None:
+def duplicate_runs(
+    values: FloatArray, group: IntArray, *, tolerance: float, merged: bool = False
+) -> IntArray | None:
     """Tell repeated sweeps of one group apart.
 
     Parameters
@@ -104,6 +111,8 @@ def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float) -> 
         Rows of equal number are one condition, shape `(n,)` [-].
     tolerance : float
         Values closer than this are one set point [unit].
+    merged : bool
+        The rows are shifted isotherms, whose ranges overlap without being repeats [-].
 
     Returns
     -------
@@ -112,14 +121,17 @@ def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float) -> 
 
     Notes
     -----
-    If the rows of a group fall into stretches of three or more, each rising or falling, with set points that
-    come back, every stretch is a run (up and down, or one sweep after the other). Else the second row at one
-    set point begins the second run: two runs sorted into each other, or a repeated point.
+    If the rows of a group fall into stretches of three or more (five if no set point comes back), each rising
+    or falling, and at least half of each lies inside the range of the one before (`merged`: on its set points),
+    every stretch is a run: up and down, or one sweep after the other. Else the second row at one set point
+    begins the second run: two runs sorted into each other, or a repeated point.
 
     Examples
     --------
     >>> duplicate_runs(np.array([1.0, 2, 4, 4, 2, 1]), np.zeros(6, dtype=int), tolerance=0.01)
     array([0, 0, 0, 1, 1, 1])
+    >>> duplicate_runs(np.array([1.0, 2, 4, 1.5, 3, 6]), np.zeros(6, dtype=int), tolerance=0.01) is None
+    True
     >>> duplicate_runs(np.array([1.0, 1.001, 2.0]), np.zeros(3, dtype=int), tolerance=0.01)
     array([0, 1, 0])
     """
@@ -128,12 +140,22 @@ def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float) -> 
         rows = np.flatnonzero(group == number)
         inside = values[rows]
         points = _clusters(inside, tolerance)
-        if np.unique(points).size == rows.size:
-            continue
         stretch = _stretches(points)
-        lengths = np.bincount(stretch)
-        run[rows] = stretch if lengths.size > 1 and lengths.min() >= _SHORTEST_RUN else _occurrence(points)
+        repeats = np.unique(points).size < rows.size
+        shortest = _SHORTEST_RUN if repeats else _SHORTEST_OTHER_RUN
+        swept_again = _swept_again(points if merged else inside, stretch, shortest, exactly=merged)
+        run[rows] = stretch if swept_again else _occurrence(points)
     return run if run.any() else None
+
+
+def _swept_again(values: FloatArray | IntArray, stretch: IntArray, shortest: int, *, exactly: bool) -> bool:
+    parts = [values[stretch == number] for number in range(int(stretch[-1]) + 1)]
+    if len(parts) < 2 or min(part.size for part in parts) < shortest:
+        return False
+    return all(
+        2 * int(np.sum(np.isin(b, a) if exactly else (b >= a.min()) & (b <= a.max()))) >= b.size
+        for a, b in pairwise(parts)
+    )
 
 
 def restarts(frequency: FloatArray) -> int:

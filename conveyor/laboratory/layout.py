@@ -106,6 +106,15 @@ def find_table(grid: Grid) -> Table:
             )
     if len(starts) > 1:
         notes.append(f"{len(starts)} blocks with the same header are read one after the other")
+    silent = [
+        line.number
+        for line in grid.lines[starts[0] :]
+        if line.comment and sum(map(is_number, line.cells)) >= 2
+    ]
+    if silent:
+        notes.append(
+            f"{len(silent)} row(s) of numbers are marked as remarks and not read, first row {silent[0]}"
+        )
     metadata = dict(_metadata(grid, starts[0]))
     return Table(grid, first.number, columns, tuple(rows), tuple(blocks), metadata, tuple(notes))
 

@@ -75,6 +75,8 @@ _MEANINGS: dict[str, Meaning] = {
 _MEANINGS |= {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
 _MEANINGS |= {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
 _MEANINGS |= {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+_OTHER_LETTERS = {"e", "g"}
+"""Lower-case letters that are no modulus: e is often a strain, F without a frequency unit a force."""
 _PRIMES = str.maketrans(
     {"’": "'", "‘": "'", "′": "'", "`": "'", "´": "'", "″": "''", '"': "''", "”": "''", "“": "''"}
 )
@@ -168,7 +170,8 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
         return Meaning(_time_or_temperature(text.strip(), unit))
     found = _word(text)
     if found is not None:
-        return found
+        force = text.strip() == "F" and not (unit is not None and find_unit("frequency", unit))
+        return None if force or text.strip() in _OTHER_LETTERS else found
     parts = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", text) or re.fullmatch(r"(.+)[\s,]+(\S+)", text)
     if parts is None:
         return None

@@ -19,7 +19,7 @@ from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
 from conveyor.laboratory.layout import EXAMPLE, Table, find_table, has_table
 from conveyor.laboratory.moduli import Moduli, dynamic_moduli, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
-from conveyor.laboratory.plausible import check_possible, doubts
+from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
 from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import KINDS, DmaData, FloatArray, IntArray
 from conveyor.laboratory.trend import check_trend
@@ -88,8 +88,11 @@ def read_dma(
     """
     if not (math.isfinite(poisson_ratio) and 0.0 <= poisson_ratio <= 0.5):
         raise InputError(f"poisson_ratio = {poisson_ratio:g} (--poisson) must be 0 to 0.5")
-    if temperature is not None and not (math.isfinite(temperature) and temperature > 0.0):
-        raise InputError(f"temperature = {temperature:g} K (--temperature) must be finite and > 0 K")
+    low, high = TEMPERATURE_RANGE
+    if temperature is not None and not low <= temperature <= high:
+        raise InputError(
+            f"temperature = {temperature:g} K (--temperature) must be {low:g} to {high:g} K; 20 degC are 293.15 K"
+        )
     if kind is not None and kind not in KINDS:
         raise InputError(f'kind = "{kind}" (--kind) is not known; allowed: {", ".join(KINDS)}')
     given = check_units(
@@ -141,7 +144,9 @@ def _grid(path: Path, sheet: str | None) -> Grid:
         )
     tables = [grid for grid in grids if has_table(grid)]
     if len(tables) == 1:
-        return tables[0]
+        empty = ", ".join(repr(grid.sheet) for grid in grids if grid is not tables[0])
+        more = (f"no table on {empty}",) if empty else ()
+        return replace(tables[0], notes=(*tables[0].notes, *more))
     if not tables:
         raise refusal(
             path.name, 1, 0, f"no table on any sheet ({names}); one of them needs {EXAMPLE}", lettered=True
@@ -277,9 +282,9 @@ def _order_notes(table: Table, kind: str, found: Arrangement) -> list[str]:
     notes = []
     rows = _rows(table)
     order = found.order
-    moved = np.flatnonzero(np.diff(order) < 0)
+    moved = np.flatnonzero(np.diff(np.argsort(order)) < 0)
     if moved.size:
-        notes.append(f"rows sorted; the file is not in order from row {rows[order[moved[0] + 1]]} on")
+        notes.append(f"rows sorted; the file is not in order from row {rows[moved[0] + 1]} on")
     if found.duplicates is not None:
         repeated = rows[found.duplicates > 0]
         notes.append(

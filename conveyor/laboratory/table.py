@@ -164,6 +164,10 @@ class DmaData:
             ]
             advice = "; give temperature (--temperature)" if missing == ["temperature"] else ""
             raise InputError(f"{self.source}: isotherms need {' and '.join(missing)}{advice}")
+        if self.kind not in {"isotherms", "master curve"}:
+            raise InputError(
+                f'{self.source}: a {self.kind}, not isotherms; give kind="isotherms" (--kind) if it holds them'
+            )
         found = []
         for run, rows in self._sweeps("isotherms", self.frequency):
             inside = self.temperature[rows]

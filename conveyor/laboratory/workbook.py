@@ -6,6 +6,7 @@ import datetime as dt
 import io
 import warnings
 import zipfile
+import zlib
 from typing import Any
 
 from conveyor.laboratory.cells import Grid, Line, refusal
@@ -13,6 +14,21 @@ from conveyor.laboratory.decimals import DATE_MARK, PERCENT_MARK
 
 MAGIC = b"PK\x03\x04"
 """First bytes of a zip archive, which an .xlsx file is."""
+
+
+_DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    SyntaxError,
+    LookupError,
+    ValueError,
+    OSError,
+    EOFError,
+    RuntimeError,
+    AttributeError,
+    TypeError,
+)
+"""What openpyxl raises for archives that are cut, encrypted or not a workbook; XML errors are SyntaxErrors."""
 
 
 def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
@@ -46,14 +62,18 @@ def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
         warnings.simplefilter("ignore", UserWarning)
         try:
             book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
-        except (zipfile.BadZipFile, KeyError, ValueError, OSError):
+            try:
+                return tuple(_grid(sheet, f"{name}[{sheet.title}]") for sheet in book.worksheets)
+            finally:
+                book.close()
+        except _DAMAGE:
             raise refusal(
-                name, 1, 0, "not a readable .xlsx workbook; save it again as .xlsx, or export CSV"
+                name,
+                1,
+                0,
+                "not a readable .xlsx workbook; save it again as .xlsx, or export CSV",
+                lettered=True,
             ) from None
-        try:
-            return tuple(_grid(sheet, f"{name}[{sheet.title}]") for sheet in book.worksheets)
-        finally:
-            book.close()
 
 
 def _grid(sheet: Any, name: str) -> Grid:

@@ -1,0 +1,226 @@
+"""Invariances of the reader: order of rows, units, damage, speed; names and numbers cell by cell."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conveyor.errors import InputError
+from conveyor.laboratory import read_dma
+from conveyor.laboratory.decimals import decimal_mark, why_not_a_number
+from conveyor.laboratory.encoding import decoded
+from conveyor.laboratory.groups import duplicate_runs, temperature_groups
+from conveyor.laboratory.names import meaning
+
+FILES = Path(__file__).parent / "files"
+
+
+@pytest.mark.parametrize(
+    ("header", "quantity", "unit"),
+    [
+        ("Freq(Hz)", "frequency", "Hz"),
+        ("Frequency, Hz", "frequency", "Hz"),
+        ("f in Hz", "frequency", "Hz"),
+        ("Angular frequency ω (rad/s)", "frequency", "rad/s"),
+        ("fred [Hz]", "frequency", "Hz"),
+        ("f*aT (Hz)", "frequency", "Hz"),
+        ("Temp. / °C", "temperature", "°C"),
+        ("T [K]", "temperature", "K"),
+        ("t [K]", "temperature", "K"),
+        ("T [s]", "time", "s"),
+        ("t", "time", None),
+        ("Temperature T [°C]", "temperature", "°C"),
+        ("E'/MPa", "storage", "MPa"),
+        ("Storage modulus (E') [MPa]", "storage", "MPa"),
+        ("Speichermodul G' (kPa)", "storage", "kPa"),
+        ('E" (MPa)', "loss", "MPa"),
+        ("E′′ (MPa)", "loss", "MPa"),
+        ("E_loss", "loss", None),
+        ("|E*| [MPa]", "complex", "MPa"),
+        ("tan(delta)", "tan_delta", None),
+        ("tan δ", "tan_delta", None),
+        ("손실계수", "tan_delta", None),
+        ("E(t) [MPa]", "relaxation", "MPa"),
+        ("Strain %", "strain", "%"),
+        ("DSA (%)", "strain", "%"),
+        ("log a_T", "a_T", None),
+        ("Set", "run", None),
+    ],
+)
+def test_names(header: str, quantity: str, unit: str | None) -> None:
+    found = meaning(header)
+    assert found is not None
+    assert (found.quantity, found.unit) == (quantity, unit)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "F [N]",
+        "F",
+        "e [%]",
+        "Static force",
+        "Set temperature",
+        "rel_mod",
+        "S' [dNm]",
+        "storage_furlong",
+        "log",
+    ],
+)
+def test_names_that_are_no_quantity(header: str) -> None:
+    assert meaning(header) is None
+
+
+@pytest.mark.parametrize(
+    ("cells", "mark"),
+    [
+        (["1", "2"], "."),
+        (["1.5", "2"], "."),
+        (["0,5", "2"], ","),
+        (["6,800", "12,25"], ","),
+        (["1,234E+06"], ","),
+        (["6,800", "7,100"], ""),
+        (["6,8", "7.1"], ""),
+        (["1000,5", "6,800"], ","),
+    ],
+)
+def test_decimal_mark(cells: list[str], mark: str) -> None:
+    assert decimal_mark(cells)[0] == mark
+
+
+@pytest.mark.parametrize(
+    ("cell", "reason"),
+    [
+        ("1.234,5", "thousands separator"),
+        ("1,234.5", "thousands separator"),
+        ("1 234", "thousands separator"),
+        ("1.234.567,8", "thousands separator"),
+        ("10 Hz", "holds a unit"),
+        ("1. Feb", "a date or time"),
+        ("1-Feb", "a date or time"),
+        ("12:30", "a date or time"),
+        ("#N/A", "not a finite number"),
+        ("1_000", "not a number"),
+        ("#DIV/0!", "not a number"),
+    ],
+)
+def test_why_a_cell_is_no_number(cell: str, reason: str) -> None:
+    assert reason in why_not_a_number(cell)
+
+
+@pytest.mark.parametrize(
+    ("text", "codec", "note"),
+    [
+        ("T (°C) Größe µm", "cp1252", "cp1252"),
+        ("온도 (℃)", "euc_kr", "euc_kr"),
+        ("온도 뷁 시험", "cp949", "cp949"),
+        ("온도 (℃)", "utf-8", "UTF-8"),
+        ("온도 (℃)", "utf-16", "UTF-16"),
+    ],
+)
+def test_encodings(text: str, codec: str, note: str) -> None:
+    found, sentence = decoded(text.encode(codec), "pad.txt")
+    assert found.lstrip("\ufeff") == text
+    assert note in sentence
+
+
+def test_degree_sign_of_cp1252_is_no_korean_syllable() -> None:
+    # b"\xb0C" is one syllable in CP949
+    assert decoded("T (°C)".encode("cp1252"), "pad.txt")[0] == "T (°C)"
+
+
+def write(folder: Path, text: str) -> Path:
+    file = folder / "pad.csv"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_order_of_rows_does_not_matter(tmp_path: Path) -> None:
+    header, units, *rows = (FILES / "real" / "pyvisco_freq_user_raw.csv").read_text("utf-8-sig").splitlines()
+    expected = read_dma(FILES / "real" / "pyvisco_freq_user_raw.csv")
+    shuffled = np.random.default_rng(4).permutation(len(rows))
+    data = read_dma(write(tmp_path, "\n".join([header, units, *(rows[i] for i in shuffled)])))
+    for name in ("frequency", "temperature", "storage", "loss", "run", "group"):
+        np.testing.assert_array_equal(getattr(data, name), getattr(expected, name))
+    # rows are named where they now stand: two lines of header, lines counted from 1
+    np.testing.assert_array_equal(shuffled[data.row_numbers - 3], expected.row_numbers - 3)
+
+
+def test_numbers_marked_as_remarks_are_reported(tmp_path: Path) -> None:
+    data = read_dma(write(tmp_path, "f [Hz],E' [MPa],E'' [MPa]\n1,5.6,0.56\n#5,6.2,0.6\n10,6.8,0.748\n"))
+    assert data.row_numbers.tolist() == [2, 4]
+    assert "1 row(s) of numbers are marked as remarks and not read, first row 3" in data.understood
+
+
+def test_force_beside_frequency_is_not_a_frequency(tmp_path: Path) -> None:
+    data = read_dma(write(tmp_path, "f [Hz],F [N],E' [MPa],E'' [MPa]\n1,9,5.6,0.56\n10,9,6.8,0.748\n"))
+    assert data.frequency is not None
+    assert data.frequency.tolist() == [1.0, 10.0]
+    assert any('column 2 "F [N]" is not used' in sentence for sentence in data.understood)
+
+
+def test_clock_of_a_dynamic_test_needs_no_unit(tmp_path: Path) -> None:
+    data = read_dma(write(tmp_path, "time,f [Hz],E' [MPa],E'' [MPa]\n0,1,5.6,0.56\n60,10,6.8,0.748\n"))
+    assert data.time is None
+    assert 'column 1 "time" is not needed' in data.understood
+
+
+def test_blocks_without_temperature_are_not_taken_for_one_curve(tmp_path: Path) -> None:
+    block = "f [Hz];E' [MPa];E'' [MPa]\n1;5,6;0,56\n10;6,8;0,748\n100;8,6;1,075\n"
+    with pytest.raises(InputError, match=r"frequencies begin anew.*temperature_degC.*--temperature"):
+        read_dma(write(tmp_path, f"20 degC\n{block}\n40 degC\n{block}"))
+
+
+def test_reduced_frequency_is_a_master_curve(tmp_path: Path) -> None:
+    # overlapping isotherms, not merged, in the order of their measurement
+    rows = "1,5,0.5\n10,6,0.6\n100,7,0.7\n30,6.5,0.65\n300,7.5,0.75\n3000,8.5,0.9\n"
+    data = read_dma(write(tmp_path, "f*aT [Hz],E' [MPa],E'' [MPa]\n" + rows))
+    assert (data.kind, data.run) == ("master curve", None)
+
+
+def test_runs_with_other_set_points_are_told_apart() -> None:
+    values = np.log([1.0, 2, 4, 8, 16, 1.5, 3, 6, 9, 12])
+    run = duplicate_runs(values, np.zeros(10, dtype=np.int64), tolerance=0.005)
+    assert run is not None
+    assert run.tolist() == [0] * 5 + [1] * 5
+
+
+@pytest.mark.parametrize("drift", [0.0, 0.4, 0.9])
+def test_temperatures_of_one_isotherm(drift: float) -> None:
+    # 5 K apart, each drifting by less than the gap that separates isotherms
+    temperature = np.array([250.0 + 5.0 * step + drift * k / 4 for step in range(6) for k in range(5)])
+    group = temperature_groups(temperature, None)
+    assert group is not None
+    assert group.tolist() == [step for step in range(6) for _ in range(5)]
+
+
+def test_files_cut_anywhere_are_read_or_refused_in_one_line(tmp_path: Path) -> None:
+    rng = np.random.default_rng(5)
+    messages = []
+    for source in sorted((FILES / "good").iterdir()):
+        data = source.read_bytes()
+        for cut in rng.integers(1, len(data), 6):
+            file = tmp_path / source.name
+            file.write_bytes(data[:cut])
+            try:
+                read_dma(file)
+            except InputError as error:
+                messages.append(str(error))
+    assert len(messages) > 100
+    assert not any("\n" in message for message in messages)
+
+
+def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
+    frequency = np.logspace(-3, 3, 500)
+    rows = [f"{f:.6g};{5 + np.log10(f):.4f};0.5;{t}".replace(".", ",") for t in range(20) for f in frequency]
+    file = write(tmp_path, "\n".join(["f [Hz];E' [MPa];E'' [MPa];T [°C]", *rows]))
+    start = time.process_time()
+    data = read_dma(file)
+    isotherms = data.isotherms()
+    # measured 0.15 s
+    assert time.process_time() - start < 0.5
+    assert len(isotherms) == 20
+    assert data.row_numbers.size == 10_000
