@@ -7,6 +7,9 @@ from typing import NamedTuple
 
 from conveyor.errors import InputError
 
+_LONGEST_LABEL = 60
+"""Characters of a column's name shown in a message."""
+
 
 class Line(NamedTuple):
     """One line of a text file or one row of a sheet."""
@@ -94,7 +97,7 @@ def refusal(
     pad.csv:3: column 2 "E' [MPa]": not a number
     """
     shown = column_letter(column) if lettered else str(column + 1)
-    label = f' "{header}"' if header else ""
+    label = f' "{header[:_LONGEST_LABEL]}"' if header else ""
     return InputError(" ".join(f"{name}:{row}: column {shown}{label}: {message}".split()))
 
 

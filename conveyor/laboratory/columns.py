@@ -61,6 +61,8 @@ def remedy(dimension: str, example: str = "") -> str:
     >>> remedy("modulus")
     'give modulus_unit, for example modulus_unit="MPa" (--modulus-unit MPa)'
     """
+    if dimension == "number":
+        return "it is a plain number: write - or nothing as its unit"
     if dimension not in _EXAMPLES:
         return f"write it in the header; allowed: {allowed(dimension)}"
     unit = example or _EXAMPLES[dimension]
@@ -337,10 +339,10 @@ def _in_si(
 def _unit_problem(meaning: Meaning, dimension: str, written: list[str], stated: list[Unit | None]) -> str:
     if not written:
         which = "Hz or rad/s? " if dimension == "frequency" else ""
-        return f"{which}{meaning.quantity.replace('_', ' ')} has no unit; {remedy(dimension)}"
+        return f"{which}{spoken(meaning)} has no unit; {remedy(dimension)}"
     for text, unit in zip(written, stated, strict=True):
         if unit is None:
-            known = f"unit '{text}' of {meaning.quantity.replace('_', ' ')} is not known"
+            known = f"unit '{text}' of {spoken(meaning)} is not known"
             if dimension == "frequency" and text.replace(" ", "") in {"1/s", "s^-1", "s-1", "s⁻¹"}:
                 known = f"unit '{text}' may be Hz or rad/s"
             if text in {"mPa", "mpa"}:

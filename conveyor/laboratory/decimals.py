@@ -22,6 +22,8 @@ _REASONS = (
     (_WITH_UNIT, "holds a unit; write the number alone and the unit in the header"),
     (re.compile(r".*", re.DOTALL), "is not a number; delete the row, or put # in front if it is a remark"),
 )
+_LONGEST_CELL = 60
+"""Longer cells are no numbers; patterns with two stars would take their time over them."""
 _NOTHING = {
     "nan",
     "n/a",
@@ -130,6 +132,8 @@ def why_not_a_number(cell: str) -> str:
         return f"Excel made a date of it ({cell}); restore the number and format the column as Number"
     if cell.lower() in _NOTHING:
         return f"'{cell}' is not a finite number; delete the row, or repair the value"
+    if len(cell) > _LONGEST_CELL:
+        return f"'{cell[:_LONGEST_CELL]}...' is not a number; delete the row, or put # in front if it is a remark"
     reason = next(reason for pattern, reason in _REASONS if pattern.fullmatch(cell))
     return f"'{cell}' {reason}"
 

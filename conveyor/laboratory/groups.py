@@ -6,13 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from conveyor.laboratory.table import FloatArray, IntArray
+from conveyor.laboratory.table import ISOTHERM_DRIFT, FloatArray, IntArray
 
 ISOTHERM_GAP = 0.8
 """Temperatures further apart than this are different isotherms [K]: steps are 1 K or more, furnaces hold 0.5 K
 (general knowledge)."""
-ISOTHERM_DRIFT = 3.0
-"""Most that one isotherm may drift [K]; beyond it the temperature is a ramp."""
 SAME_SET_POINT = 5e-3
 """Frequencies or strains closer than this, relatively, are one set point; instruments set 10 a decade (26 % apart)."""
 SAME_TEMPERATURE = 0.01

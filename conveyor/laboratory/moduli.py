@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -15,7 +16,11 @@ TAN_DELTA_AGREEMENT = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
 TAN_DELTA_DIGIT = 0.01
 """Absolute difference allowed besides: tan delta printed with two decimals."""
-_SHEAR_WORDS = ("shear", "torsion", "scher", "schub", "parallel plate", "전단", "비틀")
+_SHEAR_WORDS = re.compile(
+    r"\b(shear\w*|torsion\w*|rheom\w*|parallel plates?|plate[- ]plate|cone|ares|rpa|mcr|scher\w*|schub\w*)\b|전단|비틀",
+    re.IGNORECASE,
+)
+"""Words of shear tests and of instruments that make only those (general knowledge)."""
 _NEEDED = {"storage": "E'", "loss": "E'' (or tan delta)"}
 
 
@@ -141,12 +146,12 @@ def to_tensile(table: Table, used: tuple[Series, ...], poisson_ratio: float) -> 
     if letters == {"E"}:
         return 1.0, "the moduli are tensile (E)"
     for line in table.grid.lines[: table.grid.lines.index(table.rows[0])]:
-        word = next((w for w in _SHEAR_WORDS if w in line.text.lower()), None)
+        word = _SHEAR_WORDS.search(line.text)
         if word is not None:
             raise table.grid.refusal(
                 table.header_row,
                 first.index,
-                f"E or G? the name has no letter and row {line.number} speaks of '{word}'; rename the columns to"
+                f"E or G? the name has no letter and row {line.number} speaks of '{word[0]}'; rename the columns to"
                 " E' and E'', or to G' and G'' (converted with poisson_ratio, --poisson)",
                 header=first.header,
             )

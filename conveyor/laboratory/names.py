@@ -75,6 +75,8 @@ _MEANINGS: dict[str, Meaning] = {
 _MEANINGS |= {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
 _MEANINGS |= {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
 _MEANINGS |= {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+_LONGEST_NAME = 80
+"""Longer cells are sentences."""
 _OTHER_LETTERS = {"e", "g"}
 """Lower-case letters that are no modulus: e is often a strain, F without a frequency unit a force."""
 _PRIMES = str.maketrans(
@@ -121,6 +123,8 @@ def meaning(header: str) -> Meaning | None:
     >>> meaning("log_aT").log_base, meaning("storage_Pa").unit, meaning("Point")
     (10.0, 'Pa', None)
     """
+    if len(header) > _LONGEST_NAME:
+        return None
     text = " ".join(header.translate(_PRIMES).split())
     found = _linear(text)
     if found is not None or not (log := _LOG.fullmatch(text)):

@@ -292,7 +292,7 @@ def _order_notes(table: Table, kind: str, found: Arrangement) -> list[str]:
             f" up to {int(found.duplicates.max()) + 1} runs are kept apart"
         )
     if found.group is not None and kind in {"isotherms", "strain sweep"}:
-        notes.append(f"{np.unique(found.group).size} sweeps, rows grouped by temperature")
+        notes.append(f"rows grouped by temperature: {np.unique(found.group).size}")
     return notes
 
 

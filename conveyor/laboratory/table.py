@@ -13,6 +13,8 @@ from conveyor.errors import InputError
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+ISOTHERM_DRIFT = 3.0
+"""Most that one isotherm may drift [K]; beyond it the temperature is a ramp."""
 KINDS = (
     "master curve",
     "isotherms",
@@ -171,6 +173,11 @@ class DmaData:
         found = []
         for run, rows in self._sweeps("isotherms", self.frequency):
             inside = self.temperature[rows]
+            if np.ptp(inside) > ISOTHERM_DRIFT:
+                raise InputError(
+                    f"{self.source}:{self.row_numbers[rows[0]]}: the rows of this {self.kind} span"
+                    f" {np.ptp(inside):.3g} K, not one temperature; a column 'set' can tell isotherms apart"
+                )
             found.append(
                 Isotherm(
                     float(np.mean(inside)),

@@ -224,3 +224,37 @@ def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
     assert time.process_time() - start < 0.5
     assert len(isotherms) == 20
     assert data.row_numbers.size == 10_000
+
+
+@pytest.mark.parametrize(
+    "word", ["Instrument: ARES", "rotational rheometer", "Mode: shear", "Scherversuch", "전단"]
+)
+def test_modulus_without_letter_in_a_shear_test_is_asked_about(tmp_path: Path, word: str) -> None:
+    rows = "frequency_Hz,storage_MPa,loss_MPa\n1,5.6,0.56\n10,6.8,0.748\n"
+    with pytest.raises(InputError, match=r"pad\.csv:2: column 2 .*E or G\?.*row 1 speaks of .*--poisson"):
+        read_dma(write(tmp_path, f"# {word}\n{rows}"))
+    # other words do not matter: "compares" holds "ares"
+    assert read_dma(write(tmp_path, f"# it compares two cases\n{rows}")).kind == "master curve"
+
+
+def test_pooled_temperatures_are_no_isotherm(tmp_path: Path) -> None:
+    rows = "1,20,5,0.5\n10,20,6,0.6\n100,0,7,0.7\n"
+    data = read_dma(write(tmp_path, f"f*aT [Hz],T [degC],E' [MPa],E'' [MPa]\n{rows}"))
+    with pytest.raises(
+        InputError, match=r"pad\.csv:2: the rows of this master curve span 20 K, not one temperature"
+    ):
+        data.isotherms()
+
+
+def test_plain_number_with_a_unit_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(
+        InputError, match=r":1: column 2 .*unit 'T_ref = 20' of a_T.*write - or nothing as its unit"
+    ):
+        read_dma(write(tmp_path, "T [degC],log aT (T_ref = 20)\n0,3\n20,0\n"))
+
+
+def test_endless_cells_are_refused_at_once(tmp_path: Path) -> None:
+    file = write(tmp_path, "f [Hz];E' [MPa];E'' [MPa]\n1;" + "1," * 100_000 + "x;2\n3;3;3\n")
+    with pytest.raises(InputError, match=r"pad\.csv:2: column 2 .*\.\.\.' is not a number") as refused:
+        read_dma(file)
+    assert len(str(refused.value)) < 250
