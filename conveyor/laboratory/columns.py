@@ -9,8 +9,9 @@ from types import MappingProxyType
 import numpy as np
 
 from conveyor.errors import InputError
+from conveyor.laboratory.body import check_finite, check_width, column_cells, run_labels, table_mark
 from conveyor.laboratory.cells import Grid
-from conveyor.laboratory.decimals import decimal_mark, is_number, to_floats, why_not_a_number
+from conveyor.laboratory.decimals import to_floats
 from conveyor.laboratory.factors import Unit, allowed, find_unit
 from conveyor.laboratory.layout import Column, Table
 from conveyor.laboratory.names import DIMENSIONS, Meaning
@@ -130,12 +131,12 @@ def read_columns(
     """
     grid = table.grid
     used = _chosen(table)
-    _check_width(table)
-    cells = {column.index: _cells(table, column) for columns in used.values() for column in columns}
+    check_width(table)
+    cells = {column.index: column_cells(table, column) for columns in used.values() for column in columns}
     unneeded = _unneeded(used)
     label_column = used.pop("run")[0] if "run" in used else None
-    run = None if label_column is None else _labels(grid, table, label_column, cells)
-    mark = _mark(table, [c for columns in used.values() for c in columns], cells)
+    run = None if label_column is None else run_labels(grid, table, label_column, cells)
+    mark = table_mark(table, [c for columns in used.values() for c in columns], cells)
     notes = ["decimal comma"] if mark == "," else []
     if label_column is not None:
         notes.append(f"{column_label(grid, label_column)} tells runs apart")
@@ -145,7 +146,7 @@ def read_columns(
         read = []
         for column in columns:
             numbers = np.array(to_floats(cells[column.index], mark))
-            _finite(table, column, numbers, cells[column.index])
+            check_finite(table, column, numbers, cells[column.index])
             found, column_notes = _in_si(table, column, numbers, given, questions)
             notes += column_notes
             read.append(found)
@@ -214,97 +215,6 @@ def _unneeded(used: dict[str, list[Column]]) -> list[Column]:
     if {"storage", "loss"} <= set(used):
         found += used.pop("complex", [])
     return found
-
-
-def _check_width(table: Table) -> None:
-    width = len(table.columns)
-    for line in table.rows:
-        if len(line.cells) > width:
-            comma = table.grid.notes[-1].endswith("comma") and len(line.cells) == 2 * width
-            advice = (
-                "decimal commas in a table separated by commas? export it with semicolons or decimal points"
-                if comma
-                else "name every column in the header, or remove the extra cell"
-            )
-            raise table.grid.refusal(
-                line.number, width, f"{len(line.cells)} cells, the header names {width}; {advice}"
-            )
-
-
-def _cells(table: Table, column: Column) -> list[str]:
-    index = column.index
-    found = []
-    for line in table.rows:
-        cell = line.cells[index] if index < len(line.cells) else ""
-        if not cell:
-            hint = " (a formula without a stored value?)" if table.grid.sheet else " (a line cut short?)"
-            raise table.grid.refusal(
-                line.number,
-                index,
-                f"the cell is empty{hint}; complete or delete the row",
-                header=column.header,
-            )
-        found.append(cell)
-    return found
-
-
-def _mark(table: Table, columns: list[Column], cells: Mapping[int, list[str]]) -> str:
-    for column in columns:
-        for line, cell in zip(table.rows, cells[column.index], strict=True):
-            if not is_number(cell):
-                raise table.grid.refusal(
-                    line.number,
-                    column.index,
-                    why_not_a_number(cell if any(map(is_number, line.cells)) else line.text),
-                    header=column.header,
-                )
-    mark, doubtful = decimal_mark(cell for column in columns for cell in cells[column.index])
-    if doubtful is None:
-        return mark
-    for column in columns:
-        if doubtful in cells[column.index]:
-            line = table.rows[cells[column.index].index(doubtful)]
-            point = any("." in cell for c in columns for cell in cells[c.index])
-            why = (
-                "a comma here and decimal points elsewhere"
-                if point
-                else "a decimal comma or a thousands separator cannot be told apart"
-            )
-            raise table.grid.refusal(
-                line.number,
-                column.index,
-                f"'{doubtful}': {why}; export the table with decimal points and no thousands separators",
-                header=column.header,
-            )
-    raise AssertionError(doubtful)
-
-
-def _finite(table: Table, column: Column, numbers: FloatArray, cells: list[str]) -> None:
-    bad = np.flatnonzero(~np.isfinite(numbers))
-    if bad.size:
-        raise table.grid.refusal(
-            table.rows[bad[0]].number,
-            column.index,
-            f"'{cells[bad[0]]}' is too large for a number; repair or delete the row",
-            header=column.header,
-        )
-
-
-def _labels(grid: Grid, table: Table, column: Column, cells: Mapping[int, list[str]]) -> IntArray:
-    """Whole numbers as they are, other labels numbered in the order of their appearance."""
-    text = cells[column.index]
-    plain = [cell.removesuffix(".0") for cell in text]
-    if all(cell.lstrip("-").isdigit() for cell in plain):
-        return np.array([int(cell) for cell in plain], dtype=np.int64)
-    order = {label: number for number, label in enumerate(dict.fromkeys(text))}
-    if len(order) == len(table.rows) > 1:
-        raise grid.refusal(
-            table.rows[0].number,
-            column.index,
-            "every row has a label of its own, so they tell no runs apart; rename the column if it is not a run",
-            header=column.header,
-        )
-    return np.array([order[label] for label in text], dtype=np.int64)
 
 
 def _in_si(
