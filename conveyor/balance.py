@@ -28,7 +28,7 @@ from conveyor.resistance import (
     skirt_resistance,
     steel_cord_wrap_resistance,
 )
-from conveyor.tension import drive_tensions, sag_tension
+from conveyor.tension import drive_tensions
 from conveyor.units import si
 
 Place = Literal["head", "take-up", "tail"]
@@ -181,7 +181,6 @@ class _Loop:
             place: math.fsum(s.force for s in singles if s.place == place)
             for place in ("head", "take-up", "tail")
         }
-        gravity = si(conveyor.calculation.gravity)
         carry = [result for result in results if result.stretch.strand == "carry"]
         back = [result for result in results if result.stretch.strand == "return"]
         offset, way, tail = 0.0, 0.0, 0.0
@@ -192,12 +191,7 @@ class _Loop:
                 tail, offset = offset, offset + at["tail"]
                 continue
             stretch = result.stretch
-            least = sag_tension(
-                stretch.line_mass,
-                spacing=stretch.spacing,
-                relative_sag=si(stretch.idlers.sag),
-                gravity=gravity,
-            )
+            least = stretch.least_tension
             rows.append((f"{stretch.section}, {stretch.strand}, start", way, offset, least))
             offset, way = offset + result.total, way + stretch.length
             rows.append((f"{stretch.section}, {stretch.strand}, end", way, offset, least))

@@ -174,16 +174,22 @@ class IndentationCurve:
     highest: float
 
     @property
-    def band(self) -> tuple[float, float] | None:
-        """Frequencies between which nine tenths of the energy are lost, over all loads [Hz]; None without loss.
+    def slowest_excited(self) -> float | None:
+        """Frequency below which a twentieth of the widest contact's loss lies [Hz]; None without loss.
 
         Harmonic m of the rolls passes at f = m V/λ.
         """
-        harmonics = self.curve.excitation
+        return self._frequency(self.curve.excitation_widest, 0)
+
+    @property
+    def fastest_excited(self) -> float | None:
+        """Frequency above which a twentieth of the narrowest contact's loss lies [Hz]; None without loss."""
+        return self._frequency(self.curve.excitation_narrowest, -1)
+
+    def _frequency(self, harmonics: Array, k: int) -> float | None:
         if harmonics.size == 0:
             return None
-        unit = self.contact.speed / self.contact.spacing
-        return unit * float(harmonics.min()), unit * float(harmonics.max())
+        return self.contact.speed / self.contact.spacing * float(harmonics[k])
 
     @property
     def stats(self) -> SolveStats:

@@ -83,10 +83,24 @@ class StretchResult:
 
 def excited_band(results: tuple[StretchResult, ...], strand: Strand) -> tuple[float, float] | None:
     """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
-    curves = {roll.curve for r in results if r.stretch.strand == strand for roll in r.rolls}
-    bands = [curve.band for curve in curves]
-    found = [band for band in bands if band is not None]
-    return (min(low for low, _ in found), max(high for _, high in found)) if found else None
+    low, high = slowest_excited(results, strand), fastest_excited(results, strand)
+    return None if low is None or high is None else (low, high)
+
+
+def slowest_excited(results: tuple[StretchResult, ...], strand: Strand) -> float | None:
+    """Lower end of the excited band [Hz]."""
+    found = [curve.slowest_excited for curve in _curves(results, strand)]
+    return min((f for f in found if f is not None), default=None)
+
+
+def fastest_excited(results: tuple[StretchResult, ...], strand: Strand) -> float | None:
+    """Upper end of the excited band [Hz]."""
+    found = [curve.fastest_excited for curve in _curves(results, strand)]
+    return max((f for f in found if f is not None), default=None)
+
+
+def _curves(results: tuple[StretchResult, ...], strand: Strand) -> set[IndentationCurve]:
+    return {roll.curve for r in results if r.stretch.strand == strand for roll in r.rolls}
 
 
 @dataclass(frozen=True)
@@ -159,15 +173,15 @@ def _solved(
     return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
 
 
-def surfaces(conveyor: Conveyor) -> dict[Strand, Surface]:
-    """The cover under each strand at the belt's temperature; one series per compound.
+def surfaces(conveyor: Conveyor, temperature: float | None = None) -> dict[Strand, Surface]:
+    """The cover under each strand, at the belt's temperature or another [K]; one series per compound.
 
     Raises
     ------
     RangeError
         A compound is not known at the belt's temperature.
     """
-    temperature = si(conveyor.ambient.belt)
+    temperature = si(conveyor.ambient.belt) if temperature is None else temperature
     carry, back = conveyor.carry_compound, conveyor.return_compound
     series = carry.series(temperature)
     same = back is carry or back == carry

@@ -22,6 +22,7 @@ from conveyor.resistance import (
     section_main_resistance,
     slope_resistance,
 )
+from conveyor.tension import sag_tension
 from conveyor.units import Quantity, si
 
 Strand = Literal["carry", "return"]
@@ -49,6 +50,8 @@ class Stretch:
         m'_belt, m'_bulk [kg/m].
     loads : tuple of RollLoad
         Load of each roll of one set.
+    least_tension : float
+        That keeps the sag between the sets as small as asked for [N].
     """
 
     section: str
@@ -60,6 +63,7 @@ class Stretch:
     belt_mass: float
     bulk_mass: float
     loads: tuple[RollLoad, ...]
+    least_tension: float
 
     @property
     def inclination(self) -> float:
@@ -103,6 +107,12 @@ def _stretch(conveyor: Conveyor, section: Section, strand: Strand) -> Stretch:
         idlers=idlers,
         belt_mass=conveyor.belt.line_mass,
         bulk_mass=flow,
+        least_tension=sag_tension(
+            conveyor.belt.line_mass + flow,
+            spacing=spacing,
+            relative_sag=si(idlers.sag),
+            gravity=si(conveyor.calculation.gravity),
+        ),
         loads=roll_loads(
             bulk_line_mass=flow,
             belt_line_mass=conveyor.belt.line_mass,

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relative_difference, sign
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.excitation import SHARES, excited_harmonics
+from conveyor.contact.excitation import excited_harmonics
 from conveyor.contact.fields import peak
 from conveyor.contact.lobatto import coefficients, interpolated, points
 from conveyor.contact.narrow import LOW_ORDER_FROM, places, shared_rules
@@ -141,24 +141,21 @@ class LoadCurve:
         )
 
     @cached_property
-    def excitation(self) -> Array:
-        """Harmonics below which the shares 5, 50 and 95 % of the loss lie, of the widest and the narrowest contact.
+    def excitation_widest(self) -> Array:
+        """Harmonics below which the shares 5, 50 and 95 % of the widest contact's loss lie; empty without loss."""
+        return self._excitation(0)
 
-        Shape (2, 3) [-]; empty, (0, 3), where nothing is lost.
-        """
-        creep, contacts = instantly_relaxed(self.problem.creep), self._contacts
+    @cached_property
+    def excitation_narrowest(self) -> Array:
+        """The same of the narrowest contact."""
+        return self._excitation(-1)
+
+    def _excitation(self, k: int) -> Array:
+        contacts = self._contacts
         if not (contacts.friction > 0.0).all():
-            return np.empty((0, len(SHARES)))
-        return np.stack(
-            [
-                excited_harmonics(
-                    self.problem.layer,
-                    creep,
-                    [(float(contacts.eps[k]), float(contacts.alpha[k]), contacts.c[k])],
-                )
-                for k in (0, -1)
-            ]
-        )
+            return np.empty(0)
+        strip = float(contacts.eps[k]), float(contacts.alpha[k]), contacts.c[k]
+        return excited_harmonics(self.problem.layer, instantly_relaxed(self.problem.creep), [strip])
 
     @cached_property
     def _depths(self) -> Array:

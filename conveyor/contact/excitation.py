@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 SHARES = (0.05, 0.5, 0.95)
 """Of the loss: the band between the outer ones holds nine tenths of it."""
-_REACH = 100.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lie less than 1e-4 of the loss
+_REACH = 40.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lies less than a thousandth of the loss
 
 
 def excited_harmonics(

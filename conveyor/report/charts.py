@@ -59,6 +59,26 @@ def breakdown(sheet: Worksheet, *, header: int, last: int, label: int, value: in
     return chart
 
 
+def name(chart: Any, title: str, y: str) -> None:
+    """Give a chart another title and value axis."""
+    chart.title = _title(title, size=12)
+    chart.y_axis.title = _title(y, size=10)
+
+
+def power_over_temperature(
+    sheet: Worksheet, *, header: int, last: int, count: int, speed: float
+) -> ScatterChart:
+    """Motor power of `count` compounds (columns 2 …) over temperature (column 1)."""
+    chart = _scatter(f"Motor power at {speed:g} m/s", "belt temperature [degC]", "motor power [kW]")
+    at = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
+    for column in range(2, 2 + count):
+        _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), at)
+    chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
+    chart.x_axis.tickLblPos = "low"
+    chart.y_axis.crosses = "min"
+    return chart
+
+
 def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     """Tension and least tension for sag against the way round the loop (columns 2, 3, 4)."""
     chart = _scatter("Tension round the loop", "distance from the drive [m]", "tension [N]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from importlib.metadata import version
 from io import BytesIO
@@ -12,11 +13,12 @@ from uuid import uuid4
 from openpyxl import Workbook
 
 from conveyor.errors import InputError
-from conveyor.report import sheets
+from conveyor.report import comparing_sheets, sheets
 from conveyor.report.cells import legible, print_set_up
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
+    from conveyor.comparison import Comparison
 
 SHEETS = {
     "Summary": sheets.summary,
@@ -30,6 +32,13 @@ SHEETS = {
     "Checks and notes": sheets.notes,
 }
 """What fills each sheet, in their order."""
+COMPARISON_SHEETS = {
+    "Ranking": comparing_sheets.ranking,
+    "Power": comparing_sheets.power,
+    "Scenes": comparing_sheets.scenes,
+    "Coverage": comparing_sheets.coverage,
+    "Notes": comparing_sheets.notes,
+}
 
 
 def write(analysis: Analysis, path: Path) -> Path:
@@ -53,6 +62,22 @@ def write(analysis: Analysis, path: Path) -> Path:
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
+    return _saved(path, lambda: build(analysis))
+
+
+def write_comparison(comparison: Comparison, path: Path) -> Path:
+    """Write the workbook of a comparison of compounds; as `write`.
+
+    Raises
+    ------
+    InputError
+        As `write`.
+    """
+    return _saved(path, lambda: build_comparison(comparison))
+
+
+def _saved(path: Path, made: Callable[[], Workbook]) -> Path:
+    """Write a workbook under a temporary name beside its own, then rename."""
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
     partial = path.with_name(f".{uuid4().hex}.part")
@@ -62,7 +87,7 @@ def write(analysis: Analysis, path: Path) -> Path:
         if not path.absolute().parent.is_dir():
             raise InputError(f"{path}: its folder does not exist; create it or choose another")
         content = BytesIO()
-        build(analysis).save(content)
+        made().save(content)
         partial.write_bytes(content.getbuffer())
         partial.replace(path)
     except OSError as error:
@@ -83,4 +108,18 @@ def build(analysis: Analysis) -> Workbook:
         sheet = book.create_sheet(title)
         fill(sheet, analysis)
         print_set_up(sheet, analysis.conveyor.name)
+    return book
+
+
+def build_comparison(comparison: Comparison) -> Workbook:
+    """Workbook of a comparison, not yet saved."""
+    book = Workbook()
+    book.remove(book.worksheets[0])
+    name = comparison.conveyor.name
+    book.properties.title = legible(name)
+    book.properties.creator = f"conveyor {version('conveyor')}"
+    for title, fill in COMPARISON_SHEETS.items():
+        sheet = book.create_sheet(title)
+        fill(sheet, comparison)
+        print_set_up(sheet, name)
     return book

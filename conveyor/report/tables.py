@@ -53,7 +53,7 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
         "classical motor power [kW]": classical.motor / 1e3,
         "largest error estimate of the contacts [-]": worst_error(results),
         "largest energy error of the contacts [-]": max(
-            roll.peak.energy_error for r in results for roll in r.rolls
+            roll.curve.curve.energy_error for r in results for roll in r.rolls
         ),
     }
     given = {name: value for name, value in rows.items() if value is not None}
@@ -62,7 +62,7 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
 
 def worst_error(results: tuple[StretchResult, ...]) -> float:
     """Largest relative error estimate of any roll's indentation."""
-    return max(roll.peak.error for result in results for roll in result.rolls)
+    return max(roll.curve.curve.error for result in results for roll in result.rolls)
 
 
 def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
