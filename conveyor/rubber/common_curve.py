@@ -1,0 +1,172 @@
+"""The master curve as two unknown smooth functions: penalised splines whose stiffness the data choose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from conveyor.rubber.arrays import FloatArray
+
+DEGREE = 3
+"""Cubic: continuous curvature, so that the slope, which places an isotherm, is smooth."""
+ORDER = 3
+"""Order of the penalised differences: a parabola in log-log is free, and bends cost."""
+KNOT_SPACING = 0.2
+"""Distance of the knots [decades]. A Debye peak in ln E'' has a fourth derivative below 50 per decade^4:
+the best cubic spline misses it by less than 0.2^4/384 * 50 = 2e-4."""
+MAX_KNOTS = 300
+"""Above 60 decades the knots are set farther apart."""
+STIFFNESS = np.arange(-7.0, 7.01, 1.0)
+"""Offered log10 of the stiffness; beyond the lower end the curve interpolates, beyond the upper it is a
+parabola."""
+FINE = np.array([-0.5, -0.25, 0.0, 0.25, 0.5])
+"""Refinement about the best of `STIFFNESS`: the likelihood is flat over such steps."""
+
+LN10 = float(np.log(10.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """Cubic B-splines on knots at whole multiples of a spacing, so that a shift moves data, not knots.
+
+    Parameters
+    ----------
+    knots : numpy.ndarray
+        Shape `(k + 4,)` [decades].
+    matrix : numpy.ndarray
+        Values at the data, shape `(n, k)` [-].
+    slope : numpy.ndarray
+        First derivatives at the data, shape `(n, k)` [1/decade].
+    penalty : numpy.ndarray
+        Squared third differences, shape `(k, k)` [-].
+    """
+
+    knots: FloatArray
+    matrix: FloatArray
+    slope: FloatArray
+    penalty: FloatArray
+
+
+def basis(x: FloatArray, spacing: float) -> Basis:
+    """Set up the splines.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        log10 of the reduced frequency, shape `(n,)` [decades].
+    spacing : float
+        Distance of the knots [decades].
+
+    Returns
+    -------
+    Basis
+        Splines over the range of `x`.
+    """
+    first, last = int(np.floor(x.min() / spacing)), int(np.floor(x.max() / spacing)) + 1
+    knots = np.arange(first - DEGREE, last + DEGREE + 1) * spacing
+    count = knots.size - DEGREE - 1
+    matrix = BSpline.design_matrix(x, knots, DEGREE).toarray()
+    lower = BSpline.design_matrix(x, knots[1:-1], DEGREE - 1).toarray() / spacing
+    slope = np.zeros_like(matrix)
+    slope[:, 1:] += lower
+    slope[:, :-1] -= lower
+    bends = np.diff(np.eye(count), ORDER, axis=0)
+    return Basis(knots, matrix, slope, bends.T @ bends)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One smooth curve through one modulus of all isotherms.
+
+    Parameters
+    ----------
+    factor : numpy.ndarray
+        Banded Cholesky factor of the penalised normal equations, shape `(4, k)` [-].
+    residual : numpy.ndarray
+        Data less curve, shape `(n,)` [-].
+    slope : numpy.ndarray
+        Slope of the curve at the data, shape `(n,)` [1/decade].
+    cost : float
+        Weighted sum of squares and penalty [-].
+    occam : float
+        log determinant of the penalised normal equations over that of the penalty: what a curve that bends
+        more, or is longer, could have fitted besides [-].
+    """
+
+    factor: FloatArray
+    residual: FloatArray
+    slope: FloatArray
+    cost: float
+    occam: float
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """Solve the penalised normal equations, right side shape `(k,)` or `(k, m)` [-]."""
+        return np.asarray(cho_solve_banded((self.factor, True), right))
+
+
+class Smoother:
+    """Rows of one modulus on given splines, for any stiffness.
+
+    Parameters
+    ----------
+    splines : Basis
+        Splines at the data.
+    y : numpy.ndarray
+        ln of the modulus, shape `(n,)` [-].
+    weight : numpy.ndarray
+        Weight of each row, shape `(n,)` [-].
+    """
+
+    def __init__(self, splines: Basis, y: FloatArray, weight: FloatArray) -> None:
+        self.splines, self.weight = splines, weight
+        self.y = y - np.mean(y)  # constants are free of penalty; without the mean fewer digits are lost
+        b = splines.matrix
+        weighted = weight[:, None] * b
+        self.normal = _banded(b.T @ weighted)
+        self.penalty = _banded(splines.penalty)
+        self.right = weighted.T @ self.y
+
+    def curve(self, stiffness: float) -> Curve:
+        """Fit at a stiffness, log10 of the factor on the penalty [-]."""
+        splines, strength = self.splines, 10.0**stiffness
+        factor = cholesky_banded(self.normal + strength * self.penalty, lower=True)
+        found = cho_solve_banded((factor, True), self.right)
+        residual = self.y - splines.matrix @ found
+        bends = np.diff(found, ORDER)
+        cost = float(self.weight @ residual**2 + strength * bends @ bends)
+        determinant = 2.0 * float(np.sum(np.log(factor[0])))
+        occam = determinant - (found.size - ORDER) * LN10 * stiffness
+        return Curve(factor, residual, splines.slope @ found, cost, occam)
+
+    def likelihood(self, stiffness: float) -> float:
+        """-2 log of the restricted likelihood at a stiffness, up to a constant [-]."""
+        one = self.curve(stiffness)
+        free = self.y.size - ORDER
+        return free * float(np.log(max(one.cost, np.finfo(np.float64).tiny))) + one.occam
+
+    def best_stiffness(self) -> float:
+        """Stiffness of highest restricted likelihood.
+
+        G. Wahba, Ann. Statist. 13 (1985) 1378-1402 (generalised maximum likelihood); P. H. C. Eilers,
+        B. D. Marx, Statist. Sci. 11 (1996) 89-121 (penalised B-splines).
+
+        Returns
+        -------
+        float
+            log10 of the factor on the penalty [-].
+        """
+        coarse = STIFFNESS[int(np.argmin([self.likelihood(float(s)) for s in STIFFNESS]))]
+        near = coarse + FINE
+        return float(near[int(np.argmin([self.likelihood(float(s)) for s in near]))])
+
+
+def _banded(matrix: FloatArray) -> FloatArray:
+    """Lower diagonals of a symmetric matrix of bandwidth 3, shape `(4, k)`."""
+    size = len(matrix)
+    lower = np.zeros((DEGREE + 1, size))
+    for d in range(DEGREE + 1):
+        lower[d, : size - d] = np.diagonal(matrix, -d)
+    return lower

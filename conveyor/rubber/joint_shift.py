@@ -1,0 +1,274 @@
+"""All shifts at once: steps to the least-squares minimum against the common curves, and its covariance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.rubber.arrays import FloatArray
+from conveyor.rubber.common_curve import KNOT_SPACING, MAX_KNOTS, ORDER, Basis, Curve, Smoother, basis
+from conveyor.rubber.overlap import Sheet, reach
+
+Curves = tuple[Curve, ...]
+"""One of each modulus that counts."""
+
+CHOICES = 6
+"""Rounds in which stiffness, noise and weights are chosen anew; afterwards they stay, so that the objective
+is one and its minimum is reached even where isotherms of different shape let the choice wander."""
+ROUNDS = 15
+"""Rounds in all, each with steps to the minimum."""
+STEPS = 15
+"""Gauss-Newton steps of a round."""
+HALVINGS = 12
+"""Halvings of a step that does not descend."""
+LONGEST_STEP = 0.5
+"""Longest move of an isotherm in one step: the slope of the curve holds about so far [decades]."""
+ARRIVED = 1.0e-2
+"""A step this small against the standard error is the minimum [-]."""
+ROUNDING = 1.0e-9
+"""A step this small is rounding [decades]."""
+HUBER = 2.5
+"""Residuals beyond this many robust standard deviations pull no harder: P. J. Huber, Robust Statistics (1981)."""
+MAD_TO_SIGMA = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation [-]."""
+SINGULAR = 1.0e-11
+"""Smallest eigenvalue, over the largest, of normal equations that can be solved [-]."""
+FLOOR = 1.0e-9
+"""Scatter of ln E below which the digits of the data, not their noise, are seen [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """The minimum.
+
+    Parameters
+    ----------
+    shift : numpy.ndarray
+        log10 a_T of each isotherm, one of them 0, shape `(n,)` [decades].
+    offset : numpy.ndarray
+        ln b_T of each, shape `(n,)` [-].
+    covariance : numpy.ndarray
+        Of both, shape `(2n, 2n)` [-].
+    held : numpy.ndarray
+        Whether the step between neighbours is at the limit of their overlap, shape `(n - 1,)` [-].
+    scatter : tuple of float
+        Standard deviation of each modulus, ln E, about its curve [-].
+    correlation : float
+        Of residuals of neighbouring rows, the largest [-].
+    """
+
+    shift: FloatArray
+    offset: FloatArray
+    covariance: FloatArray
+    held: NDArray[np.bool_]
+    scatter: tuple[float, ...]
+    correlation: float
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """What is held during the steps of one round, for each modulus that counts."""
+
+    spacing: float
+    stiffness: tuple[float, ...]
+    variance: FloatArray
+    weight: FloatArray
+
+
+class JointShift:
+    """Rows of all isotherms, regressed on shifts and a common curve of each modulus.
+
+    Parameters
+    ----------
+    sheets : list of Sheet
+        The isotherms, coldest first.
+    moduli : tuple of int
+        Those that count: 0 is E', 1 is E'' [-].
+    vertical : bool
+        Whether ln b_T is fitted [-].
+
+    Notes
+    -----
+    The unknowns are the steps between neighbours, cold less hot: log10 a_T of all pairs, then ln b_T. A step
+    stays within the limits of `reach`: isotherms of different shape would otherwise be torn apart, since
+    without an overlap nothing contradicts.
+    """
+
+    def __init__(self, sheets: list[Sheet], *, moduli: tuple[int, ...], vertical: bool) -> None:
+        self.moduli = moduli
+        self.count = len(sheets)
+        self.x = np.concatenate([s.x for s in sheets])
+        self.y = np.hstack([s.y[list(moduli)] for s in sheets])
+        self.of = np.repeat(np.arange(self.count), [s.x.size for s in sheets])
+        summed = np.triu(np.ones((self.count, self.count - 1)))
+        self.sums = summed if not vertical else np.kron(np.eye(2), summed)
+        self.to_rows = summed[self.of]
+        self.vertical = vertical
+        pairs = zip(sheets[:-1], sheets[1:], strict=True)
+        limits = np.array([reach(cold, hot) for cold, hot in pairs])
+        free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
+        self.lower, self.upper = np.vstack([limits, free]).T
+
+    def minimum(self, start: FloatArray) -> Placed:
+        """Alternate between the choice of stiffness, noise, weights and the steps of the shifts.
+
+        Parameters
+        ----------
+        start : numpy.ndarray
+            log10 a_T, then ln b_T, of each isotherm less its hotter neighbour, shape `(2, n - 1)`.
+
+        Returns
+        -------
+        Placed
+            The minimum.
+
+        Raises
+        ------
+        NoSolutionError
+            If the data do not determine the shifts, or no minimum is found.
+        """
+        place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
+        share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
+        state = self._choose(place, weight, share)
+        for turn in range(ROUNDS):
+            moved, covariance, share, curves = self._descend(place, state)
+            far = np.abs(moved - place) > np.maximum(ARRIVED * np.sqrt(np.diagonal(covariance)), ROUNDING)
+            place = moved
+            if not far.any():
+                return self._placed(place, covariance, state, curves)
+            if turn < CHOICES:
+                weight = np.array([_huber(c.residual) for c in curves])
+                state = self._choose(place, weight, share)
+        raise NoSolutionError(
+            f"the shifts do not settle in {ROUNDS} rounds: the isotherms do not determine them; look for one"
+            " that is flat or of another shape, and leave it out"
+        )
+
+    def _choose(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _State:
+        x, y = self._moved(place)
+        spacing = max(KNOT_SPACING, float(np.ptp(x)) / MAX_KNOTS)
+        splines = basis(x, spacing)
+        smoothers = [Smoother(splines, one, w) for one, w in zip(y, weight, strict=True)]
+        best = tuple(s.best_stiffness() for s in smoothers)
+        cost = np.array([s.curve(b).cost for s, b in zip(smoothers, best, strict=True)])
+        freedom = np.maximum(weight.sum(axis=1) - ORDER - share, 1.0)
+        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight)
+
+    def _descend(self, place: FloatArray, state: _State) -> tuple[FloatArray, FloatArray, FloatArray, Curves]:
+        """Projected Gauss-Newton steps; place, covariance, parameters that each modulus pays for, curves."""
+        splines, curves = self._fit(place, state)
+        for _ in range(STEPS):
+            parts, gradient = self._normal(splines, curves, state)
+            whole = parts.sum(axis=0)
+            held = ((place <= self.lower) & (gradient < 0.0)) | ((place >= self.upper) & (gradient > 0.0))
+            move = np.zeros_like(place)
+            free = ~held
+            inner = _inverse(whole[np.ix_(free, free)])
+            move[free] = inner @ gradient[free]
+            move /= max(1.0, float(np.max(np.abs(move))) / LONGEST_STEP)
+            small = np.maximum(ARRIVED * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING)
+            if np.all(np.abs(move[free]) <= small):
+                break
+            before = _total(curves, state)
+            for halving in range(HALVINGS):
+                trial = np.clip(place + move / 2.0**halving, self.lower, self.upper)
+                splines, curves = self._fit(trial, state)
+                if _total(curves, state) < before:
+                    place = trial
+                    break
+            else:
+                splines, curves = self._fit(place, state)
+                break
+        inverse = _inverse(whole)
+        wide = [
+            _widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)
+        ]
+        covariance = inverse @ np.einsum("k,kij->ij", np.array(wide), parts) @ inverse
+        share = np.array([float(np.sum(inverse * part)) for part in parts])
+        return place, covariance, share, curves
+
+    def _normal(self, splines: Basis, curves: Curves, state: _State) -> tuple[FloatArray, FloatArray]:
+        """Normal matrices of the steps of each modulus, curves eliminated; downward gradient."""
+        parts, gradient = [], np.zeros(self.lower.size)
+        for one, weight, variance in zip(curves, state.weight, state.variance, strict=True):
+            across = one.slope[:, None] * self.to_rows
+            columns = np.hstack([across, self.to_rows]) if self.vertical else across
+            weighted = weight[:, None] * columns
+            cross = splines.matrix.T @ weighted
+            parts.append((columns.T @ weighted - cross.T @ one.solve(cross)) / variance)
+            gradient += weighted.T @ one.residual / variance
+            turning = weight * np.sum(splines.slope * one.solve(splines.matrix.T).T, axis=1)
+            gradient[: self.count - 1] -= turning @ self.to_rows
+        return np.array(parts), gradient
+
+    def _fit(self, place: FloatArray, state: _State) -> tuple[Basis, Curves]:
+        x, y = self._moved(place)
+        splines = basis(x, state.spacing)
+        rows = zip(y, state.weight, state.stiffness, strict=True)
+        return splines, tuple(Smoother(splines, one, w).curve(stiffness) for one, w, stiffness in rows)
+
+    def _moved(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Reduced frequency and moduli at a place."""
+        steps = self.count - 1
+        x = self.x + self.to_rows @ place[:steps]
+        return x, self.y - self.to_rows @ place[steps:] if self.vertical else self.y
+
+    def _placed(self, place: FloatArray, covariance: FloatArray, state: _State, curves: Curves) -> Placed:
+        n = self.count
+        full, each = np.zeros((2 * n, 2 * n)), np.zeros(2 * n)
+        size = len(self.sums)
+        each[:size] = self.sums @ place
+        full[:size, :size] = self.sums @ covariance @ self.sums.T
+        at_limit = (place <= self.lower) | (place >= self.upper)
+        return Placed(
+            shift=each[:n],
+            offset=each[n:],
+            covariance=full,
+            held=at_limit[: n - 1],
+            scatter=tuple(np.sqrt(state.variance).tolist()),
+            correlation=max(_together(c.residual, self.of) for c in curves),
+        )
+
+
+def _total(curves: Curves, state: _State) -> float:
+    return float(sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True)))
+
+
+def _huber(residual: FloatArray) -> FloatArray:
+    """Weights that bound the pull of a residual, from the median absolute one [-]."""
+    sigma = MAD_TO_SIGMA * float(np.median(np.abs(residual)))
+    size = np.abs(residual)
+    return np.divide(HUBER * sigma, size, out=np.ones_like(size), where=size > HUBER * sigma)
+
+
+def _together(residual: FloatArray, of: NDArray[np.intp]) -> float:
+    """Correlation of neighbouring rows of the same isotherm [-]."""
+    total = float(residual @ residual)
+    same = of[1:] == of[:-1]
+    return float((residual[1:] * residual[:-1])[same].sum()) / total if total > 0.0 else 0.0
+
+
+def _widening(residual: FloatArray, of: NDArray[np.intp]) -> float:
+    """Variance of a mean of correlated rows over that of independent ones [-]."""
+    c = _together(residual, of)
+    return (1.0 + c) / (1.0 - c) if c > 2.0 / np.sqrt(residual.size) else 1.0
+
+
+def _inverse(matrix: FloatArray) -> FloatArray:
+    """Inverse of the normal matrix, refused where a combination of shifts is not determined."""
+    scale = np.sqrt(np.diagonal(matrix))
+    if not np.all(scale > 0.0):
+        raise NoSolutionError(UNDETERMINED)
+    values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
+    if values[0] < SINGULAR * values[-1]:
+        raise NoSolutionError(UNDETERMINED)
+    return np.asarray((vectors / values) @ vectors.T / np.outer(scale, scale))
+
+
+UNDETERMINED = (
+    "the isotherms do not determine their shifts: a curve without slope can be moved sideways, and with"
+    " vertical=True a straight line in log-log along itself; leave such isotherms out, or vertical=False"
+)

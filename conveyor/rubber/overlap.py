@@ -1,0 +1,208 @@
+"""Neighbouring isotherms laid on each other: the first guess of a shift, and what differs in the overlap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from conveyor.errors import InputError
+from conveyor.rubber.arrays import FloatArray
+from conveyor.rubber.shift import celsius
+
+STEP = 0.05
+"""Grid of the first guess [decades]; the joint fit removes what it leaves."""
+LEAST_OVERLAP = 0.25
+"""Share of the shorter isotherm that has to lie in the overlap of a first guess: with less, a lucky crossing
+of two points wins [-]."""
+END_ROWS = 3
+"""Rows at the end of an isotherm from which its slope is taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """One isotherm in logarithms, by ascending frequency.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+    x : numpy.ndarray
+        log10 of the frequency in Hz, shape `(n,)` [decades].
+    y : numpy.ndarray
+        ln E' and ln E'' in Pa, shape `(2, n)` [-].
+    """
+
+    temperature: float
+    x: FloatArray
+    y: FloatArray
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """Two neighbouring isotherms on the master curve.
+
+    Parameters
+    ----------
+    cold : float
+        Temperature of the colder one [K].
+    hot : float
+        Temperature of the hotter one [K].
+    decades : float
+        Reduced frequencies that both cover [decades].
+    held : bool
+        Whether this is the least overlap allowed, a quarter of the shorter isotherm: the two have not one
+        shape and would part, so their shift is a limit and no measurement, nor its uncertainty [-].
+    storage : float
+        Root mean square difference of ln E' in the overlap [-].
+    loss : float
+        Root mean square difference of ln E'' in the overlap [-].
+
+    Notes
+    -----
+    Each row against the other isotherm, interpolated linearly in log-log: the noise of both, the curvature
+    between rows, and what does not superpose.
+    """
+
+    cold: float
+    hot: float
+    decades: float
+    held: bool
+    storage: float
+    loss: float
+
+
+def differences(cold: Sheet, hot: Sheet, shift: FloatArray) -> FloatArray:
+    """Difference of the moduli, cold less hot, at every row of both; NaN outside the overlap.
+
+    Parameters
+    ----------
+    cold : Sheet
+        The colder isotherm.
+    hot : Sheet
+        The hotter one.
+    shift : numpy.ndarray
+        log10 a_T of the cold one less that of the hot one, shape `(m,)` [decades].
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape `(2, m, rows)`: ln E', then ln E'' [-].
+    """
+    on_hot, on_cold = cold.x + shift[:, None], hot.x - shift[:, None]
+    outside = {"left": np.nan, "right": np.nan}
+    return np.array(
+        [
+            np.hstack(
+                [
+                    cold.y[k] - np.interp(on_hot, hot.x, hot.y[k], **outside),
+                    np.interp(on_cold, cold.x, cold.y[k], **outside) - hot.y[k],
+                ]
+            )
+            for k in (0, 1)
+        ]
+    )
+
+
+def reach(cold: Sheet, hot: Sheet) -> tuple[float, float]:
+    """Shifts between which a quarter of the shorter isotherm lies in the overlap.
+
+    Parameters
+    ----------
+    cold : Sheet
+        The colder isotherm.
+    hot : Sheet
+        The hotter one.
+
+    Returns
+    -------
+    tuple of float
+        Least and largest log10 a_T of the cold one less that of the hot one [decades].
+    """
+    least = LEAST_OVERLAP * min(float(np.ptp(cold.x)), float(np.ptp(hot.x)))
+    return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
+
+
+def first_guess(cold: Sheet, hot: Sheet, *, moduli: tuple[int, ...], vertical: bool) -> tuple[float, float]:
+    """Shift that makes the mean square difference in the overlap smallest, on a grid.
+
+    Parameters
+    ----------
+    cold : Sheet
+        The colder isotherm.
+    hot : Sheet
+        The hotter one.
+    moduli : tuple of int
+        Those that count: 0 is E', 1 is E'' [-].
+    vertical : bool
+        Whether the moduli may be scaled too [-].
+
+    Returns
+    -------
+    tuple of float
+        log10 a_T [decades] and ln b_T [-] of the cold one less those of the hot one.
+
+    Raises
+    ------
+    InputError
+        If no modulus E' occurs in both.
+    """
+    _check_common_modulus(cold, hot)
+    nearest, farthest = reach(cold, hot)
+    nearest = min(max(0.0, nearest), farthest)
+    grid = np.linspace(nearest, farthest, max(2, round((farthest - nearest) / STEP)))
+    error = differences(cold, hot, grid)[list(moduli)]
+    known = np.isfinite(error)
+    count = np.maximum(known.sum(axis=(0, 2)), 1)
+    error = np.where(known, error, 0.0)
+    offset = error.sum(axis=(0, 2)) / count if vertical else np.zeros(grid.size)
+    square = np.sum(np.where(known, error - offset[:, None], 0.0) ** 2, axis=(0, 2)) / count
+    square[~known.any(axis=(0, 2))] = np.inf
+    best = int(np.argmin(square))
+    return float(grid[best]), float(offset[best])
+
+
+def overlap(cold: Sheet, hot: Sheet, shift: float, offset: float, *, held: bool) -> Overlap:
+    """Sum up the overlap of two neighbours.
+
+    Parameters
+    ----------
+    cold : Sheet
+        The colder isotherm.
+    hot : Sheet
+        The hotter one.
+    shift : float
+        log10 a_T of the cold one less that of the hot one [decades].
+    offset : float
+        ln b_T of the cold one less that of the hot one [-].
+    held : bool
+        Whether the shift is at the limit of `reach` [-].
+
+    Returns
+    -------
+    Overlap
+        Length and differences.
+    """
+    decades = min(cold.x[-1] + shift, hot.x[-1]) - max(cold.x[0] + shift, hot.x[0])
+    error = differences(cold, hot, np.array([shift])) - offset
+    rms = np.sqrt(np.nanmean(error[:, 0] ** 2, axis=1))
+    return Overlap(cold.temperature, hot.temperature, float(decades), held, float(rms[0]), float(rms[1]))
+
+
+def _check_common_modulus(cold: Sheet, hot: Sheet) -> None:
+    """Refuse neighbours without a common E': where one ends the other has not begun."""
+    for low, high in ((hot, cold), (cold, hot)):
+        gap = float(high.y[0].min() - low.y[0].max())
+        if gap > 0.0:
+            up, down = np.argsort(low.y[0])[-END_ROWS:], np.argsort(high.y[0])[:END_ROWS]
+            slopes = [abs(np.polyfit(s.x[i], s.y[0][i], 1)[0]) for s, i in ((low, up), (high, down))]
+            slope = float(np.mean(slopes))
+            raise _gap(cold, hot, gap / slope if slope > 0.0 else float("inf"))
+
+
+def _gap(cold: Sheet, hot: Sheet, missing: float) -> InputError:
+    return InputError(
+        f"the isotherms at {celsius(cold.temperature)} and {celsius(hot.temperature)} do not overlap: no E' is"
+        f" common to both, about {missing:.2g} decades of frequency are missing between them; measure a"
+        " temperature between, or a wider range of frequency"
+    )

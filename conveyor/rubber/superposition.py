@@ -1,0 +1,294 @@
+"""Isotherms to a master curve: all shifts at once, against one smooth curve, with their uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from conveyor.errors import InputError, RangeError
+from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.rubber.joint_shift import JointShift, Placed
+from conveyor.rubber.overlap import Overlap, Sheet, first_guess, overlap
+from conveyor.rubber.shift import celsius
+
+LEAST_ROWS = 3
+"""Rows of an isotherm: two moduli at three frequencies tell a shift from noise."""
+DIFFERENCE = 1.0e-4
+"""Step of a central difference: a hundredth of the smallest shift that matters [decades]."""
+MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
+"""Rows of a `Sheet` that count."""
+LN10 = float(np.log(10.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Isotherm:
+    """One frequency sweep at one temperature.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+    frequency : array_like
+        Cyclic frequency, shape `(n,)`, n >= 3, distinct; sorted ascending with the moduli [Hz].
+    storage : array_like
+        E' at them, shape `(n,)` [Pa].
+    loss : array_like
+        E'' at them, shape `(n,)` [Pa].
+
+    Raises
+    ------
+    InputError
+        If shapes differ, a value is not finite and > 0, a frequency repeats, or there are fewer than 3 rows.
+    """
+
+    temperature: float
+    frequency: FloatArray
+    storage: FloatArray
+    loss: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check, sort, freeze."""
+        t = positive("temperature", self.temperature, "K")
+        f = positive_vector("frequency", self.frequency, "Hz")
+        columns = {"frequency": f, "storage": positive_vector("storage", self.storage, "Pa")}
+        columns["loss"] = positive_vector("loss", self.loss, "Pa")
+        if any(c.shape != f.shape for c in columns.values()) or f.size < LEAST_ROWS:
+            sizes = ", ".join(f"{name} {c.size}" for name, c in columns.items())
+            raise InputError(
+                f"the isotherm at {celsius(t)} needs >= {LEAST_ROWS} rows, each with E' and E''; got {sizes}"
+            )
+        order = np.argsort(f, kind="stable")
+        if np.any(np.diff(f[order]) == 0.0):
+            twice = f[order][1:][np.diff(f[order]) == 0.0][0]
+            raise InputError(
+                f"the isotherm at {celsius(t)} holds {twice:g} Hz twice: choose one run, or average the runs"
+            )
+        for name, column in columns.items():
+            ordered = column[order]
+            ordered.setflags(write=False)
+            object.__setattr__(self, name, ordered)
+        object.__setattr__(self, "temperature", t)
+
+
+@dataclass(frozen=True, eq=False)
+class Superposition:
+    """A master curve and everything needed to judge it; `n` isotherms, `m` rows.
+
+    Parameters
+    ----------
+    reference : float
+        Absolute temperature at which a_T = b_T = 1 [K].
+    temperatures : numpy.ndarray
+        Of the isotherms, shape `(n,)`, ascending [K].
+    log10_a_T : numpy.ndarray
+        Shift of each: E(f, T) = b_T E(f a_T, T_ref), shape `(n,)` [decades].
+    log10_a_T_error : numpy.ndarray
+        Standard uncertainty, shape `(n,)`; 0 at a measured reference, growing along the chain [decades].
+    log10_b_T : numpy.ndarray
+        Vertical shift, 0 unless it was asked for, shape `(n,)` [decades].
+    log10_b_T_error : numpy.ndarray
+        Its standard uncertainty, shape `(n,)` [decades].
+    covariance : numpy.ndarray
+        Of log10 a_T, shape `(n, n)`: neighbours share the chain to the reference, and its errors [-].
+    frequency : numpy.ndarray
+        Reduced frequency f a_T of the master curve, ascending, shape `(m,)` [Hz].
+    storage : numpy.ndarray
+        E'/b_T, shape `(m,)` [Pa].
+    loss : numpy.ndarray
+        E''/b_T, shape `(m,)` [Pa].
+    isotherm : numpy.ndarray
+        Index into `temperatures` of each row, shape `(m,)` [-].
+    overlaps : tuple of Overlap
+        Of each neighbouring pair, coldest first.
+    storage_residual : float
+        Root mean square difference of ln E' in all overlaps [-].
+    loss_residual : float
+        The same of ln E'' [-].
+    storage_scatter : float or None
+        Standard deviation of ln E' about the common curve; None if it did not count [-].
+    loss_scatter : float or None
+        The same of ln E'' [-].
+    correlation : float
+        Correlation of residuals of neighbouring rows, the larger of E' and E''; far above 0 where the
+        isotherms differ in shape: then they do not superpose, whatever the shift [-].
+    """
+
+    reference: float
+    temperatures: FloatArray
+    log10_a_T: FloatArray
+    log10_a_T_error: FloatArray
+    log10_b_T: FloatArray
+    log10_b_T_error: FloatArray
+    covariance: FloatArray = field(repr=False)
+    frequency: FloatArray = field(repr=False)
+    storage: FloatArray = field(repr=False)
+    loss: FloatArray = field(repr=False)
+    isotherm: NDArray[np.intp] = field(repr=False)
+    overlaps: tuple[Overlap, ...] = field(repr=False)
+    storage_residual: float
+    loss_residual: float
+    storage_scatter: float | None
+    loss_scatter: float | None
+    correlation: float
+
+
+def superpose(
+    isotherms: Sequence[Isotherm],
+    reference: float,
+    *,
+    vertical: bool = False,
+    by: Literal["both", "storage", "loss"] = "both",
+) -> Superposition:
+    """Shift isotherms onto one master curve.
+
+    Parameters
+    ----------
+    isotherms : sequence of Isotherm
+        At least two, at distinct temperatures, any order.
+    reference : float
+        Absolute temperature at which a_T is to be 1, within the measured ones [K].
+    vertical : bool
+        Whether the moduli are scaled by a b_T of each isotherm too [-].
+    by : {"both", "storage", "loss"}
+        The moduli whose overlap counts; the other is carried along. "storage" where E'' is disturbed
+        (resonance of the instrument, a stiff glass) [-].
+
+    Returns
+    -------
+    Superposition
+        Shifts, uncertainties, master curve, residuals.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two isotherms, a temperature occurs twice, or two neighbours do not overlap.
+    RangeError
+        If the reference is outside the measured temperatures.
+    NoSolutionError
+        If the data do not determine the shifts (flat curves; with `vertical`, power laws).
+
+    Notes
+    -----
+    ln E' and ln E'' of all isotherms are regressed on two common smooth functions of log10(f a_T), penalised
+    cubic splines, and on the shifts, together: Honerkamp and Weese's idea with splines for their polynomial.
+    Stiffness of the curves and noise of each modulus follow from the restricted likelihood, so E' and E''
+    weigh by how well they superpose. The first guess lays each isotherm on its hotter neighbour.
+
+    The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
+    scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
+    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). It does not hold errors
+    of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
+
+    A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
+    `ShiftTable` does; the error of that interpolation is not in the uncertainty.
+
+    A vertical shift is told from a horizontal one only by the bend of the curves; look at the errors.
+
+    References
+    ----------
+    J. Honerkamp, J. Weese, Rheol. Acta 32 (1993) 57-64 (shifts by joint regression).
+    M. Gergesova, B. Zupancic, I. Saprunov, I. Emri, J. Rheol. 55 (2011) 1-16 (shifts pair by pair).
+    G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432 (variable projection).
+
+    Examples
+    --------
+    >>> from conveyor.rubber.prony import PronySeries
+    >>> series = PronySeries(1e6, np.full(13, 1e6), np.logspace(-9, 3, 13))
+    >>> f = np.logspace(-1, 2, 10)
+    >>> def sweep(t, a):
+    ...     omega = 2 * np.pi * f * 10**a
+    ...     return Isotherm(t, f, series.storage(omega), series.loss(omega))
+    >>> result = superpose([sweep(273.0, 2.5), sweep(283.0, 1.2), sweep(293.0, 0.0)], reference=293.0)
+    >>> [round(float(a), 2) for a in result.log10_a_T]
+    [2.5, 1.2, 0.0]
+    """
+    sheets, t_ref = _checked(isotherms, reference)
+    if by not in MODULI:
+        raise InputError(f'by = {by!r} must be "both", "storage" or "loss"')
+    moduli = MODULI[by]
+    joint = JointShift(sheets, moduli=moduli, vertical=vertical)
+    pairs = zip(sheets[:-1], sheets[1:], strict=True)
+    start = [first_guess(cold, hot, moduli=moduli, vertical=vertical) for cold, hot in pairs]
+    return _result(sheets, t_ref, moduli, joint.minimum(np.array(start).T))
+
+
+def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[Sheet], float]:
+    if len(isotherms) < 2:
+        raise InputError(f"a superposition needs >= 2 isotherms; got {len(isotherms)}")
+    ordered = sorted(isotherms, key=lambda one: one.temperature)
+    t = np.array([one.temperature for one in ordered])
+    if np.any(np.diff(t) == 0.0):
+        twice = float(t[1:][np.diff(t) == 0.0][0])
+        raise InputError(f"two isotherms at {celsius(twice)}: choose one run, or average the runs")
+    t_ref = positive("reference", reference, "K")
+    if not t[0] <= t_ref <= t[-1]:
+        raise RangeError(
+            f"reference {celsius(t_ref)} is outside the isotherms, {celsius(float(t[0]))} to"
+            f" {celsius(float(t[-1]))}; shifts are not extrapolated: choose a reference inside"
+        )
+    return [
+        Sheet(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss])) for one in ordered
+    ], t_ref
+
+
+def _result(sheets: list[Sheet], t_ref: float, moduli: tuple[int, ...], placed: Placed) -> Superposition:
+    """Move the zero to the reference, and lay the rows out."""
+    t = np.array([s.temperature for s in sheets])
+    shift, offset = placed.shift, placed.offset
+    size = t.size
+    a, from_a = _zeroed(t, shift, t_ref)
+    b, from_b = _zeroed(t, offset, t_ref)
+    covariance = from_a @ placed.covariance[:size, :size] @ from_a.T
+    vertical = from_b @ placed.covariance[size:, size:] @ from_b.T
+    overlaps = tuple(
+        overlap(sheets[i], sheets[i + 1], -da, -db, held=bool(placed.held[i]))
+        for i, (da, db) in enumerate(zip(np.diff(a).tolist(), np.diff(b).tolist(), strict=True))
+    )
+    x = np.concatenate([s.x + d for s, d in zip(sheets, a, strict=True)])
+    y = np.hstack([s.y - d for s, d in zip(sheets, b, strict=True)])
+    of = np.repeat(np.arange(size), [s.x.size for s in sheets])
+    order = np.argsort(x, kind="stable")
+    modulus = np.exp(y[:, order])
+    scatter = dict(zip(moduli, placed.scatter, strict=True))
+    return Superposition(
+        reference=t_ref,
+        temperatures=t,
+        log10_a_T=a,
+        log10_a_T_error=_root(covariance),
+        log10_b_T=b / LN10,
+        log10_b_T_error=_root(vertical) / LN10,
+        covariance=covariance,
+        frequency=10.0 ** x[order],
+        storage=modulus[0],
+        loss=modulus[1],
+        isotherm=of[order],
+        overlaps=overlaps,
+        storage_residual=float(np.sqrt(np.mean([o.storage**2 for o in overlaps]))),
+        loss_residual=float(np.sqrt(np.mean([o.loss**2 for o in overlaps]))),
+        storage_scatter=scatter.get(0),
+        loss_scatter=scatter.get(1),
+        correlation=placed.correlation,
+    )
+
+
+def _zeroed(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
+    """Values less their interpolated one at the reference, and the derivative of the former by the latter."""
+    at = np.flatnonzero(t == t_ref)
+    if at.size:
+        weights = np.eye(t.size)[at[0]]
+    else:
+        moved = value + DIFFERENCE * np.vstack([np.eye(t.size), -np.eye(t.size)])
+        at_reference = PchipInterpolator(t, moved, axis=1)(t_ref)
+        weights = (at_reference[: t.size] - at_reference[t.size :]) / (2.0 * DIFFERENCE)
+    level = float(PchipInterpolator(t, value)(t_ref))
+    return value - level, np.eye(t.size) - weights
+
+
+def _root(covariance: FloatArray) -> FloatArray:
+    """Standard deviations; the one of the reference is 0 up to rounding of either sign."""
+    return np.sqrt(np.maximum(np.diagonal(covariance), 0.0))
