@@ -66,14 +66,14 @@ def basis(x: FloatArray, spacing: float) -> Basis:
         Splines over the range of `x`.
     """
     first, last = int(np.floor(x.min() / spacing)), int(np.floor(x.max() / spacing)) + 1
-    knots = np.arange(first - DEGREE, last + DEGREE + 1) * spacing
+    knots = spacing * np.arange(first - DEGREE, last + DEGREE + 1, dtype=np.float64)
     count = knots.size - DEGREE - 1
     matrix = BSpline.design_matrix(x, knots, DEGREE).toarray()
     lower = BSpline.design_matrix(x, knots[1:-1], DEGREE - 1).toarray() / spacing
     slope = np.zeros_like(matrix)
     slope[:, 1:] += lower
     slope[:, :-1] -= lower
-    bends = np.diff(np.eye(count), ORDER, axis=0)
+    bends = np.asarray(np.diff(np.eye(count), ORDER, axis=0), dtype=np.float64)
     return Basis(knots, matrix, slope, bends.T @ bends)
 
 

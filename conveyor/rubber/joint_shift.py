@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,8 +108,7 @@ class JointShift:
         self.sums = summed if not vertical else np.kron(np.eye(2), summed)
         self.to_rows = summed[self.of]
         self.vertical = vertical
-        pairs = zip(sheets[:-1], sheets[1:], strict=True)
-        limits = np.array([reach(cold, hot) for cold, hot in pairs])
+        limits = np.array([reach(cold, hot) for cold, hot in pairwise(sheets)])
         free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
         self.lower, self.upper = np.vstack([limits, free]).T
 
