@@ -10,7 +10,7 @@ from scipy.constants import R as GAS_CONSTANT
 from scipy.optimize import minimize_scalar
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
+from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
 from conveyor.rubber.shift import WLF, Arrhenius
 
 POLE_DISTANCE = (0.1, 1.0e4)
@@ -20,7 +20,7 @@ SEARCH_POINTS = 201
 
 @dataclass(frozen=True)
 class ShiftFit:
-    """A fitted shift law and its misfit.
+    """A fitted shift law and its misfit, every temperature counted alike.
 
     Parameters
     ----------
@@ -40,7 +40,9 @@ class ShiftFit:
     worst_temperature: float
 
 
-def fit_wlf(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float) -> ShiftFit:
+def fit_wlf(
+    temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float, *, error: ArrayLike | None = None
+) -> ShiftFit:
     """Least-squares WLF law in decades, reference held.
 
     Parameters
@@ -51,6 +53,9 @@ def fit_wlf(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float) -> 
         Shifts at them, shape `(n,)` [-].
     reference : float
         Absolute temperature at which the law is to give a_T = 1 [K].
+    error : array_like, optional
+        Standard uncertainty of each shift, shape `(n,)`, > 0, or 0 at the reference, where the law is exact
+        by construction; rows weigh by 1/error^2. Equal weights when left out [decades].
 
     Returns
     -------
@@ -77,15 +82,16 @@ def fit_wlf(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float) -> 
     (8.86, 101.6, True)
     """
     t, y, x = _table(temperatures, log10_a_T, reference, minimum=3)
+    weight = _weights(x, error)
     floor = max(0.0, -float(x.min()))
 
     def slope(v: float) -> tuple[float, FloatArray]:
         basis = -x / (floor + np.exp(v) + x)
-        return float(basis @ y / (basis @ basis)), basis
+        return float((weight * basis) @ y / ((weight * basis) @ basis)), basis
 
     def cost(v: float) -> float:
         c1, basis = slope(v)
-        return float(np.sum((c1 * basis - y) ** 2))
+        return float(weight @ (c1 * basis - y) ** 2)
 
     grid = np.linspace(np.log(POLE_DISTANCE[0]), np.log(POLE_DISTANCE[1]), SEARCH_POINTS)
     best = int(np.argmin([cost(float(v)) for v in grid]))
@@ -102,7 +108,9 @@ def fit_wlf(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float) -> 
     return _judge(WLF(c1, floor + float(np.exp(found.x)), float(reference)), t, y)
 
 
-def fit_arrhenius(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float) -> ShiftFit:
+def fit_arrhenius(
+    temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float, *, error: ArrayLike | None = None
+) -> ShiftFit:
     """Least-squares Arrhenius law in decades, reference held.
 
     Parameters
@@ -113,6 +121,9 @@ def fit_arrhenius(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: floa
         Shifts at them, shape `(n,)` [-].
     reference : float
         Absolute temperature at which the law is to give a_T = 1 [K].
+    error : array_like, optional
+        Standard uncertainty of each shift, shape `(n,)`, > 0, or 0 at the reference, where the law is exact
+        by construction; rows weigh by 1/error^2. Equal weights when left out [decades].
 
     Returns
     -------
@@ -135,8 +146,9 @@ def fit_arrhenius(temperatures: ArrayLike, log10_a_T: ArrayLike, reference: floa
     120000
     """
     t, y, x = _table(temperatures, log10_a_T, reference, minimum=1)
+    weight = _weights(x, error)
     basis = -x / (t * reference * GAS_CONSTANT * np.log(10.0))
-    energy = float(basis @ y / (basis @ basis))
+    energy = float((weight * basis) @ y / ((weight * basis) @ basis))
     if energy <= 0.0:
         raise NoSolutionError(
             "the shifts rise with temperature: no Arrhenius law; reversed sign, or log of 1/a_T?"
@@ -156,6 +168,23 @@ def _table(
     if distinct < minimum:
         raise InputError(f"the fit needs >= {minimum} temperatures apart from the reference; got {distinct}")
     return t, y, x
+
+
+def _weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
+    """Weights of the rows, 1 for the smallest uncertainty; 0 at the reference, where no law can differ."""
+    away = x != 0.0
+    if error is None:
+        return np.asarray(away, dtype=np.float64)
+    sigma = non_negative("error", error, "decades")
+    if sigma.shape != x.shape:
+        raise InputError(
+            f"error must hold one standard uncertainty per shift, shape {x.shape}; got {sigma.shape}"
+        )
+    if np.any(sigma[away] == 0.0):
+        raise InputError("error must be > 0 decades except at the reference: 0 would be an exact measurement")
+    weight = np.zeros_like(x)
+    weight[away] = np.square(sigma[away].min() / sigma[away])
+    return weight
 
 
 def _judge(law: WLF | Arrhenius, t: FloatArray, y: FloatArray) -> ShiftFit:

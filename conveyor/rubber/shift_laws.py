@@ -1,0 +1,217 @@
+"""Which shift law to take: WLF, Arrhenius and the table itself, by how well each predicts a shift left out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
+from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable
+from conveyor.rubber.shift_fit import fit_arrhenius, fit_wlf
+
+LEAST_TEMPERATURES = 5
+"""Two ends that no table predicts when left out, and three between them to judge by."""
+PARAMETERS = {"WLF": 2, "Arrhenius": 1}
+REMARKS = {
+    "WLF": "two parameters, smooth; above the glass transition, not near its pole",
+    "Arrhenius": "one parameter; a glass, or far above the glass transition",
+    "table": (
+        "interpolates: no residual at its own points, so only `left_out` judges it, and that over twice"
+        " the spacing it has in use; it smooths no noise and never extrapolates"
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class ShiftComparison:
+    """One law and how it fits the shifts.
+
+    Parameters
+    ----------
+    name : str
+        "WLF", "Arrhenius" or "table" [-].
+    law : WLF, Arrhenius, ShiftTable or None
+        The fitted law; None if the shifts do not follow it [-].
+    rms : float
+        Root mean square of law minus shift, weighted [decades].
+    worst : float
+        Largest in magnitude, not weighted, with its sign [decades].
+    worst_temperature : float
+        Where [K].
+    left_out : float
+        Root mean square error, weighted, of each inner shift predicted by the law refitted without it
+        [decades].
+    chi2_per_freedom : float or None
+        Sum of (residual/error)^2 over rows less parameters; 1 for a law within its errors. None without
+        `error`, and for the table [-].
+    low : float
+        Coldest temperature at which the law is supported by shifts [K].
+    high : float
+        Hottest one [K].
+    remark : str
+        What kind of law it is, or why it is not there [-].
+    """
+
+    name: str
+    law: WLF | Arrhenius | ShiftTable | None
+    rms: float
+    worst: float
+    worst_temperature: float
+    left_out: float
+    chi2_per_freedom: float | None
+    low: float
+    high: float
+    remark: str
+
+
+@dataclass(frozen=True, eq=False)
+class _Shifts:
+    """Checked rows by ascending temperature; weights are 1/error^2 of those away from the reference."""
+
+    t: FloatArray
+    y: FloatArray
+    reference: float
+    error: FloatArray | None
+    weight: FloatArray
+
+    def law(self, name: str, keep: FloatArray | slice = slice(None)) -> WLF | Arrhenius | ShiftTable:
+        """Fit a law to some rows."""
+        t, y = self.t[keep], self.y[keep]
+        if name == "table":
+            if self.reference not in t:
+                t, y = np.append(t, self.reference), np.append(y, 0.0)
+            return ShiftTable(t, y, reference=self.reference)
+        error = None if self.error is None else self.error[keep]
+        fit = fit_wlf if name == "WLF" else fit_arrhenius
+        return fit(t, y, self.reference, error=error).law
+
+
+def compare_shift_laws(
+    temperatures: ArrayLike, log10_a_T: ArrayLike, reference: float, *, error: ArrayLike | None = None
+) -> tuple[ShiftComparison, ...]:
+    """Fit WLF and Arrhenius, take the table, and order them by their error at a shift left out.
+
+    Parameters
+    ----------
+    temperatures : array_like
+        Absolute temperatures, shape `(n,)`, n >= 5, distinct, any order [K].
+    log10_a_T : array_like
+        Shifts at them, shape `(n,)` [-].
+    reference : float
+        Absolute temperature, within the measured ones, at which a_T = 1 [K].
+    error : array_like, optional
+        Standard uncertainty of each shift, shape `(n,)`; rows weigh by 1/error^2. Equal weights when left
+        out [decades].
+
+    Returns
+    -------
+    tuple of ShiftComparison
+        Best first; a law that the shifts do not follow comes last, without a law.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than five temperatures, values repeat or are not finite, or the shifts rise with
+        temperature.
+    RangeError
+        If the reference is outside the temperatures.
+
+    Notes
+    -----
+    The criterion is leave-one-out cross-validation over the inner temperatures: it is what a law is used for,
+    a temperature between the measured ones, and the one figure that a table and a formula share. Chi^2 per degree
+    of freedom stands beside it where uncertainties are given: far above 1 the law is wrong for
+    this rubber, however it ranks. Uncertainties along a chain of isotherms are correlated (see
+    `Superposition.covariance`); here they count as independent, so chi^2 is a guide.
+
+    References
+    ----------
+    M. Stone, J. R. Stat. Soc. B 36 (1974) 111-147 (cross-validation).
+
+    Examples
+    --------
+    >>> t = np.array([263.0, 273.0, 283.0, 293.0, 303.0, 313.0, 323.0])
+    >>> found = compare_shift_laws(t, WLF(8.86, 101.6, 293.0).log10_a_T(t), 293.0)
+    >>> [one.name for one in found]
+    ['WLF', 'table', 'Arrhenius']
+    """
+    shifts = _checked(temperatures, log10_a_T, reference, error)
+    found = [_judged(shifts, name) for name in ("WLF", "Arrhenius", "table")]
+    return tuple(sorted(found, key=lambda one: one.left_out))
+
+
+def _checked(
+    temperatures: ArrayLike, shifts: ArrayLike, reference: float, error: ArrayLike | None
+) -> _Shifts:
+    t, y = positive_vector("temperatures", temperatures, "K"), finite_vector("log10_a_T", shifts, "decades")
+    if t.shape != y.shape or t.size < LEAST_TEMPERATURES:
+        raise InputError(
+            f"comparing laws needs >= {LEAST_TEMPERATURES} temperatures and a shift for each; got {t.size} and {y.size}"
+        )
+    t_ref = positive("reference", reference, "K")
+    if not t.min() <= t_ref <= t.max():
+        raise RangeError(
+            f"reference {t_ref:g} K is outside the shifts, {t.min():g} to {t.max():g} K: choose one inside"
+        )
+    order = np.argsort(t, kind="stable")
+    sigma = None
+    weight = np.ones_like(t)
+    if error is not None:
+        sigma = non_negative("error", error, "decades")
+        if sigma.shape != t.shape:
+            raise InputError(f"error must hold one uncertainty per shift, shape {t.shape}; got {sigma.shape}")
+        if np.any(sigma[t != t_ref] == 0.0):
+            raise InputError(
+                "error must be > 0 decades except at the reference: 0 would be an exact measurement"
+            )
+        sigma = sigma[order]
+        away = t[order] != t_ref
+        weight = np.zeros_like(t)
+        weight[away] = 1.0 / np.square(sigma[away])
+    weight[t[order] == t_ref] = 0.0
+    return _Shifts(t[order], y[order], t_ref, sigma, weight)
+
+
+def _judged(shifts: _Shifts, name: str) -> ShiftComparison:
+    t, y, weight = shifts.t, shifts.y, shifts.weight
+    low, high = float(t[0]), float(t[-1])
+    try:
+        law = shifts.law(name)
+        left_out = _left_out(shifts, name)
+    except NoSolutionError as refused:
+        infinite = float("inf")
+        return ShiftComparison(name, None, infinite, infinite, low, infinite, None, low, high, str(refused))
+    residual = _at(law, t) - y
+    k = int(np.argmax(np.abs(residual)))
+    freedom = int(np.count_nonzero(weight)) - PARAMETERS.get(name, t.size)
+    chi2 = float(weight @ residual**2) / freedom if shifts.error is not None and freedom > 0 else None
+    return ShiftComparison(
+        name=name,
+        law=law,
+        rms=float(np.sqrt(weight @ residual**2 / weight.sum())),
+        worst=float(residual[k]),
+        worst_temperature=float(t[k]),
+        left_out=left_out,
+        chi2_per_freedom=chi2,
+        low=low,
+        high=high,
+        remark=REMARKS[name],
+    )
+
+
+def _left_out(shifts: _Shifts, name: str) -> float:
+    """Weighted error of each inner shift, predicted without it [decades]."""
+    rows = [i for i in range(1, shifts.t.size - 1) if shifts.weight[i] > 0.0]
+    errors = []
+    for i in rows:
+        keep = np.arange(shifts.t.size) != i
+        errors.append(float(_at(shifts.law(name, keep), shifts.t[i : i + 1])[0]) - float(shifts.y[i]))
+    weight = shifts.weight[rows]
+    return float(np.sqrt(weight @ np.square(errors) / weight.sum()))
+
+
+def _at(law: ShiftLaw, t: FloatArray) -> FloatArray:
+    return np.asarray(law.log10_a_T(t), dtype=np.float64)
