@@ -6,9 +6,11 @@ Here quantities become SI, once.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from conveyor.errors import NoSolutionError
 from conveyor.loading import RollLoad, bulk_line_mass, roll_loads
 from conveyor.models import Conveyor, IdlerSet, Roll, Section
 from conveyor.resistance import (
@@ -26,6 +28,8 @@ from conveyor.tension import sag_tension
 from conveyor.units import Quantity, si
 
 Strand = Literal["carry", "return"]
+Pressing = Mapping[tuple[str, Strand], float]
+"""Mass per length with which tension presses on the rolls of a section and strand [kg/m], negative where it lifts."""
 
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 
@@ -81,21 +85,46 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(conveyor: Conveyor) -> tuple[Stretch, ...]:
-    """Both strands of every section, SI."""
+def stretches(conveyor: Conveyor, pressing: Pressing | None = None) -> tuple[Stretch, ...]:
+    """Both strands of every section, SI; `pressing` as of `roll_masses`."""
     sections = conveyor.route.sections
-    carry = [_stretch(conveyor, section, "carry") for section in sections]
-    back = [_stretch(conveyor, section, "return") for section in reversed(sections)]
+    carry = [_stretch(conveyor, section, "carry", pressing or {}) for section in sections]
+    back = [_stretch(conveyor, section, "return", pressing or {}) for section in reversed(sections)]
     return (*carry, *back)
 
 
-def _stretch(conveyor: Conveyor, section: Section, strand: Strand) -> Stretch:
+def roll_masses(belt_mass: float, bulk_mass: float, pressing: float) -> tuple[float, float]:
+    """Belt and bulk as they press on the rolls of a vertical curve [kg/m].
+
+    A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
+
+    Raises
+    ------
+    NoSolutionError
+        The belt lifts off with all that lies on it.
+    """
+    belt = belt_mass + pressing
+    if belt >= 0.0:
+        return belt, bulk_mass
+    if bulk_mass + belt <= 0.0:
+        raise NoSolutionError(
+            f"the belt lifts off: on a concave curve its tension pulls up like {-pressing:.4g} kg/m, belt and bulk are "
+            f"{belt_mass + bulk_mass:.4g} kg/m; choose a larger curve_radius or less tension"
+        )
+    return 0.0, bulk_mass + belt
+
+
+def _stretch(conveyor: Conveyor, section: Section, strand: Strand, pressing: Pressing) -> Stretch:
     carrying = strand == "carry"
     idlers = conveyor.idlers.carry if carrying else conveyor.idlers.return_
     own = section.carry_spacing if carrying else section.return_spacing
     spacing = si(idlers.spacing if own is None else own)
     loaded = carrying and section.loaded
     flow = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed)) if loaded else 0.0
+    flow *= conveyor.route.flow_shares[section.name]
+    belt_on_rolls, bulk_on_rolls = roll_masses(
+        conveyor.belt.line_mass, flow, pressing.get((section.name, strand), 0.0)
+    )
     length = si(section.length)
     rise = section.rise if carrying else -section.rise
     return Stretch(
@@ -114,8 +143,8 @@ def _stretch(conveyor: Conveyor, section: Section, strand: Strand) -> Stretch:
             gravity=si(conveyor.calculation.gravity),
         ),
         loads=roll_loads(
-            bulk_line_mass=flow,
-            belt_line_mass=conveyor.belt.line_mass,
+            bulk_line_mass=bulk_on_rolls,
+            belt_line_mass=belt_on_rolls,
             spacing=spacing,
             n_rolls=idlers.rolls,
             trough_angle=si(idlers.trough_angle),

@@ -14,10 +14,10 @@ from conveyor.models.compound import (
     WLFShift,
 )
 from conveyor.models.conveyor import Ambient, Calculation, Conveyor
-from conveyor.models.drive import Drive, EnergyPrice, Operation
+from conveyor.models.drive import Drive, DrivePulley, EnergyPrice, FurtherDrive, Operation
 from conveyor.models.idlers import Idlers, IdlerSet, Roll
 from conveyor.models.material import BulkMaterial
-from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section
+from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
 
 __all__ = [
     "Ambient",
@@ -30,9 +30,11 @@ __all__ = [
     "Conveyor",
     "Cover",
     "Drive",
+    "DrivePulley",
     "EnergyPrice",
     "Feeding",
     "FitStatistics",
+    "FurtherDrive",
     "IdlerSet",
     "Idlers",
     "MeasuredRange",
@@ -47,6 +49,7 @@ __all__ = [
     "Section",
     "Source",
     "TableShift",
+    "TakeUp",
     "TopCover",
     "WLFShift",
 ]

@@ -11,6 +11,7 @@ from conveyor.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.models.base import Location, Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.idlers import IdlerSet, overlap_problems
+from conveyor.models.route import Feeding
 from conveyor.resistance import SHORTEST_FOR_FACTOR
 from conveyor.units import Quantity, display, from_si, si, text
 
@@ -27,6 +28,7 @@ def conflicts(conveyor: Conveyor) -> list[Problem]:
         _covers_thin,
         _warm_enough,
         _feeding_fits,
+        _drives_placed,
         _coefficient_holds,
     )
     return [problem for check in checks for problem in check(conveyor)]
@@ -144,15 +146,18 @@ def _warm_enough(conveyor: Conveyor) -> Iterator[Problem]:
 def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
     """Feeding and cleaners are no faster and no wider than the belt."""
     belt, route = conveyor.belt, conveyor.route
-    if route.feeding is not None and si(route.feeding.speed) > si(belt.speed):
-        yield Problem(
-            ("route", "feeding", "speed"),
-            f"got {text(route.feeding.speed)}, faster than the belt (belt.speed {text(belt.speed)}); "
-            "the law holds for bulk that the belt accelerates: correct one of the two",
-        )
-    widths: dict[Location, Quantity] = {}
-    if route.feeding is not None:
-        widths["feeding", "skirt_width"] = route.feeding.skirt_width
+    points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
+    points |= {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
+    for location, point in points.items():
+        if si(point.speed) > si(belt.speed):
+            yield Problem(
+                ("route", *location, "speed"),
+                f"got {text(point.speed)}, faster than the belt (belt.speed {text(belt.speed)}); "
+                "the law holds for bulk that the belt accelerates: correct one of the two",
+            )
+    widths: dict[Location, Quantity] = {
+        (*location, "skirt_width"): point.skirt_width for location, point in points.items()
+    }
     widths |= {("cleaners", i, "width"): cleaner.width for i, cleaner in enumerate(route.cleaners)}
     for location, width in widths.items():
         if si(width) > si(belt.width):
@@ -160,6 +165,18 @@ def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
                 ("route", *location),
                 f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
             )
+
+
+def _drives_placed(conveyor: Conveyor) -> Iterator[Problem]:
+    """Every section that a drive stands at exists."""
+    drive = conveyor.drive
+    named: dict[Location, str | None] = {("drive", "section"): drive.section}
+    named |= {
+        ("drive", "further_drives", i, "section"): d.section for i, d in enumerate(drive.further_drives)
+    }
+    for location, name in named.items():
+        if name is not None:
+            yield from conveyor.route.section_problem(location, name)
 
 
 def _coefficient_holds(conveyor: Conveyor) -> Iterator[Problem]:

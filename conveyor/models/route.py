@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from functools import cached_property
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
+from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.idlers import Spacing
 from conveyor.resistance import (
     BULK_ON_BELT_FRICTION,
@@ -15,9 +17,37 @@ from conveyor.resistance import (
     CLEANER_FRICTION,
     CLEANER_PRESSURE,
 )
-from conveyor.units import Angle, Bounds, Length, Mass, Pressure, Speed, Thickness, quantity, si, text
+from conveyor.units import (
+    Angle,
+    Bounds,
+    Force,
+    Fraction,
+    Length,
+    Mass,
+    Pressure,
+    Speed,
+    Thickness,
+    quantity,
+    si,
+    text,
+)
 
 Friction = Annotated[Number, Field(gt=0, le=2)]
+Position = Literal["head", "tail", "carry", "return"]
+SHARE_SUM_TOLERANCE = 1e-9
+"""Shares are typed as decimals; anything coarser is a slip."""
+
+
+def position_problem(position: str, section: str | None) -> list[Problem]:
+    """Refuse a place along a strand without its section, and a section where the place needs none."""
+    along = position in {"carry", "return"}
+    if along and section is None:
+        message = f'missing: position "{position}" stands behind a section of that strand; give its name'
+        return [Problem(("section",), message)]
+    if not along and section is not None:
+        message = f'got "{section}" with position "{position}"; remove section, or set position to "carry" or "return"'
+        return [Problem(("section",), message)]
+    return []
 
 
 class Section(Model):
@@ -36,10 +66,14 @@ class Section(Model):
     """Distance of the return sets here, where it differs."""
     loaded: Switch = True
     """Whether the carry strand bears bulk here."""
+    curve: Literal["convex", "concave"] | None = None
+    """Vertical curve: convex over a hill, concave through a valley; straight without."""
+    curve_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
+    """Radius of the vertical curve; lift or slope are those of its chord."""
 
     @model_validator(mode="after")
     def _one_slope(self) -> Self:
-        problems = []
+        problems = self._curve_problems()
         if self.lift is not None and self.slope is not None:
             problems.append(
                 Problem(
@@ -58,6 +92,21 @@ class Section(Model):
         refuse("Section", problems)
         return self
 
+    def _curve_problems(self) -> list[Problem]:
+        if (self.curve is None) == (self.curve_radius is None):
+            return []
+        missing, given = ("curve", "curve_radius") if self.curve is None else ("curve_radius", "curve")
+        return [
+            Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")
+        ]
+
+    @property
+    def signed_radius(self) -> float:
+        """Radius of the vertical curve, positive convex, negative concave; infinite on the straight [m]."""
+        if self.curve_radius is None:
+            return math.inf
+        return si(self.curve_radius) * (1.0 if self.curve == "convex" else -1.0)
+
     @property
     def rise(self) -> float:
         """Lift from tail end to head end [m]."""
@@ -67,7 +116,7 @@ class Section(Model):
 
 
 class Feeding(Model):
-    """The loading point and its skirts."""
+    """A loading point and its skirts."""
 
     speed: Annotated[Speed, Bounds(ge="0 m/s", le="20 m/s")] = quantity("0 m/s")
     """Speed of the bulk in running direction as it lands."""
@@ -79,6 +128,10 @@ class Feeding(Model):
     """Friction of bulk on belt μ1."""
     skirt_friction: Friction = BULK_ON_SKIRT_FRICTION.value
     """Friction of bulk on skirts μ2."""
+    section: Name | None = None
+    """Section at whose tail end the bulk lands; the first without it."""
+    share: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
+    """Share of the mass flow fed here; needed where there are several feeding points."""
 
 
 class Cleaner(Model):
@@ -98,8 +151,10 @@ class Pulley(Model):
     """A pulley that bends the belt and turns in bearings."""
 
     name: Name
-    position: Literal["head", "tail", "take-up"]
-    """Which belt tension acts: drive at the head, tail end, or slack strand behind the drive."""
+    position: Literal["head", "tail", "take-up", "carry", "return"]
+    """Which belt tension acts: head, tail, take-up, or behind a section of a strand in its running direction."""
+    section: Name | None = None
+    """The section, for position "carry" or "return"."""
     diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     shaft_diameter: Annotated[Length, Bounds(gt="0 m", le="2 m")]
     """Diameter of the shaft in its bearings."""
@@ -114,6 +169,38 @@ class Pulley(Model):
                 "the shaft must be thinner: correct shaft_diameter or diameter"
             )
             refuse("Pulley", [Problem(("shaft_diameter",), message)])
+        refuse("Pulley", position_problem(self.position, self.section))
+        return self
+
+
+class TakeUp(Model):
+    """What keeps the belt taut: a weight, a fixed carriage, or a winch held at its pull."""
+
+    kind: Literal["gravity", "fixed", "winch"]
+    """Gravity and winch keep the tension at their place, a fixed one keeps the length of the belt."""
+    position: Literal["drive", "head", "tail", "carry", "return"] = "drive"
+    """Slack side of the drive, right behind the head, tail, or behind a section in running direction."""
+    section: Name | None = None
+    """The section, for position "carry" or "return"."""
+    tension: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
+    """Belt tension it is set to: at its place, of a fixed one the mean of the loop; the least needed without it."""
+    mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 t")] | None = None
+    """Mass of the weight of a gravity take-up, instead of the tension."""
+    reeving: Annotated[Number, Field(gt=0, le=20)] = 1.0
+    """Pull on the carriage over pull of the weight or rope: 1 for a weight in the belt's loop."""
+
+    @model_validator(mode="after")
+    def _one_setting(self) -> Self:
+        problems = position_problem(self.position, self.section)
+        if self.mass is not None and self.kind != "gravity":
+            message = (
+                f'got {text(self.mass)} with kind "{self.kind}"; give the tension, or set kind to "gravity"'
+            )
+            problems.append(Problem(("mass",), message))
+        elif self.mass is not None and self.tension is not None:
+            message = f"got {text(self.mass)} and tension {text(self.tension)}; give one of the two"
+            problems.append(Problem(("mass",), message))
+        refuse("TakeUp", problems)
         return self
 
 
@@ -122,6 +209,11 @@ class Route(Model):
 
     sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=1000)]
     feeding: Feeding | None = None
+    """The loading point, or the first of several."""
+    further_feeding: Annotated[tuple[Feeding, ...], Field(max_length=100)] = ()
+    """Loading points beside the first."""
+    take_up: TakeUp | None = None
+    """Without it the slack side of the drive is kept at the least tension that grip and sag ask for."""
     cleaners: Annotated[tuple[Cleaner, ...], Field(max_length=100)] = ()
     pulleys: Annotated[tuple[Pulley, ...], Field(max_length=100)] = ()
     turned_over: Switch = False
@@ -139,8 +231,76 @@ class Route(Model):
                 )
                 problems.append(Problem(("sections", i, "name"), message))
             first.setdefault(section.name, i)
-        refuse("Route", problems)
+        refuse("Route", [*problems, *self._place_problems(), *self._feeding_problems()])
         return self
+
+    def _place_problems(self) -> Iterator[Problem]:
+        """Every section that something stands at exists."""
+        named: list[tuple[Location, str | None]] = [
+            (("pulleys", i, "section"), pulley.section) for i, pulley in enumerate(self.pulleys)
+        ]
+        named += [(("further_feeding", i, "section"), f.section) for i, f in enumerate(self.further_feeding)]
+        if self.feeding is not None:
+            named.append((("feeding", "section"), self.feeding.section))
+        if self.take_up is not None:
+            named.append((("take_up", "section"), self.take_up.section))
+        for location, name in named:
+            if name is not None:
+                yield from self.section_problem(location, name)
+
+    def section_problem(self, location: Location, name: str) -> Iterator[Problem]:
+        """Refuse the name of a section that the route has not."""
+        names = [section.name for section in self.sections]
+        if name not in names:
+            shown = ", ".join(names[:10]) + (", …" if len(names) > 10 else "")
+            yield Problem(location, f'got "{name}", which is none of the sections: {shown}')
+
+    def _feeding_problems(self) -> Iterator[Problem]:
+        if not self.further_feeding:
+            if self.feeding is not None and self.feeding.share is not None and si(self.feeding.share) != 1.0:
+                message = f"got {text(self.feeding.share)} of a single feeding point; remove it or list further_feeding"
+                yield Problem(("feeding", "share"), message)
+            return
+        if self.feeding is None:
+            yield Problem(
+                ("feeding",), "missing: further_feeding is given; the first loading point stands here"
+            )
+            return
+        total, certain = 0.0, True
+        for location, point in (
+            (("feeding", "share"), self.feeding),
+            *((("further_feeding", i, "share"), f) for i, f in enumerate(self.further_feeding)),
+        ):
+            if point.share is None:
+                certain = False
+                yield Problem(location, "missing: with several feeding points each has its share of the flow")
+            else:
+                total += si(point.share)
+        if certain and abs(total - 1.0) > SHARE_SUM_TOLERANCE:
+            message = f"got a sum of {total:.6g}, the shares of all feeding points must add up to 1 (100 %)"
+            yield Problem(("feeding", "share"), message)
+
+    @cached_property
+    def feeding_points(self) -> tuple[Feeding, ...]:
+        """All loading points."""
+        return () if self.feeding is None else (self.feeding, *self.further_feeding)
+
+    @cached_property
+    def flow_shares(self) -> dict[str, float]:
+        """Share of the mass flow that has landed before or at each section's tail end [-]; 1 without feeding points."""
+        if self.feeding is None:
+            return {section.name: 1.0 for section in self.sections}
+        fed: dict[str, list[float]] = {}
+        for point in self.feeding_points:
+            name = self.sections[0].name if point.section is None else point.section
+            fed.setdefault(name, []).append(1.0 if point.share is None else si(point.share))
+        landed: list[float] = []
+        found = {}
+        for section in self.sections:
+            landed += fed.get(section.name, [])
+            total = math.fsum(landed)
+            found[section.name] = 1.0 if len(landed) == len(self.feeding_points) else total
+        return found
 
     @property
     def length(self) -> float:

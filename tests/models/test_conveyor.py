@@ -56,7 +56,30 @@ REFUSED = [
     ("ambient.temperature", "60 degC", "ambient.temperature",
      'got 60 degC, but belt.bottom_cover.compound is "test rubber": temperature 60.00 degC is outside the shift table'),
     ("ambient.belt_temperature", "0 degF", "ambient.belt_temperature", "got 0 degF, but belt.bottom_cover.compound"),
-    ("drive.position", "tail", "drive.position", "should be 'head'"),
+    ("drive.position", "middle", "drive.position", "should be 'head', 'tail', 'carry' or 'return'"),
+    ("drive.position", "carry", "drive.section", 'missing: position "carry" stands behind a section'),
+    ("drive.section", "one", "drive.section", 'got "one" with position "head"; remove section'),
+    ("drive.share", "50 %", "drive.share", "got a sum of 0.5, the shares of all drives"),
+    ("drive.further_drives", [{"name": "tail", "position": "tail", "wrap_angle": "180 deg", "friction": 0.3}],
+     "drive.further_drives.0.installed_power", "several drives share the force by installed power"),
+    ("drive.further_drives", [{"name": "tail", "wrap_angle": "180 deg", "friction": 0.3, "share": 0.4}],
+     "drive.share", "missing: another drive has a share"),
+    ("route.sections.0.curve", "convex", "route.sections.0.curve_radius", "missing: curve is given"),
+    ("route.sections.0.curve_radius", "300 m", "route.sections.0.curve", "missing: curve_radius is given"),
+    ("route.feeding.share", "50 %", "route.feeding.share", "of a single feeding point"),
+    ("route.feeding.section", "three", "route.feeding.section", "none of the sections: one, two"),
+    ("route.further_feeding", [{"skirt_length": "4 m", "skirt_width": "0.7 m", "section": "two", "share": 0.4}],
+     "route.feeding.share", "missing: with several feeding points each has its share"),
+    ("route.take_up", {"kind": "fixed", "mass": "2 t"}, "route.take_up.mass", 'got 2 t with kind "fixed"'),
+    ("route.take_up", {"kind": "gravity", "mass": "2 t", "tension": "9 kN"}, "route.take_up.mass",
+     "got 2 t and tension 9 kN; give one of the two"),
+    ("route.take_up", {"kind": "winch", "position": "return"}, "route.take_up.section", "missing: position"),
+    ("route.take_up", {"kind": "winch", "position": "return", "section": "three"}, "route.take_up.section",
+     "none of the sections"),
+    ("route.pulleys",
+     [{"name": "p", "position": "tail", "section": "one", "diameter": "0.5 m", "shaft_diameter": "0.1 m",
+       "mass": "1 t"}],
+     "route.pulleys.0.section", 'got "one" with position "tail"'),
     ("drive.efficiency", 95, "drive.efficiency", "got 95, allowed: > 0 and <= 1"),
     ("operation", {"hours_per_year": "9000 h"}, "operation.hours_per_year", "allowed: >= 0 h and <= 8784 h"),
     ("operation", {"hours_per_year": "9 h", "price": 0.12}, "operation.price", 'such as "0.12 EUR/kWh"'),
@@ -83,6 +106,25 @@ def test_conflict_is_refused_at_its_field(
     found = {".".join(map(str, item["loc"])): item["msg"] for item in caught.value.errors()}
     assert field in found
     assert re.search(message, found[field])
+
+
+def test_further_drives_and_feeding_are_checked_like_the_first(conveyor_data: dict[str, Any]) -> None:
+    booster = {"name": "booster", "position": "carry", "section": "three", "wrap_angle": "180 deg",
+               "friction": 0.3, "installed_power": "90 kW"}  # fmt: skip
+    point = {"skirt_length": "4 m", "skirt_width": "1.3 m", "section": "two", "share": 0.4, "speed": "6 m/s"}
+    conveyor_data["drive"] |= {"installed_power": "200 kW", "further_drives": [booster]}
+    conveyor_data["route"]["feeding"]["share"] = 0.6
+    conveyor_data["route"]["further_feeding"] = [point]
+    with pytest.raises(ValidationError) as caught:
+        Conveyor.model_validate(conveyor_data)
+    found = {".".join(map(str, item["loc"])): item["msg"] for item in caught.value.errors()}
+    assert 'got "three", which is none of the sections: one, two' in found["drive.further_drives.0.section"]
+    assert "got 1.3 m, wider than the belt" in found["route.further_feeding.0.skirt_width"]
+    assert "got 6 m/s, faster than the belt" in found["route.further_feeding.0.speed"]
+    booster["section"] = "one"
+    point |= {"skirt_width": "0.7 m", "speed": "2 m/s"}
+    line = Conveyor.model_validate(conveyor_data)
+    assert line.route.flow_shares == {"one": 0.6, "two": 1.0}
 
 
 def test_cover_as_thick_as_the_roll_radius(conveyor_data: dict[str, Any]) -> None:
