@@ -25,7 +25,7 @@ from conveyor.loading import RollLoad
 from conveyor.models import Conveyor
 from conveyor.resistance import flexure_resistance
 from conveyor.rubber import PronySeries
-from conveyor.stretches import FixedForces, Strand, Stretch, roll_at, stretches
+from conveyor.stretches import FixedForces, Pressing, Strand, Stretch, roll_at, stretches
 from conveyor.units import si
 
 Array = NDArray[np.float64]
@@ -219,14 +219,18 @@ class Track:
         Its compounds and its temperature play no part.
     rtol : float, optional
         Relative tolerance of the contacts; the spec's without it [-].
+    extra_mass : mapping of (section, strand) to float, optional
+        With which tension presses on the rolls of a vertical curve [kg/m].
     """
 
-    def __init__(self, conveyor: Conveyor, rtol: float | None = None) -> None:
+    def __init__(
+        self, conveyor: Conveyor, rtol: float | None = None, extra_mass: Pressing | None = None
+    ) -> None:
         self.conveyor = conveyor
         self.rtol = conveyor.calculation.rtol if rtol is None else rtol
         self.speed = si(conveyor.belt.speed)
         self.flexure_share = si(conveyor.calculation.flexure_share)
-        self.stretches = stretches(conveyor)
+        self.stretches = stretches(conveyor, extra_mass)
         self.kinds = _kinds(self.stretches, conveyor.calculation.gauss_points)
         gravity = si(conveyor.calculation.gravity)
         self.fixed = tuple(FixedForces.of(stretch, gravity) for stretch in self.stretches)
