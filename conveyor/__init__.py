@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis, analyse
+    from conveyor.comparison import compare, compare_compounds
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
@@ -31,6 +32,8 @@ _WHERE = {
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
     "analyse": "conveyor.analysis",
+    "compare": "conveyor.comparison",
+    "compare_compounds": "conveyor.comparison",
     "load": "conveyor.spec",
 }
 
@@ -45,6 +48,8 @@ __all__ = [
     "ValidityWarning",
     "__version__",
     "analyse",
+    "compare",
+    "compare_compounds",
     "load",
 ]
 

@@ -91,6 +91,13 @@ class Analysis:
 
         return tables.rolls(self.stretches)
 
+    @cached_property
+    def rubber(self) -> pd.DataFrame:
+        """One row a strand: compound, excited band against its data, working strain; units in the names."""
+        from conveyor.report import tables
+
+        return tables.rubber(self.conveyor, self.stretches)
+
     @property
     def error_estimate(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
@@ -119,6 +126,19 @@ class Analysis:
                 "total_N": self.balance.classical.total,
                 "motor_kW": self.balance.classical.motor / 1e3,
             },
+            "rubber": [
+                {
+                    "strand": row["strand"],
+                    "compound": row["compound"],
+                    "temperature_degC": row["temperature [degC]"],
+                    "excited_Hz": [row["excited from [Hz]"], row["excited to [Hz]"]],
+                    "data_Hz": [row["data from [Hz]"], row["data to [Hz]"]],
+                    "working_strain": row["working strain [-]"],
+                    "storage_factor": row["E' factor of strain [-]"],
+                    "loss_factor": row["E'' factor of strain [-]"],
+                }
+                for row in self.rubber.astype(object).where(self.rubber.notna(), None).to_dict("records")
+            ],
             "sections": [
                 {
                     "section": r.stretch.section,

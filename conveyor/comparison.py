@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from conveyor.line import (
     indented,
     slowest_excited,
     surfaces,
+    worked_surfaces,
 )
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.power import belt_power, motor_power
@@ -185,6 +186,18 @@ class Comparison:
         return write_comparison(self, Path(path))
 
 
+def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
+    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+    >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
+    """
+    return compare_compounds(conveyor, compounds, **options).table
+
+
 def compare_compounds(
     conveyor: Conveyor,
     compounds: Iterable[str | RubberCompound],
@@ -320,8 +333,14 @@ def _of_compound(conveyor: Conveyor, compound: RubberCompound, grid: _Grid, foun
     """Every temperature and speed of one compound; all its contacts in one batch."""
     changed = with_compound(conveyor, compound, grid.cover)
     covers, tracks = _covers(changed, compound, grid, found), _tracks(changed, compound, grid, found)
-    jobs = [(speed, temperature) for speed in tracks for temperature in covers]
-    walked = indented([tracks[v] for v, _ in jobs], [covers[t] for _, t in jobs])
+    jobs: dict[tuple[float, float], dict[Strand, Surface]] = {}
+    for speed, track in tracks.items():
+        for temperature, cover in covers.items():
+            try:
+                jobs[speed, temperature] = worked_surfaces(track, cover, temperature)
+            except (NoSolutionError, RangeError) as error:
+                found.refused.append(Refusal(compound.name, temperature, speed, str(error)))
+    walked = indented([tracks[speed] for speed, _ in jobs], list(jobs.values()))
     strands = _strands(changed, grid.cover)
     answered: dict[tuple[float, float], tuple[StretchResult, ...]] = {}
     for (speed, temperature), results in zip(jobs, walked, strict=True):

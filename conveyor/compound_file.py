@@ -1,158 +1,371 @@
-"""From a measured master curve to a compound file: fit, provenance, and what is not known."""
+"""From laboratory files to a compound: master curve, fit, band, shift, strain, provenance, and what is not known."""
 
 from __future__ import annotations
 
-import csv
 import io
-import math
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from conveyor.errors import InputError
+from conveyor.laboratory import DmaData, read_dma
 from conveyor.models import RubberCompound
-from conveyor.rubber import PronyFit, fit_prony, read_master_curve
+from conveyor.rubber import (
+    Isotherm,
+    KramersKronig,
+    PronyFit,
+    Superposition,
+    bootstrap,
+    fit_prony,
+    kramers_kronig,
+    superpose,
+)
+from conveyor.rubber.band import METHOD
+from conveyor.units import quantity, si
 
+Array = NDArray[np.float64]
+
+REPLICAS = 20
+"""Of the bootstrap in a compound file: quantiles at a twentieth are its outermost ones."""
 _DIGITS = 12  # read back, the series is the fit to 1e-11
-_SHIFT_COLUMNS = ("temperature_degC", "a_T")
+_BAND_DIGITS = 6  # the band is known to one or two
 _UNKNOWN = "not stated"
+_ZERO_CELSIUS = 273.15
+_FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run of one
 
 
-def fit_file(
-    data: Path,
-    *,
-    name: str,
-    reference_temperature: str | None = None,
-    shift: Path | None = None,
-    poisson_ratio: float = 0.5,
-    equilibrium: float | None = None,
-    terms_per_decade: float = 1.0,
-) -> tuple[RubberCompound, PronyFit]:
-    """Fit a master-curve file and describe the result as a compound.
+@dataclass(frozen=True)
+class Request:
+    """What a laboratory file is to become.
+
+    Parameters
+    ----------
+    name : str
+        Name of the compound.
+    reference_temperature : str, optional
+        Of the master curve, with unit ("20 degC"); else the file's line ``# reference_temperature: …``.
+    shift : Path, optional
+        File of shift factors; without it, and without isotherms, the compound holds at its reference only.
+    strain : Path, optional
+        File of strain sweeps.
+    reference_strain : str, optional
+        Single strain amplitude of the master curve, with unit ("0.1 %"); needed with `strain`.
+    poisson_ratio : float
+        ν; also turns shear moduli into tensile ones [-].
+    equilibrium : float, optional
+        E_e held in the fit [Pa]; fitted without it.
+    terms_per_decade : float, optional
+        Density of the times; chosen by AICc without it [1/decade].
+    vertical : bool
+        Whether isotherms may be shifted vertically, too.
+    replicas : int
+        Of the bootstrap band; 0 for none.
+    reading : mapping
+        Answers to what a file leaves open: keywords of `conveyor.laboratory.read_dma`.
+    """
+
+    name: str
+    reference_temperature: str | None = None
+    shift: Path | None = None
+    strain: Path | None = None
+    reference_strain: str | None = None
+    poisson_ratio: float = 0.5
+    equilibrium: float | None = None
+    terms_per_decade: float | None = None
+    vertical: bool = False
+    replicas: int = REPLICAS
+    reading: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A compound and everything needed to judge it.
+
+    Attributes
+    ----------
+    compound : RubberCompound
+        As the shelf holds it.
+    fit : PronyFit
+        Series, errors, criterion.
+    consistency : KramersKronig
+        Whether E' and E'' belong together.
+    superposition : Superposition or None
+        Where isotherms were shifted.
+    understood : tuple of str
+        What was read from each file, one sentence a decision.
+    frequency, storage, loss : ndarray
+        The master curve that was fitted [Hz], [Pa], [Pa].
+    """
+
+    compound: RubberCompound
+    fit: PronyFit
+    consistency: KramersKronig
+    superposition: Superposition | None
+    understood: tuple[str, ...]
+    frequency: Array
+    storage: Array
+    loss: Array
+
+
+def fit_file(data: Path, request: Request) -> Fitted:
+    """Fit a master curve or isotherms and describe the result as a compound.
 
     Parameters
     ----------
     data : Path
-        Master curve: frequency, E', E'' with units in the header (`conveyor.rubber.read_master_curve`).
-    name : str
-        Name of the compound.
-    reference_temperature : str, optional
-        Temperature of the master curve, with unit ("20 degC"); else the file's line ``# reference_temperature: …``.
-    shift : Path, optional
-        CSV with the header ``temperature_degC,a_T``; without it the compound holds at its reference only.
-    poisson_ratio : float
-        ν [-].
-    equilibrium : float, optional
-        E_e held in the fit [Pa]; fitted without it.
-    terms_per_decade : float
-        Density of the times [1/decade].
+        Master curve or isotherms, of any layout `conveyor.laboratory.read_dma` understands.
+    request : Request
+        What it is to become.
 
     Raises
     ------
     InputError
-        A file is refused, or a value is outside its range.
+        A file is refused or of another kind, or a value is missing or outside its range.
+    NoSolutionError
+        No solid fits the data.
     """
-    curve = read_master_curve(data)
-    reference = reference_temperature or _stated_temperature(data, curve.metadata)
-    fit = fit_prony(
-        curve.frequency_Hz,
-        curve.storage_Pa,
-        curve.loss_Pa,
-        terms_per_decade=terms_per_decade,
-        equilibrium=equilibrium,
+    read = read_dma(data, poisson_ratio=request.poisson_ratio, **request.reading)
+    reference = request.reference_temperature or _stated_temperature(data, read)
+    if si(quantity(reference, "temperature")) <= 0.0:
+        raise InputError(f"--at: got {reference}, a temperature above absolute zero is needed")
+    superposition = _superposed(data, read, reference, request)
+    f, e1, e2 = _rows(data, read, superposition)
+    fit = fit_prony(f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium)
+    shifts = None if request.shift is None else _of_kind(request.shift, "shift factors", request)
+    sweeps = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
+    described = _described(data, read, request, (reference, fit))
+    _add_shift(described, superposition, shifts)
+    if sweeps is not None:
+        described["strain_dependence"] = _strain(request, sweeps)
+        described["missing"].remove("strain dependence")
+    files = [file for file in (read, shifts, sweeps) if file is not None]
+    return Fitted(
+        compound=RubberCompound.from_data(described),
+        fit=fit,
+        consistency=kramers_kronig(f, e1, e2),
+        superposition=superposition,
+        understood=tuple(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
+        frequency=f,
+        storage=e1,
+        loss=e2,
     )
-    table = None if shift is None else read_shifts(shift)
-    missing = ["strain dependence", "vertical shift (none applied)"]
-    described: dict[str, Any] = {
-        "name": name,
+
+
+def _stated_temperature(data: Path, read: DmaData) -> str:
+    """Temperature that a file states, e.g. ``# reference_temperature: 39.96 degC (where a_T = 1)``."""
+    found = re.match(r"\s*(\S+ ?(?:degC|degF|K|°C|°F))\b", read.metadata.get("reference_temperature", ""))
+    if found is not None:
+        return found[1]
+    if read.kind == "isotherms":
+        middle = sorted(sweep.temperature for sweep in read.isotherms())
+        return f"{middle[len(middle) // 2] - _ZERO_CELSIUS:.{_DIGITS}g} degC"
+    raise InputError(
+        f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
+        '"# reference_temperature: 20 degC" into the file'
+    )
+
+
+def _superposed(data: Path, read: DmaData, reference: str, request: Request) -> Superposition | None:
+    if read.kind != "isotherms":
+        if request.vertical:
+            raise InputError(f"{data}: --vertical shifts isotherms; this file holds a {read.kind}")
+        return None
+    if request.shift is not None:
+        raise InputError(f"{data}: holds isotherms, their shift is found from them; leave out --shift")
+    sweeps = [Isotherm(s.temperature, s.frequency, s.storage, s.loss) for s in read.isotherms()]
+    return superpose(sweeps, si(quantity(reference, "temperature")), vertical=request.vertical)
+
+
+def _rows(data: Path, read: DmaData, found: Superposition | None) -> tuple[Array, Array, Array]:
+    if found is not None:
+        return found.frequency, found.storage, found.loss
+    if read.kind != "master curve" or read.frequency is None or read.storage is None or read.loss is None:
+        raise InputError(
+            f"{data}: holds a {read.kind}; a master curve or isotherms with E' and E'' over frequency are needed"
+        )
+    return read.frequency, read.storage, read.loss
+
+
+def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
+    answers = {key: value for key, value in request.reading.items() if key not in {"kind", "sheet"}}
+    read = read_dma(path, poisson_ratio=request.poisson_ratio, **answers)
+    if read.kind != kind:
+        raise InputError(f"{path}: holds {read.kind}, {kind} are needed here")
+    return read
+
+
+def _described(data: Path, read: DmaData, request: Request, found: tuple[str, PronyFit]) -> dict[str, Any]:
+    reference, fit = found
+    series = fit.series
+    prony: dict[str, Any] = {
+        "equilibrium": _mega(series.equilibrium),
+        "terms": [
+            {"modulus": _mega(modulus), "time": f"{time:.{_DIGITS}g} s"}
+            for modulus, time in zip(series.moduli, series.times, strict=True)
+        ],
+    }
+    if request.replicas:
+        prony["band"] = _band(fit, request.replicas)
+    return {
+        "name": request.name,
         "kind": "measured",
         "source": {
-            "origin": curve.metadata.get("origin", _UNKNOWN),
-            "licence": curve.metadata.get("licence", _UNKNOWN),
+            "origin": read.metadata.get("origin", _UNKNOWN),
+            "licence": read.metadata.get("licence", _UNKNOWN),
             "data": data.name,
         },
-        "poisson_ratio": poisson_ratio,
-        "strain": curve.metadata.get("strain", _UNKNOWN),
+        "poisson_ratio": request.poisson_ratio,
+        "strain": read.metadata.get("strain", _UNKNOWN),
         "reference_temperature": reference,
-        "prony": {
-            "equilibrium": f"{fit.series.equilibrium / 1e6:.{_DIGITS}g} MPa",
-            "terms": [
-                {"modulus": f"{modulus / 1e6:.{_DIGITS}g} MPa", "time": f"{time:.{_DIGITS}g} s"}
-                for modulus, time in zip(fit.series.moduli, fit.series.times, strict=True)
-            ],
-        },
+        "prony": prony,
         "range": {
             "frequency": [f"{limit:.{_DIGITS}g} Hz" for limit in fit.window],
             "temperature": [reference] * 2,
         },
         "fit": {
-            "storage_rms": fit.storage.rms,
-            "loss_rms": fit.loss.rms,
-            "storage_worst": abs(fit.storage.worst),
-            "loss_worst": abs(fit.loss.worst),
-            "method": f"NNLS on relative errors of E' and E'', {terms_per_decade:g} times per decade inside the data "
-            f"window, equilibrium {'free' if equilibrium is None else 'held'}",
+            "storage_rms": _six(fit.storage.rms),
+            "loss_rms": _six(fit.loss.rms),
+            "storage_worst": _six(abs(fit.storage.worst)),
+            "loss_worst": _six(abs(fit.loss.worst)),
+            "method": _method(fit, request),
         },
-        "missing": missing,
+        "missing": ["strain dependence", "density"],
     }
-    if table is None:
-        missing.append("temperature shift: known at the reference temperature only")
-    else:
-        temperatures = [f"{t:.{_DIGITS}g} degC" for t, _ in table]
-        described["shift"] = {"law": "table", "temperature": temperatures, "log10_aT": [y for _, y in table]}
-        described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
-    return RubberCompound.from_data(described), fit
 
 
-def _stated_temperature(data: Path, metadata: Mapping[str, str]) -> str:
-    """Temperature that a master curve's comment states, e.g. ``39.96 degC (where a_T = 1)``."""
-    stated = metadata.get("reference_temperature", "")
-    found = re.match(r"\s*(\S+ ?(?:degC|degF|K|°C|°F))\b", stated)
-    if found is None:
-        raise InputError(
-            f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
-            '"# reference_temperature: 20 degC" into the file'
+def _mega(modulus: float, digits: int = _DIGITS) -> str:
+    return f"{modulus / 1e6:.{digits}g} MPa"
+
+
+def _six(value: float) -> float:
+    return float(f"{value:.6g}")
+
+
+def _band(fit: PronyFit, replicas: int) -> dict[str, Any]:
+    band = bootstrap(fit, replicas=replicas)
+    return {
+        "method": METHOD,
+        "equilibrium": [_mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
+        "unit": "MPa",
+        "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
+    }
+
+
+def _method(fit: PronyFit, request: Request) -> str:
+    equilibrium = "free" if request.equilibrium is None else "held"
+    left = f"leaves {fit.residual:.1%} rms of both, the best positive spectrum of all {fit.consistency_floor:.1%}"
+    if request.terms_per_decade is not None:
+        return (
+            f"NNLS on relative errors of E' and E'', {request.terms_per_decade:g} times per decade inside the data "
+            f"window, equilibrium {equilibrium}; {left}"
         )
-    return found[1]
+    scatter = (
+        ""
+        if fit.storage_noise is None or fit.loss_noise is None
+        else f"; scatter of the data from row to row {fit.storage_noise:.1%} (E') and {fit.loss_noise:.1%} (E'')"
+    )
+    return (
+        f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "
+        f"per decade inside the data window and penalty {fit.regularisation:g} on the curvature of the spectrum by "
+        f"AICc, equilibrium {equilibrium}; {left}{scatter}"
+    )
 
 
-def read_shifts(path: Path) -> list[tuple[float, float]]:
-    """Rows (temperature [degC], log10 a_T) of a shift file, coldest first.
+def _add_shift(
+    described: dict[str, Any], superposition: Superposition | None, shifts: DmaData | None
+) -> None:
+    """Shift table and the range of temperature that it opens."""
+    vertical: Array | None = None
+    if superposition is not None:
+        kelvin, decades = superposition.temperatures, superposition.log10_a_T
+        vertical = superposition.log10_b_T if np.any(superposition.log10_b_T) else None
+    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
+        kelvin, decades, vertical = shifts.temperature, shifts.log10_a_T, shifts.log10_b_T
+    else:
+        described["missing"].append("temperature shift: known at the reference temperature only")
+        return
+    order = np.argsort(kelvin)
+    temperatures = [f"{t - _ZERO_CELSIUS:.{_DIGITS}g} degC" for t in kelvin[order]]
+    described["shift"] = {
+        "law": "table",
+        "temperature": temperatures,
+        "log10_aT": [float(f"{y:.{_DIGITS}g}") for y in decades[order]],
+    }
+    if vertical is None:
+        described["missing"].append("vertical shift (none applied)")
+    else:
+        described["shift"]["log10_bT"] = [float(f"{y:.{_DIGITS}g}") for y in vertical[order]]
+    described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
 
-    Raises
-    ------
-    InputError
-        The file or a row is refused, with its line.
+
+def _strain(request: Request, sweeps: DmaData) -> dict[str, Any]:
+    """Strain dependence: runs of four rows and more; shorter ones are strays."""
+    if request.reference_strain is None:
+        raise InputError(
+            f"{request.strain}: at which strain was the master curve measured? Give it, e.g. "
+            '--reference-strain "0.1 %"; everything is counted from it'
+        )
+    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= _FEWEST_STRAINS]
+    if not runs or any(run.temperature is None or run.frequency is None for run in runs):
+        raise InputError(
+            f"{request.strain}: sweeps of four strains and more, each at a stated temperature and frequency"
+        )
+    return {
+        "reference_strain": request.reference_strain,
+        "reference_note": sweeps.metadata.get("reference_strain", ""),
+        "source": Path(sweeps.source).name,
+        "sweeps": [
+            {
+                "temperature": f"{(run.temperature or 0.0) - _ZERO_CELSIUS:.6g} degC",
+                "frequency": f"{run.frequency:.6g} Hz",
+                "strain": [_six(100.0 * strain) for strain in run.strain],
+                "unit": "MPa",
+                "storage": [_six(modulus / 1e6) for modulus in run.storage],
+                "loss": [_six(modulus / 1e6) for modulus in run.loss],
+            }
+            for run in runs
+        ],
+    }
+
+
+def dump(compound: RubberCompound, heading: str = "") -> str:
+    """YAML text of a compound file, as the shelf reads it; lists of numbers and terms on one line each.
+
+    Parameters
+    ----------
+    compound : RubberCompound
+        What to write.
+    heading : str
+        A comment for the first line, without ``#``.
     """
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read ({error})") from None
-    rows = [(i, line) for i, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]
-    header = tuple(cell.strip() for cell in rows[0][1].split(",")) if rows else ()
-    if header != _SHIFT_COLUMNS:
-        raise InputError(f"{path}: the first line after the comments must be {','.join(_SHIFT_COLUMNS)}")
-    found = []
-    for number, line in rows[1:]:
-        try:
-            temperature, factor = (float(cell) for cell in next(csv.reader([line])))
-        except ValueError:
-            raise InputError(f'{path}:{number}: got "{line}", two numbers are needed: degC, a_T') from None
-        if not (math.isfinite(temperature) and 0.0 < factor < math.inf):
-            raise InputError(
-                f'{path}:{number}: got "{line}", a finite temperature and a positive a_T are needed'
-            )
-        found.append((temperature, math.log10(factor)))
-    return sorted(found)
-
-
-def dump(compound: RubberCompound) -> str:
-    """YAML text of a compound file, as the shelf reads it."""
     from ruamel.yaml import YAML
+    from ruamel.yaml.comments import CommentedMap, CommentedSeq
+
+    def laid(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            made = CommentedMap({key: laid(item) for key, item in value.items()})
+            if set(made) == {"modulus", "time"}:
+                made.fa.set_flow_style()
+            return made
+        if isinstance(value, list):
+            row = CommentedSeq([laid(item) for item in value])
+            if not any(isinstance(item, Mapping | list) for item in value) and _short(value):
+                row.fa.set_flow_style()
+            return row
+        return value
 
     writer = YAML(typ="rt", pure=True)
-    writer.width = 110
+    writer.width = 100_000  # one row of a table is one line
     stream = io.StringIO()
-    writer.dump(compound.as_data(), stream)
-    return stream.getvalue()
+    writer.dump(laid(compound.as_data()), stream)
+    return (f"# {heading}\n" if heading else "") + stream.getvalue()
+
+
+def _short(items: list[Any]) -> bool:
+    """Quantities and numbers, no sentences."""
+    return all(not isinstance(item, str) or len(item) < 24 for item in items)

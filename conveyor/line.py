@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -22,9 +22,10 @@ from conveyor.indentation import (
     indentation_curves,
 )
 from conveyor.loading import RollLoad
-from conveyor.models import Conveyor
+from conveyor.models import Conveyor, RubberCompound
 from conveyor.resistance import flexure_resistance
-from conveyor.rubber import PronySeries
+from conveyor.rubber import AmplitudeFactors, PronySeries
+from conveyor.softening import WorkingStrain, losing_load, softened_cover
 from conveyor.stretches import FixedForces, Pressing, Strand, Stretch, roll_at, stretches
 from conveyor.units import si
 
@@ -57,11 +58,28 @@ class RollResult:
         return self.curve.at(self.load.peak_line_load)
 
 
+@dataclass(frozen=True)
+class Surface:
+    """What the rolls of a strand run on: thickness [m], rubber at its temperature, Poisson's ratio.
+
+    `strain` is what the rubber was softened for; None where it is that of the master curve.
+    """
+
+    thickness: float
+    rubber: PronySeries
+    poisson: float
+    strain: WorkingStrain | None = None
+
+
+Surfaces = Mapping[Strand, Surface]
+
+
 @dataclass(frozen=True, eq=False)
 class StretchResult:
     """Forces of a stretch [N]; `unit_main` is the main resistance DIN 22101 gives for f = 1."""
 
     stretch: Stretch
+    surface: Surface
     rolls: tuple[RollResult, ...]
     indentation: float
     rotation: float
@@ -103,18 +121,6 @@ def _curves(results: tuple[StretchResult, ...], strand: Strand) -> set[Indentati
     return {roll.curve for r in results if r.stretch.strand == strand for roll in r.rolls}
 
 
-@dataclass(frozen=True)
-class Surface:
-    """What the rolls of a strand run on: thickness [m], rubber at its temperature, Poisson's ratio."""
-
-    thickness: float
-    rubber: PronySeries
-    poisson: float
-
-
-Surfaces = Mapping[Strand, Surface]
-
-
 def walk(conveyor: Conveyor) -> tuple[StretchResult, ...]:
     """Carry strand from tail to head, then return strand from head to tail.
 
@@ -125,7 +131,8 @@ def walk(conveyor: Conveyor) -> tuple[StretchResult, ...]:
     RangeError
         A compound is not known at the belt's temperature.
     """
-    (found,) = indented([Track(conveyor)], [surfaces(conveyor)])
+    track = Track(conveyor)
+    (found,) = indented([track], [worked_surfaces(track, surfaces(conveyor), si(conveyor.ambient.belt))])
     if isinstance(found, NoSolutionError):
         raise found
     return found
@@ -192,11 +199,60 @@ def surfaces(conveyor: Conveyor, temperature: float | None = None) -> dict[Stran
     }
 
 
+def worked_surfaces(track: Track, covers: Surfaces, temperature: float) -> dict[Strand, Surface]:
+    """The covers at the strain their rolls work them at, where the compounds' sweeps know them at a temperature [K].
+
+    Raises
+    ------
+    NoSolutionError
+        A cover has no answer at its working strain.
+    RangeError
+        A compound's sweeps do not reach the strain.
+    """
+    conveyor = track.conveyor
+    if conveyor.calculation.strain == "off":
+        return dict(covers)
+    compounds: dict[Strand, RubberCompound] = {
+        "carry": conveyor.carry_compound,
+        "return": conveyor.return_compound,
+    }
+    return {
+        strand: _worked(track, strand, cover, compounds[strand].strain_factors(temperature), temperature)
+        for strand, cover in covers.items()
+    }
+
+
+def _worked(
+    track: Track, strand: Strand, cover: Surface, factors: AmplitudeFactors | None, temperature: float
+) -> Surface:
+    if factors is None:
+        return cover
+    kinds = [kind for kind in track.kinds if kind.strand == strand]
+    loads = np.concatenate([kind.line_loads for kind in kinds])
+    weights = np.concatenate([kind.weights * kind.sets for kind in kinds])
+    contact = _roll_contact(track, max(kinds, key=lambda kind: kind.highest), cover)
+    series, strain = softened_cover(contact, losing_load(loads, weights), factors, temperature)
+    return replace(cover, rubber=series, strain=strain)
+
+
+def _roll_contact(track: Track, kind: _Kind, cover: Surface) -> RollContact:
+    return RollContact(
+        radius=kind.radius,
+        spacing=kind.spacing,
+        cover_thickness=cover.thickness,
+        speed=track.speed,
+        rubber=cover.rubber,
+        poisson=cover.poisson,
+        support=track.conveyor.calculation.support,
+    )
+
+
 @dataclass(frozen=True)
 class _Kind:
     """Rolls of one radius and spacing on one strand: all their line loads in one array.
 
-    `rolls` are (stretch, place), `starts` where each one's loads begin, `weights` the quadrature's along the roll.
+    `rolls` are (stretch, place), `starts` where each one's loads begin, `weights` the quadrature's along the roll,
+    `sets` how many such sets there are.
     """
 
     strand: Strand
@@ -206,6 +262,7 @@ class _Kind:
     starts: NDArray[np.int_]
     line_loads: Array
     weights: Array
+    sets: Array
     lowest: float
     highest: float
 
@@ -258,6 +315,9 @@ def _kinds(route: tuple[Stretch, ...], points: int) -> tuple[_Kind, ...]:
                 starts=np.cumsum([0, *(w.size for w, _ in sampled[:-1])]),
                 line_loads=lines,
                 weights=np.concatenate([weights for _, weights in sampled]),
+                sets=np.concatenate(
+                    [np.full(w.size, route[i].sets) for (i, _), (w, _) in zip(rolls, sampled, strict=True)]
+                ),
                 lowest=min(float(lines.min()), _CURVE_DOWN_TO * highest),
                 highest=highest,
             )
@@ -269,19 +329,8 @@ class _Scene:
     """A track under one pair of covers: the contacts its rolls need, and the forces once they are solved."""
 
     def __init__(self, track: Track, covers: Surfaces) -> None:
-        self.track = track
-        contacts = [
-            RollContact(
-                radius=kind.radius,
-                spacing=kind.spacing,
-                cover_thickness=covers[kind.strand].thickness,
-                speed=track.speed,
-                rubber=covers[kind.strand].rubber,
-                poisson=covers[kind.strand].poisson,
-                support=track.conveyor.calculation.support,
-            )
-            for kind in track.kinds
-        ]
+        self.track, self.covers = track, covers
+        contacts = [_roll_contact(track, kind, covers[kind.strand]) for kind in track.kinds]
         shared = forgotten(contacts, track.rtol)
         self.contacts = [shared[contact] for contact in contacts]
         self.loads: dict[RollContact, tuple[float, float]] = {}
@@ -310,6 +359,7 @@ class _Scene:
         indentation = stretch.sets * math.fsum(roll.resistance for roll in rolls)
         return StretchResult(
             stretch=stretch,
+            surface=self.covers[stretch.strand],
             rolls=rolls,
             indentation=indentation,
             rotation=fixed.rotation,

@@ -42,6 +42,7 @@ def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Bala
             (
                 *_rubber(conveyor),
                 *_frequency(conveyor, results),
+                *_strain(conveyor, results),
                 *_contact(conveyor, results),
                 *_defaults(conveyor),
                 *_left_out(conveyor),
@@ -77,6 +78,30 @@ def _frequency(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterat
                 f'compound "{compound.name}": nine tenths of the {strand} rolls\' loss lie between {band[0]:.3g} and '
                 f"{band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz at {text(conveyor.ambient.belt)}: "
                 "the series is extrapolated"
+            )
+
+
+def _strain(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
+    """At which strain the moduli were taken, where the compound knows what strain does to it."""
+    for strand, compound in _compounds(conveyor).items():
+        known = compound.strain_dependence
+        if known is None:
+            continue
+        worked = next(r.surface.strain for r in results if r.stretch.strand == strand)
+        if worked is not None:
+            note = f" ({known.reference_note})" if known.reference_note else ""
+            yield (
+                f'compound "{compound.name}": the {strand} rolls work it at {worked.strain:.2%} strain, '
+                f"{worked.frequency:.3g} Hz: E' taken {worked.storage_factor:.3f} and E'' {worked.loss_factor:.3f} "
+                f"times those at the master curve's {text(known.reference_strain)}{note}"
+            )
+        elif conveyor.calculation.strain == "off":
+            yield f'compound "{compound.name}": calculation.strain is off, its strain sweeps are not used'
+        else:
+            reached = " to ".join(text(sweep.temperature) for sweep in (known.sweeps[0], known.sweeps[-1]))
+            yield (
+                f'compound "{compound.name}": its strain sweeps ({reached}) do not reach '
+                f"{text(conveyor.ambient.belt)}: taken as linear, at the strain of its master curve"
             )
 
 

@@ -20,7 +20,7 @@ from conveyor.models.base import Location, field_path, real_errors
 
 
 def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
-    """Read a conveyor from a ``.yaml``, ``.yml`` or ``.json`` file.
+    """Read a conveyor from a ``.yaml``, ``.yml`` or ``.json`` file, or from an input workbook (``.xlsx``).
 
     Parameters
     ----------
@@ -41,6 +41,11 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
         ``file:line:column field: what was given, what is allowed``.
     """
     where = Path(path)
+    if where.suffix.lower() == ".xlsx":
+        from conveyor.template.read import read_template
+
+        filled = read_template(where)
+        return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
     document = read_document(where)
     context = {"compound": shelf.resolver(extra=shelves, base=where.parent)}
     found = list(document.findings)

@@ -6,6 +6,7 @@ A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its
 
 from conveyor.contact.curve import LoadCurve, LoadSolutions, load_curve, solve_loads
 from conveyor.contact.curves import load_curves
+from conveyor.contact.interior import Interior, InteriorFields, interior, interior_fields
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
@@ -18,11 +19,15 @@ __all__ = [
     "CreepSpectrum",
     "Free",
     "HalfSpace",
+    "Interior",
+    "InteriorFields",
     "Layer",
     "LoadCurve",
     "LoadSolutions",
     "SolveStats",
     "Status",
+    "interior",
+    "interior_fields",
     "load_curve",
     "load_curves",
     "solve",

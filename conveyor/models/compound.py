@@ -29,12 +29,13 @@ from conveyor.units import (
 )
 
 if TYPE_CHECKING:
-    from conveyor.rubber import PronySeries, ShiftLaw
+    from conveyor.rubber import AmplitudeFactors, PronySeries, ShiftLaw, StrainSweep
 
 AbsoluteTemperature = Annotated[Temperature, Bounds(gt="0 K", le="1000 K")]
 PositiveModulus = Annotated[Modulus, Bounds(gt="0 Pa")]
 PositiveTime = Annotated[Time, Bounds(gt="0 s")]
 PositiveFrequency = Annotated[Frequency, Bounds(gt="0 Hz")]
+Positive = Annotated[Number, Field(gt=0)]
 RelativeError = Annotated[Fraction, Bounds(ge="0 %")]
 
 _PASCALS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -139,6 +140,26 @@ class TableShift(Model):
     """Temperatures."""
     log10_a_t: Annotated[tuple[Number, ...], Field(min_length=2, alias="log10_aT")]
     """Decadic logarithm of the shift factor at each temperature, 0 at the reference temperature."""
+    log10_b_t: Annotated[tuple[Number, ...] | None, Field(alias="log10_bT")] = None
+    """Decadic logarithm of the vertical shift of all moduli at each temperature; none without it."""
+
+    @model_validator(mode="after")
+    def _one_vertical_shift_each(self) -> Self:
+        count = len(self.temperature)
+        if self.log10_b_t is not None and len(self.log10_b_t) != count:
+            message = f"got {len(self.log10_b_t)} values, {count} are needed, one per temperature"
+            refuse("TableShift", [Problem(("log10_bT",), message)])
+        return self
+
+    def vertical(self, temperature: float) -> float:
+        """Return b_T at an absolute temperature [K] inside the table, monotone between its points."""
+        from scipy.interpolate import PchipInterpolator
+
+        if self.log10_b_t is None:
+            return 1.0
+        at = np.array([si(t) for t in self.temperature])
+        order = np.argsort(at)
+        return float(10.0 ** PchipInterpolator(at[order], np.array(self.log10_b_t)[order])(temperature))
 
     def at(self, reference: float) -> ShiftLaw:
         """Return the law for a reference temperature [K]."""
@@ -200,6 +221,58 @@ class MeasuredRange(Model):
         return self
 
 
+class SweptStrain(Model):
+    """Moduli against strain amplitude at one temperature and frequency."""
+
+    temperature: AbsoluteTemperature
+    frequency: PositiveFrequency
+    strain: Annotated[tuple[Positive, ...], Field(min_length=4, max_length=1000)]
+    """Single strain amplitudes, ascending, in per cent."""
+    unit: Literal["Pa", "kPa", "MPa", "GPa"]
+    """Unit of `storage` and `loss`."""
+    storage: Annotated[tuple[Positive, ...], Field(min_length=4, max_length=1000)]
+    """E' at each strain."""
+    loss: Annotated[tuple[Positive, ...], Field(min_length=4, max_length=1000)]
+    """E'' at each strain."""
+
+    def sweep(self) -> StrainSweep:
+        """Return the sweep in SI."""
+        from conveyor.rubber import StrainSweep
+
+        scale = _PASCALS[self.unit]
+        return StrainSweep(
+            si(self.temperature),
+            si(self.frequency),
+            0.01 * np.array(self.strain),
+            scale * np.array(self.storage),
+            scale * np.array(self.loss),
+        )
+
+
+class StrainDependence(Model):
+    """How filled rubber softens with the amplitude of its strain (Payne effect)."""
+
+    reference_strain: Annotated[Fraction, Bounds(gt="0 %", le="100 %")]
+    """Single strain amplitude at which the master curve was measured: there the factors are 1."""
+    reference_note: str = ""
+    """How the reference strain is known."""
+    source: str = ""
+    """Where the sweeps come from."""
+    sweeps: Annotated[tuple[SweptStrain, ...], Field(min_length=1, max_length=50)]
+
+    def factors(self) -> AmplitudeFactors:
+        """Return the factors on E' and E'' in SI.
+
+        Raises
+        ------
+        InputError
+            Sweeps that do not ascend or contradict the reference strain.
+        """
+        from conveyor.rubber import AmplitudeFactors
+
+        return AmplitudeFactors([sweep.sweep() for sweep in self.sweeps], si(self.reference_strain))
+
+
 class FitStatistics(Model):
     """How well the series meets the data, as relative errors."""
 
@@ -230,6 +303,8 @@ class RubberCompound(Model):
     shift: Annotated[TableShift | WLFShift | ArrheniusShift, Field(discriminator="law")] | None = None
     """Temperature shift of all times; without it only the reference temperature is allowed."""
     range: MeasuredRange | None = None
+    strain_dependence: StrainDependence | None = None
+    """Softening with strain; without it the rubber is taken as linear."""
     fit: FitStatistics | None = None
     missing: tuple[str, ...] = ()
     """What is not known about the compound."""
@@ -237,7 +312,11 @@ class RubberCompound(Model):
     @model_validator(mode="after")
     def _lawful(self) -> Self:
         """Let the rubber laws refuse what they cannot take."""
-        checks: dict[str, Callable[[], object]] = {"prony": self._reference_series, "shift": self.shift_law}
+        checks: dict[str, Callable[[], object]] = {
+            "prony": self._reference_series,
+            "shift": self.shift_law,
+            "strain_dependence": self.amplitude_factors,
+        }
         problems = []
         for name, build in checks.items():
             try:
@@ -258,6 +337,15 @@ class RubberCompound(Model):
     def shift_law(self) -> ShiftLaw | None:
         """Return the shift law in SI, if the compound has one."""
         return None if self.shift is None else self.shift.at(si(self.reference_temperature))
+
+    def amplitude_factors(self) -> AmplitudeFactors | None:
+        """Return the factors of strain on E' and E'', if the compound has the data."""
+        return None if self.strain_dependence is None else self.strain_dependence.factors()
+
+    def strain_factors(self, temperature: float) -> AmplitudeFactors | None:
+        """Return the factors of strain where the sweeps know them at a temperature [K], None elsewhere."""
+        factors = self.amplitude_factors()
+        return factors if factors is not None and factors.known_at(temperature) else None
 
     def frequencies(self, temperature: float) -> tuple[float, float] | None:
         """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.
@@ -334,7 +422,8 @@ class RubberCompound(Model):
         self._refuse_extrapolation(temperature)
         law = self.shift_law()
         if law is not None:
-            return tuple(shifted(series, law, temperature) for series in reference)
+            b_T = self.shift.vertical(temperature) if isinstance(self.shift, TableShift) else 1.0
+            return tuple(shifted(series, law, temperature, b_T=b_T) for series in reference)
         if not math.isclose(temperature, si(self.reference_temperature), rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '

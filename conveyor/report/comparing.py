@@ -177,3 +177,23 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )
     return tuple(lines)
+
+
+def to_dict(comparison: Comparison) -> dict[str, object]:
+    """Plain numbers for JSON; units in the keys."""
+    return {
+        "conveyor": comparison.conveyor.name,
+        "base": comparison.base,
+        "cover": comparison.cover,
+        "ranking": _records(comparison.ranking),
+        "scenes": _records(comparison.table),
+        "coverage": _records(coverage(comparison)),
+        "refused": _records(refused(comparison)),
+        "warnings": list(remarks(comparison)),
+    }
+
+
+def _records(frame: pd.DataFrame) -> list[dict[str, object]]:
+    """Rows with None where a figure is not known."""
+    rows = frame.astype(object).where(frame.notna(), None).to_dict("records")
+    return [{str(name): value for name, value in row.items()} for row in rows]

@@ -26,7 +26,7 @@ _DECADES_BEYOND = 1.0  # of the data's window, drawn dashed
 _WIDEST = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
 
 
-def _figure(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
+def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
     """A figure without pyplot: nothing global, safe in threads and servers."""
     from matplotlib.figure import Figure
 
@@ -38,7 +38,8 @@ def _figure(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]
     return figure, axes
 
 
-def _colour(k: int) -> str:
+def colour(k: int) -> str:
+    """Colour of the k-th curve."""
     return _COLOURS[k % len(_COLOURS)]
 
 
@@ -65,7 +66,7 @@ def save(figure: Figure, path: str | Path) -> Path:
 
 def power_against_temperature(comparison: Comparison, speed: float | None = None) -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], the slowest without; bands shaded."""
-    figure, (axis,) = _figure()
+    figure, (axis,) = stacked()
     chosen = min(scene.speed for scene in comparison.scenes) if speed is None else speed
     for k, compound in enumerate(comparison.compounds):
         found = sorted(
@@ -73,11 +74,11 @@ def power_against_temperature(comparison: Comparison, speed: float | None = None
             key=lambda scene: scene.temperature,
         )
         at = [celsius(scene.temperature) for scene in found]
-        axis.plot(at, [s.motor / 1e3 for s in found], color=_colour(k), marker=".", label=compound.name)
+        axis.plot(at, [s.motor / 1e3 for s in found], color=colour(k), marker=".", label=compound.name)
         low = [s.motor_low / 1e3 for s in found if s.motor_low is not None]
         high = [s.motor_high / 1e3 for s in found if s.motor_high is not None]
         if found and len(low) == len(found):
-            axis.fill_between(at, low, high, color=_colour(k), alpha=0.15, linewidth=0)
+            axis.fill_between(at, low, high, color=colour(k), alpha=0.15, linewidth=0)
     axis.set(
         xlabel="belt temperature [°C]",
         ylabel="motor power [kW]",
@@ -89,7 +90,7 @@ def power_against_temperature(comparison: Comparison, speed: float | None = None
 
 def power_against_speed(comparison: Comparison, temperature: float | None = None) -> Figure:
     """Motor power of every compound over belt speed at one temperature [K], the coldest answered by all without."""
-    figure, (axis,) = _figure()
+    figure, (axis,) = stacked()
     answered = [
         {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
     ]
@@ -100,7 +101,7 @@ def power_against_speed(comparison: Comparison, temperature: float | None = None
             key=lambda scene: scene.speed,
         )
         speeds = [s.speed for s in found]
-        axis.plot(speeds, [s.motor / 1e3 for s in found], color=_colour(k), marker=".", label=compound.name)
+        axis.plot(speeds, [s.motor / 1e3 for s in found], color=colour(k), marker=".", label=compound.name)
     axis.set(
         xlabel="belt speed [m/s]",
         ylabel="motor power [kW]",
@@ -126,15 +127,15 @@ def loss_tangents(
     excited : mapping of str to tuple, optional
         Bands of frequency by what excites them [Hz].
     """
-    figure, (axis,) = _figure()
+    figure, (axis,) = stacked()
     for k, compound in enumerate(compounds):
         series = compound.series(temperature)
         data = compound.frequencies(temperature)
         low, high = _WIDEST if data is None else data
         wide = np.geomspace(low / 10.0**_DECADES_BEYOND, high * 10.0**_DECADES_BEYOND, _POINTS)
         inside = np.geomspace(low, high, _POINTS)
-        axis.plot(wide, series.tan_delta(2.0 * np.pi * wide), color=_colour(k), linestyle=":", linewidth=1)
-        axis.plot(inside, series.tan_delta(2.0 * np.pi * inside), color=_colour(k), label=compound.name)
+        axis.plot(wide, series.tan_delta(2.0 * np.pi * wide), color=colour(k), linestyle=":", linewidth=1)
+        axis.plot(inside, series.tan_delta(2.0 * np.pi * inside), color=colour(k), label=compound.name)
     for k, (name, (low, high)) in enumerate((excited or {}).items()):
         axis.axvspan(low, high, color="0.55", alpha=0.18 if k == 0 else 0.10, linewidth=0, label=name)
     axis.set(
@@ -150,15 +151,15 @@ def loss_tangents(
 
 def master_curve(compound: RubberCompound, temperature: float | None = None) -> Figure:
     """E', E'' and tan δ of one compound at a temperature [K], its reference temperature without."""
-    figure, (above, below) = _figure(2, 7.0)
+    figure, (above, below) = stacked(2, 7.0)
     at = si(compound.reference_temperature) if temperature is None else temperature
     series, data = compound.series(at), compound.frequencies(at)
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
-    above.plot(f, series.storage(omega) / 1e6, color=_colour(0), label="E'")
-    above.plot(f, series.loss(omega) / 1e6, color=_colour(1), label="E''")
-    below.plot(f, series.tan_delta(omega), color=_colour(2), label="tan δ")
+    above.plot(f, series.storage(omega) / 1e6, color=colour(0), label="E'")
+    above.plot(f, series.loss(omega) / 1e6, color=colour(1), label="E''")
+    below.plot(f, series.tan_delta(omega), color=colour(2), label="tan δ")
     replicas = compound.replicas(at)
     if replicas:
         for axis, figures, k in (
@@ -167,7 +168,7 @@ def master_curve(compound: RubberCompound, temperature: float | None = None) -> 
             (below, [r.tan_delta(omega) for r in replicas], 2),
         ):
             bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0)
-            axis.fill_between(f, bottom, top, color=_colour(k), alpha=0.2, linewidth=0)
+            axis.fill_between(f, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
     above.set(xscale="log", yscale="log", ylabel="modulus [MPa]", title=f"{compound.name} ({compound.kind})")
     where = text(compound.reference_temperature) if temperature is None else f"{celsius(at):g} °C"
     below.set(xscale="log", xlabel=f"frequency at {where} [Hz]", ylabel="tan δ [-]")

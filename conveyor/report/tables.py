@@ -9,11 +9,13 @@ import numpy as np
 import pandas as pd
 
 from conveyor.balance import Balance
-from conveyor.line import StretchResult
+from conveyor.line import StretchResult, excited_band
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.stretches import Strand
 from conveyor.units import si
 
 CURVE_POINTS = 25
+ZERO_CELSIUS = 273.15
 DECADES = (-3, 7)  # of frequency shown in the rubber table [Hz]
 PER_DECADE = 4
 
@@ -63,6 +65,36 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
 def worst_error(results: tuple[StretchResult, ...]) -> float:
     """Largest relative error estimate of any roll's indentation."""
     return max(roll.curve.curve.error for result in results for roll in result.rolls)
+
+
+def rubber(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> pd.DataFrame:
+    """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
+    compounds: dict[Strand, RubberCompound] = {
+        "carry": conveyor.carry_compound,
+        "return": conveyor.return_compound,
+    }
+    at = si(conveyor.ambient.belt)
+    rows = []
+    for strand, compound in compounds.items():
+        band = excited_band(results, strand) or (None, None)
+        data = compound.frequencies(at) or (None, None)
+        strain = next(r.surface.strain for r in results if r.stretch.strand == strand)
+        rows.append(
+            {
+                "strand": strand,
+                "compound": compound.name,
+                "kind": compound.kind,
+                "temperature [degC]": round(at - ZERO_CELSIUS, 9),
+                "excited from [Hz]": band[0],
+                "excited to [Hz]": band[1],
+                "data from [Hz]": data[0],
+                "data to [Hz]": data[1],
+                "working strain [-]": None if strain is None else strain.strain,
+                "E' factor of strain [-]": 1.0 if strain is None else strain.storage_factor,
+                "E'' factor of strain [-]": 1.0 if strain is None else strain.loss_factor,
+            }
+        )
+    return pd.DataFrame(rows)
 
 
 def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:

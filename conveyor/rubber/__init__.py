@@ -2,27 +2,48 @@
 
 from __future__ import annotations
 
-from conveyor.rubber.dma import MasterCurve, read_master_curve
-from conveyor.rubber.fit import Misfit, PronyFit, fit_prony
+from conveyor.rubber.band import ReplicaBand, bootstrap
+from conveyor.rubber.equivalent import EquivalentLinear, equivalent_linear, softened
+from conveyor.rubber.fit import PronyFit, fit_prony
+from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig
+from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
+from conveyor.rubber.misfit import Misfit
 from conveyor.rubber.prony import CreepSeries, PronySeries
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shifted
 from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from conveyor.rubber.strain import AmplitudeFactors, StrainSweep
+from conveyor.rubber.superposition import Isotherm, Superposition, superpose
+from conveyor.rubber.term_count import Candidate
 
 __all__ = [
     "WLF",
+    "AmplitudeFactors",
     "Arrhenius",
+    "Candidate",
     "CreepSeries",
-    "MasterCurve",
+    "EquivalentLinear",
+    "Isotherm",
+    "KramersKronig",
+    "KrausFit",
+    "KrausLaw",
     "Misfit",
     "PronyFit",
     "PronySeries",
+    "ReplicaBand",
     "ShiftFit",
     "ShiftLaw",
     "ShiftTable",
+    "StrainSweep",
+    "Superposition",
+    "bootstrap",
     "entropic_b_T",
+    "equivalent_linear",
     "fit_arrhenius",
+    "fit_kraus",
     "fit_prony",
     "fit_wlf",
-    "read_master_curve",
+    "kramers_kronig",
     "shifted",
+    "softened",
+    "superpose",
 ]

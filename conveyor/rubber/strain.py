@@ -224,6 +224,11 @@ class AmplitudeFactors:
         """Temperatures of the levels, mean of their runs, ascending, shape `(levels,)` [K]."""
         return np.array([float(np.mean([sweep.temperature for sweep in level])) for level in self._levels])
 
+    def known_at(self, temperature: float) -> bool:
+        """Whether the sweeps reach a temperature [K], half a kelvin beyond the last ones included."""
+        low, high = self.temperatures[0] - SAME_TEMPERATURE, self.temperatures[-1] + SAME_TEMPERATURE
+        return bool(low <= temperature <= high)
+
     @property
     def strain_range(self) -> tuple[float, float]:
         """Lowest and largest strain amplitude that every sweep covers [-]."""

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber import PronyFit, PronySeries, fit_prony, read_master_curve
+from conveyor.laboratory import read_dma
+from conveyor.rubber import PronyFit, PronySeries, fit_prony
 
 SHELF = Path(__file__).parents[2] / "materials"
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 13), np.logspace(-10, 2, 13))
@@ -120,8 +121,8 @@ def test_held_equilibrium_allows_slow_times() -> None:
 )
 def test_figures_of_the_shelf(name: str, equilibrium: float, storage: float, loss: float) -> None:
     """One term a decade inside the window: S120 8.4 / 7.1 %, S100 5.8 / 28 % rms of E' / E''."""
-    curve = read_master_curve(SHELF / f"{name}.dma.csv")
-    fit = fit_prony(curve.frequency_Hz, curve.storage_Pa, curve.loss_Pa, terms_per_decade=1.0)
+    curve = read_dma(SHELF / f"{name}.dma.csv")
+    fit = fit_prony(curve.frequency, curve.storage, curve.loss, terms_per_decade=1.0)
     assert round(fit.series.equilibrium / 1e6, 2) == equilibrium
     assert float(f"{fit.storage.rms:.2g}") == storage
     assert float(f"{fit.loss.rms:.2g}") == loss

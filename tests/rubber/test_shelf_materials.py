@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
-from conveyor.rubber import WLF, PronySeries, ShiftLaw, ShiftTable, read_master_curve, shifted
+from conveyor.laboratory import read_dma
+from conveyor.rubber import WLF, PronySeries, ShiftLaw, ShiftTable, shifted
 
 ROOT = Path(__file__).parents[2]
 SHELF = ROOT / "materials"
@@ -63,7 +64,9 @@ def script() -> dict[str, Any]:
     return runpy.run_path(str(ROOT / "examples" / "02_refit_materials.py"))
 
 
-@pytest.mark.parametrize("file", ["s100.dma.csv", "s120.dma.csv", "s100.shift.csv", "s120.shift.csv"])
+@pytest.mark.parametrize(
+    "file", [f"{name}.{kind}.csv" for name in ("s100", "s120") for kind in ("dma", "shift", "strain")]
+)
 def test_rows_are_the_published_ones(file: str) -> None:
     lines = (SHELF / file).read_text(encoding="utf-8").splitlines()
     stated = next(x.split(": ")[1] for x in lines if x.startswith("# sha256_of_published_rows"))
@@ -73,10 +76,10 @@ def test_rows_are_the_published_ones(file: str) -> None:
 
 
 def test_spot_values_of_the_published_data() -> None:
-    s100, s120 = (read_master_curve(SHELF / f"{n}.dma.csv") for n in ("s100", "s120"))
-    assert (s100.frequency_Hz.size, s120.frequency_Hz.size) == (84, 84)
-    first = s100.frequency_Hz[0], s100.storage_Pa[0], s100.loss_Pa[0]
-    last = s120.frequency_Hz[-1], s120.storage_Pa[-1], s120.loss_Pa[-1]
+    s100, s120 = (read_dma(SHELF / f"{n}.dma.csv") for n in ("s100", "s120"))
+    assert (s100.frequency.size, s120.frequency.size) == (84, 84)
+    first = s100.frequency[0], s100.storage[0], s100.loss[0]
+    last = s120.frequency[-1], s120.storage[-1], s120.loss[-1]
     assert first == pytest.approx((1.439e-3, 4.644e6, 3.137e5), rel=1e-12)
     assert last == pytest.approx((3.789e9, 4.4159862316946548e8, 3.8447175405600593e8), rel=1e-12)
 
@@ -118,7 +121,7 @@ def test_script_writes_all_files(tmp_path: Path, script: dict[str, Any]) -> None
 
 def test_reading_back_gives_the_fit_itself(script: dict[str, Any]) -> None:
     for name in ("S100", "S120"):
-        fit, read = script["refit"](name), series_of(compound(name.lower()))
+        fit, read = script["refit"](name).fit, series_of(compound(name.lower()))
         np.testing.assert_allclose(read.moduli, fit.series.moduli, rtol=1e-9)
         np.testing.assert_allclose(read.times, fit.series.times, rtol=1e-9)
         assert read.equilibrium == pytest.approx(fit.series.equilibrium, rel=1e-9)
@@ -127,7 +130,8 @@ def test_reading_back_gives_the_fit_itself(script: dict[str, Any]) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_every_compound_is_complete_and_usable(name: str) -> None:
     c = compound(name)
-    assert c.keys() - {"density"} == KEYS
+    assert c.keys() - {"density", "strain_dependence"} == KEYS
+    assert ("strain_dependence" in c) == (name not in TARGETS)
     assert c["name"].lower() == name
     assert c["kind"] == ("illustrative" if name in TARGETS else "measured")
     assert ("NOT a measured compound" in c["description"]) == (name in TARGETS)
@@ -148,9 +152,9 @@ def test_every_compound_is_complete_and_usable(name: str) -> None:
 @pytest.mark.parametrize("name", ["s100", "s120"])
 def test_stated_misfit_is_the_misfit_of_the_written_numbers(name: str) -> None:
     c = compound(name)
-    curve = read_master_curve(SHELF / c["source"]["data"])
-    series, omega = series_of(c), 2 * np.pi * curve.frequency_Hz
-    storage, loss = series.storage(omega) / curve.storage_Pa - 1, series.loss(omega) / curve.loss_Pa - 1
+    curve = read_dma(SHELF / c["source"]["data"])
+    series, omega = series_of(c), 2 * np.pi * curve.frequency
+    storage, loss = series.storage(omega) / curve.storage - 1, series.loss(omega) / curve.loss - 1
     # six digits are written
     assert c["fit"]["storage_rms"] == pytest.approx(np.sqrt(np.mean(storage**2)), rel=1e-5)
     assert c["fit"]["loss_rms"] == pytest.approx(np.sqrt(np.mean(loss**2)), rel=1e-5)

@@ -1,0 +1,11 @@
+"""The command line: the only place that prints and sets exit codes.
+
+0 done; 1 the calculation has no answer; 2 wrong input.
+"""
+
+from __future__ import annotations
+
+from conveyor.cli import compare, power, rubber, tools  # noqa: F401 each registers its commands
+from conveyor.cli.app import app, main
+
+__all__ = ["app", "main"]

@@ -1,0 +1,180 @@
+"""`conveyor fit` and `conveyor shelf`: laboratory files to compounds, compounds at hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from conveyor.cli.app import Quiet, Shelves, app, write_text
+
+ZERO_CELSIUS = 273.15
+
+
+@app.command()
+def fit(
+    data: Annotated[Path, typer.Argument(help="Master curve or isotherms: CSV, TXT or XLSX of any layout.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Write the compound file (.yaml).")
+    ] = None,
+    reference_temperature: Annotated[
+        str | None,
+        typer.Option(
+            "--at", help='Temperature of the master curve, e.g. "20 degC"; else the file states it.'
+        ),
+    ] = None,
+    name: Annotated[str | None, typer.Option(help="Name of the compound; else the file's.")] = None,
+    shift: Annotated[Path | None, typer.Option(help="File of shift factors: temperature and a_T.")] = None,
+    strain: Annotated[Path | None, typer.Option(help="File of strain sweeps (Payne effect).")] = None,
+    reference_strain: Annotated[
+        str | None, typer.Option(help='Strain amplitude of the master curve, e.g. "0.1 %".')
+    ] = None,
+    equilibrium: Annotated[
+        str | None, typer.Option(help='Hold the equilibrium modulus, e.g. "4 MPa".')
+    ] = None,
+    terms_per_decade: Annotated[
+        float | None, typer.Option(help="Relaxation times per decade; else chosen by AICc.")
+    ] = None,
+    vertical: Annotated[bool, typer.Option("--vertical", help="Shift isotherms vertically, too.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw data, fit and band to this file (.png, .svg, .pdf).")
+    ] = None,
+    poisson: Annotated[float, typer.Option("--poisson", help="Poisson's ratio; also turns G into E.")] = 0.5,
+    frequency_unit: Annotated[
+        str | None, typer.Option(help="Where the file leaves it open: Hz, rad/s.")
+    ] = None,
+    modulus_unit: Annotated[str | None, typer.Option(help="Pa, kPa, MPa, GPa, psi, ...")] = None,
+    temperature_unit: Annotated[str | None, typer.Option(help="degC, degF, K.")] = None,
+    strain_unit: Annotated[str | None, typer.Option(help="%, 1, ...")] = None,
+    temperature: Annotated[
+        str | None, typer.Option(help='Of a file without a column for it, e.g. "20 degC".')
+    ] = None,
+    sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook.")] = None,
+    kind: Annotated[str | None, typer.Option(help="What the file holds, where it leaves it open.")] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked.
+
+    Example: conveyor fit materials/s120.dma.csv --shift materials/s120.shift.csv -o s120.yaml
+    """
+    from conveyor import compound_file
+    from conveyor.units import quantity, si
+
+    answers = {
+        "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
+        "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
+        "temperature": None if temperature is None else si(quantity(temperature, "temperature")),
+    }  # fmt: skip
+    found = compound_file.fit_file(
+        data,
+        compound_file.Request(
+            name=name or data.name.split(".")[0],
+            reference_temperature=reference_temperature,
+            shift=shift,
+            strain=strain,
+            reference_strain=reference_strain,
+            poisson_ratio=poisson,
+            equilibrium=None if equilibrium is None else si(quantity(equilibrium, "pressure")),
+            terms_per_decade=terms_per_decade,
+            vertical=vertical,
+            reading={key: value for key, value in answers.items() if value is not None},
+        ),
+    )
+    if not quiet:
+        from conveyor.report import fitting
+
+        print("\n".join(fitting.lines(found)))
+    if plot is not None:
+        from conveyor.report import fitting, plots
+
+        print(f"figure: {plots.save(fitting.figure(found), plot)}")
+    if output is not None:
+        write_text(output, compound_file.dump(found.compound, "Written by conveyor fit"))
+        print(f"compound file: {output}")
+
+
+@app.command()
+def shelf(
+    name: Annotated[str | None, typer.Argument(help="Show one compound.")] = None,
+    at: Annotated[str, typer.Option(help="Temperature of the moduli shown.")] = "20 degC",
+    frequency: Annotated[str, typer.Option(help="Frequency of the moduli shown.")] = "10 Hz",
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Draw the compound, or the loss tangents of all, to this file (.png, .svg, .pdf)."),
+    ] = None,
+    shelves: Shelves = None,
+) -> None:
+    """List the compounds on the shelf, or show one.
+
+    Example: conveyor shelf s100 --at "20 degC" --plot s100.png
+    """
+    import math
+
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    from conveyor import shelf as store
+    from conveyor.errors import RangeError
+    from conveyor.units import quantity, si, text
+
+    kelvin, hertz = si(quantity(at, "temperature")), si(quantity(frequency, "frequency"))
+    console = Console(highlight=False)
+    if name is not None:
+        compound = store.compound(name, extra=shelves or ())
+        series = compound.series(kelvin)
+        omega = 2.0 * math.pi * hertz
+        rows = {
+            "kind": compound.kind,
+            "description": compound.description,
+            "origin": compound.source.origin,
+            "licence": compound.source.licence or "not stated",
+            "strain": compound.strain or "not stated",
+            "reference temperature": text(compound.reference_temperature),
+            "terms": str(len(compound.prony.terms)),
+            "E_e / E_inf": f"{series.equilibrium / 1e6:.4g} / {series.glassy / 1e6:.4g} MPa",
+            f"E' at {at}, {frequency}": f"{float(series.storage(omega)) / 1e6:.4g} MPa",
+            f"tan delta at {at}, {frequency}": f"{float(series.tan_delta(omega)):.4g}",
+            "missing": "; ".join(compound.missing) or "nothing stated",
+        }
+        if compound.range is not None:
+            rows["measured frequency"] = " to ".join(text(f) for f in compound.range.frequency)
+            rows["measured temperature"] = " to ".join(text(t) for t in compound.range.temperature)
+        table = Table(title=escape(compound.name), title_justify="left", show_header=False)
+        for key, value in rows.items():
+            table.add_row(key, escape(value))
+        console.print(table)
+        if plot is not None:
+            from conveyor.report import plots
+
+            print(f"figure: {plots.save(plots.master_curve(compound, kelvin), plot)}")
+        return
+    table = Table(
+        title=f"E' and tan delta at {at}, {frequency}",
+        title_justify="left",
+        box=None,
+        pad_edge=False,
+        padding=(0, 1),
+    )
+    for heading in ("compound", "kind", "E' [MPa]", "tan delta", "degC"):
+        table.add_column(heading, no_wrap=True)
+    drawn = []
+    for known in store.names(shelves or ()):
+        compound = store.compound(known, extra=shelves or ())
+        span = () if compound.range is None else compound.range.temperature
+        limits = " to ".join(f"{si(t) - ZERO_CELSIUS:.0f}" for t in span)
+        try:
+            series = compound.series(kelvin)
+        except RangeError:
+            table.add_row(known, compound.kind, "outside", "", limits)
+            continue
+        omega = 2.0 * math.pi * hertz
+        storage, tangent = float(series.storage(omega)) / 1e6, float(series.tan_delta(omega))
+        table.add_row(known, compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
+        drawn.append(compound)
+    console.print(table)
+    if plot is not None:
+        from conveyor.report import plots
+
+        print(f"figure: {plots.save(plots.loss_tangents(drawn, kelvin), plot)}")

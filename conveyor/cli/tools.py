@@ -1,0 +1,118 @@
+"""`conveyor contact`, `template`, `schema`, `validate`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from conveyor.cli.app import AsJson, Shelves, app
+from conveyor.errors import InputError, NoSolutionError
+
+
+@app.command()
+def contact(
+    radius: Annotated[float, typer.Option(help="R over the spacing, in (0, 0.5].")],
+    pressure: Annotated[float | None, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")] = None,
+    penetration: Annotated[
+        float | None, typer.Option(help="Penetration over R, held in place of the pressure.")
+    ] = None,
+    support: Annotated[str, typer.Option(help="free, confined or half-space.")] = "confined",
+    thickness: Annotated[float, typer.Option(help="k h; inf allowed.")] = float("inf"),
+    instantaneous: Annotated[
+        float | None, typer.Option(help="E0/E_inf; else 1 - sum of the weights.")
+    ] = None,
+    weight: Annotated[list[float] | None, typer.Option(help="Creep weight; may be repeated.")] = None,
+    time: Annotated[list[float] | None, typer.Option(help="zeta = V tau k of each weight.")] = None,
+    poisson: Annotated[float, typer.Option(help="Poisson's ratio.")] = 0.5,
+    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-6,
+    as_json: AsJson = False,
+) -> None:
+    """Solve one dimensionless rolling contact.
+
+    Example: conveyor contact --support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1
+    """
+    from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_penetration
+
+    if (pressure is None) == (penetration is None):
+        raise InputError("give --pressure or --penetration")
+    weights = weight or []
+    creep = CreepSpectrum(1.0 - sum(weights) if instantaneous is None else instantaneous, weights, time or [])
+    problem = ContactProblem(
+        support, radius, 1.0 if pressure is None else pressure, creep, thickness, poisson
+    )
+    solution = solve(problem, rtol) if penetration is None else solve_penetration(problem, penetration, rtol)
+    names = ("friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation",
+             "error_estimate", "energy_error")  # fmt: skip
+    figures = {name: float(getattr(solution, name)) for name in names}
+    if as_json:
+        about = {
+            "pressure": solution.problem.pressure,
+            "strips": solution.patches.tolist(),
+            "status": solution.status.name,
+            "order": solution.stats.order,
+            "way": solution.stats.way,
+        }
+        print(json.dumps({**figures, **about}, indent=2))
+        return
+    for name, value in {"pressure": solution.problem.pressure, **figures}.items():
+        print(f"{name:>15}  {value:.10g}")
+    print(f"{'strips':>15}  {', '.join(f'{low:.6g} to {high:.6g}' for low, high in solution.patches)}")
+    print(f"{'status':>15}  {solution.message}")
+
+
+@app.command()
+def template(
+    output: Annotated[Path, typer.Argument(help="Workbook to write (.xlsx).", show_default=False)],
+    spec: Annotated[Path | None, typer.Option("--from", help="Fill it in from this spec.")] = None,
+    shelf: Shelves = None,
+) -> None:
+    """Write an input workbook: fields, units, drop-downs, ranges, an example; `conveyor power` reads it.
+
+    Example: conveyor template input.xlsx
+    """
+    import conveyor
+    from conveyor.template.write import write_template
+
+    line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
+    print(f"template: {write_template(output, line, shelves=shelf or ())}")
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of a spec, for editors."""
+    from conveyor.spec import schema as build
+
+    print(json.dumps(build(), indent=2, ensure_ascii=False))
+
+
+@app.command()
+def validate() -> None:
+    """Run the built-in reference cases and print what was expected and what came out."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    from conveyor import validation
+
+    checks = validation.run()
+    table = Table("source", "quantity", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
+    for heading in ("expected", "got", "deviation", "allowed", ""):
+        table.add_column(heading, no_wrap=True, justify="right")
+    for check in checks:
+        table.add_row(
+            check.source,
+            check.quantity,
+            f"{check.expected:.10g}" if isinstance(check.expected, float) else str(check.expected),
+            f"{check.got:.10g}" if isinstance(check.got, float) else str(check.got),
+            f"{check.deviation:.1e}",
+            f"{check.tolerance:.1e}",
+            "ok" if check.passed else "[bold red]FAILED[/]",
+        )
+    Console(highlight=False).print(table)
+    failed = sum(not check.passed for check in checks)
+    print(f"{len(checks) - failed} of {len(checks)} agree")
+    if failed:
+        raise NoSolutionError(f"{failed} reference cases do not agree: do not trust results on this machine")

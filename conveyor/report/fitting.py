@@ -1,0 +1,126 @@
+"""What a fit understood, found and left open: lines for the terminal, and a figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from conveyor.report.comparing import celsius
+from conveyor.report.plots import colour, stacked
+from conveyor.units import si, text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from matplotlib.figure import Figure
+
+    from conveyor.compound_file import Fitted
+
+_CANDIDATES = 6  # of the criterion's table that are printed
+_POINTS = 400
+_SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
+
+
+def lines(found: Fitted) -> list[str]:
+    """What was understood, the shift, the fit and its errors, and what to doubt."""
+    return [
+        "read",
+        *(f"  {line}" for line in found.understood),
+        *_shift(found),
+        *_series(found),
+        *_criterion(found),
+        *_consistency(found),
+        "not known: " + ("; ".join(found.compound.missing) or "nothing listed"),
+    ]
+
+
+def _shift(found: Fitted) -> Iterator[str]:
+    shifted = found.superposition
+    if shifted is None:
+        return
+    yield f"shift of {shifted.temperatures.size} isotherms to {celsius(shifted.reference):.4g} degC"
+    for t, shift, error in zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_a_T_error, strict=True):
+        yield f"  {celsius(float(t)):8.2f} degC  log10 a_T {shift:+9.4f} +- {error:.4f}"
+    yield (
+        f"  overlaps differ by {shifted.storage_residual:.1%} (E') and {shifted.loss_residual:.1%} (E''); scatter "
+        f"about the common curve {shifted.storage_scatter:.1%} and {shifted.loss_scatter:.1%}"
+    )
+    if shifted.correlation > _SHAPE_CORRELATION:
+        yield (
+            f"  neighbouring residuals are correlated by {shifted.correlation:.2f}: the isotherms differ in shape, "
+            "no shift makes them one curve"
+        )
+
+
+def _series(found: Fitted) -> Iterator[str]:
+    fit, compound = found.fit, found.compound
+    yield (
+        f"{compound.name}: {fit.active_terms} terms, E_e {fit.series.equilibrium / 1e6:.4g} MPa, "
+        f"E_inf {fit.series.glassy / 1e6:.4g} MPa"
+    )
+    yield (
+        f"  data window {fit.window[0]:.4g} to {fit.window[1]:.4g} Hz at {text(compound.reference_temperature)}"
+    )
+    for label, misfit in (("E'", fit.storage), ("E''", fit.loss), ("tan delta", fit.tan_delta)):
+        yield (
+            f"  {label:>9}: rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"
+        )
+    if fit.storage_noise is not None and fit.loss_noise is not None:
+        yield f"  scatter from row to row: {fit.storage_noise:.1%} (E'), {fit.loss_noise:.1%} (E'')"
+
+
+def _criterion(found: Fitted) -> Iterator[str]:
+    candidates = found.fit.candidates
+    if len(candidates) < 2:
+        return
+    yield "  number of terms by AICc (best first): per decade, penalty, terms, effective parameters, residual, score"
+    for candidate in candidates[:_CANDIDATES]:
+        yield (
+            f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "
+            f"{candidate.freedom:7.1f} {candidate.residual:8.2%} {candidate.score:10.1f}"
+        )
+
+
+def _consistency(found: Fitted) -> Iterator[str]:
+    yield (
+        f"any positive spectrum leaves at least {found.fit.consistency_floor:.1%} rms of both: that much the data "
+        "contradict themselves"
+    )
+    known = found.consistency
+    for label, one, misfit in (("E''", "E'", known.loss), ("E'", "E''", known.storage)):
+        yield (
+            f"  Kramers-Kronig, {label} predicted from {one} over {known.judged[0]:.3g} to {known.judged[1]:.3g} Hz: "
+            f"rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"
+        )
+
+
+def figure(found: Fitted) -> Figure:
+    """Data, fit and band: E', E'' above, tan δ below."""
+    made, (above, below) = stacked(2, 7.0)
+    f, low, high = found.frequency, *found.fit.window
+    omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
+    at = omega / (2.0 * np.pi)
+    series = found.fit.series
+    replicas = found.compound.replicas(si(found.compound.reference_temperature))
+    for axis, data, model, k, label in (
+        (above, found.storage / 1e6, lambda s: s.storage(omega) / 1e6, 0, "E'"),
+        (above, found.loss / 1e6, lambda s: s.loss(omega) / 1e6, 1, "E''"),
+        (below, found.loss / found.storage, lambda s: s.tan_delta(omega), 2, "tan δ"),
+    ):
+        axis.plot(f, data, color=colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
+        axis.plot(at, model(series), color=colour(k), label=label)
+        if replicas:
+            bottom, top = np.quantile([model(replica) for replica in replicas], (0.05, 0.95), axis=0)
+            axis.fill_between(at, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
+    reference = text(found.compound.reference_temperature)
+    above.set(
+        xscale="log",
+        yscale="log",
+        ylabel="modulus [MPa]",
+        title=f"{found.compound.name}: data, fit, 90 % band",
+    )
+    below.set(xscale="log", xlabel=f"frequency at {reference} [Hz]", ylabel="tan δ [-]")
+    below.set_ylim(bottom=0.0)
+    above.legend(fontsize=8)
+    return made

@@ -1,0 +1,96 @@
+"""The strain that rolls work a cover at, and its moduli at that strain: the equivalent-linear cover of a strand.
+
+Strain is that of the rolls' own contact (conveyor.contact.interior), at the line load where the strand loses its
+energy; moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent) until both agree.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact import interior, solve
+from conveyor.indentation import RollContact, to_problem
+from conveyor.rubber import AmplitudeFactors, PronySeries, equivalent_linear
+
+Array = NDArray[np.float64]
+
+LOAD_EXPONENT = 4.0 / 3.0
+"""Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
+_STRAIN_RTOL = 1e-2  # of the working strain: sweeps are repeated to a few per cent
+_CONTACT_RTOL = 1e-4
+
+
+@dataclass(frozen=True)
+class WorkingStrain:
+    """What a strand's rolls do to its cover.
+
+    Attributes
+    ----------
+    line_load : float
+        At which the strain was taken: the mean over the strand's rolls, weighted by what each loses [N/m].
+    strain : float
+        Single strain amplitude, weighted by dissipation over the cover's depth [-].
+    frequency : float
+        At which the factors were taken, weighted by dissipation [Hz].
+    storage_factor, loss_factor : float
+        Of E' and E'' against those of the master curve [-].
+    """
+
+    line_load: float
+    strain: float
+    frequency: float
+    storage_factor: float
+    loss_factor: float
+
+
+def losing_load(line_loads: Array, weights: Array) -> float:
+    """Mean line load of rolls, weighted by their loss, f proportional to w^(4/3) [N/m].
+
+    Parameters
+    ----------
+    line_loads : ndarray, shape (n,)
+        Along all rolls [N/m].
+    weights : ndarray, shape (n,)
+        Of the quadrature, times the number of such rolls [m].
+    """
+    lost = weights * line_loads**LOAD_EXPONENT
+    return float(lost @ line_loads / lost.sum())
+
+
+def softened_cover(
+    contact: RollContact, line_load: float, factors: AmplitudeFactors, temperature: float
+) -> tuple[PronySeries, WorkingStrain]:
+    """Series of a cover at the strain of a roll's own contact.
+
+    Parameters
+    ----------
+    contact : RollContact
+        With the series at the strain of the master curve.
+    line_load : float
+        w [N/m].
+    factors : AmplitudeFactors
+        Of the compound.
+    temperature : float
+        Of the cover [K].
+
+    Raises
+    ------
+    NoSolutionError
+        The contact has no answer, the strain does not settle, or the softened rubber would be a fluid.
+    RangeError
+        The strain or the temperature are outside the sweeps.
+    """
+    passing = 2.0 * math.pi / contact.spacing * contact.speed
+
+    def strain_of(series: PronySeries) -> tuple[float, float]:
+        inside = interior(solve(to_problem(replace(contact, rubber=series), line_load), _CONTACT_RTOL))
+        return inside.working_strain, inside.wave_number * passing
+
+    found = equivalent_linear(contact.rubber, factors, strain_of, temperature=temperature, rtol=_STRAIN_RTOL)
+    return found.series, WorkingStrain(
+        line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
+    )
