@@ -23,6 +23,8 @@ MARGIN = 1.0
 and nothing measured tells it [decades]."""
 STRENGTHS = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered penalties on the curvature of the spectrum, see `Penalised`; AICc chooses [-]."""
+LEAST_ROWS = 6
+"""Rows in the judged window: a slope and a curvature, each twice over."""
 IGNORED = 1.0e150
 """Scale that gives a row no weight: its square is still finite, its reciprocal's square is nothing."""
 
@@ -113,8 +115,7 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     Raises
     ------
     InputError
-        If a value is not finite and > 0, shapes differ, the window is not above two decades, or there are
-        too few rows.
+        If a value is not finite and > 0, shapes differ, or fewer than six rows are in the judged window.
 
     Notes
     -----
@@ -148,10 +149,10 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     f, omega = rows.frequency, rows.omega
     low, high = f[0] * 10.0**MARGIN, f[-1] / 10.0**MARGIN
     inside = (f >= low) & (f <= high)
-    if np.count_nonzero(inside) < 3:
+    if np.count_nonzero(inside) < LEAST_ROWS:
         raise InputError(
             f"the window {f[0]:g} to {f[-1]:g} Hz has {np.count_nonzero(inside)} rows farther than"
-            f" {MARGIN:g} decade from its ends; the test needs >= 3: measure a wider range, or superpose isotherms"
+            f" {MARGIN:g} decade from its ends; the test needs >= {LEAST_ROWS}: measure a wider range, or superpose isotherms"
         )
     tau = even_times(omega, LINES_PER_DECADE, REACH)
     unit = kernel(omega, tau)
@@ -227,18 +228,14 @@ def _one_sided(rows: Rows, tau: FloatArray, ignored: slice) -> tuple[FloatArray,
     blind = replace(rows, scale=scale)
     problem = Penalised(blind, tau, None)
     n = rows.frequency.size
-    best: tuple[float, FloatArray, float] | None = None
-    for strength in STRENGTHS:
-        one = problem.judged(blind.target, strength)
-        rms = one.residual * float(np.sqrt(2.0))
-        if n - one.freedom - 2.0 <= 0.0:
-            continue
-        score = aicc(n, one.freedom, rms)
-        if best is None or score < best[0]:
-            best = score, one.moduli, rms
-    if best is None:
-        raise InputError(f"{n} rows are too few for the Kramers-Kronig test: measure more frequencies")
-    return best[1], best[2]
+    found = [problem.judged(blind.target, strength) for strength in STRENGTHS]
+    judged = [one for one in found if n - one.freedom - 2.0 > 0.0] or found[-1:]
+    rms = [one.residual * float(np.sqrt(2.0)) for one in judged]  # half of the rows have no weight
+    if len(judged) > 1:
+        best = int(np.argmin([aicc(n, one.freedom, r) for one, r in zip(judged, rms, strict=True)]))
+    else:
+        best = 0
+    return judged[best].moduli, rms[best]
 
 
 def _decades(f: FloatArray, loss: FloatArray, storage: FloatArray) -> tuple[DecadeError, ...]:

@@ -12,9 +12,11 @@ from conveyor.rubber.shift import celsius
 
 STEP = 0.05
 """Grid of the first guess [decades]; the joint fit removes what it leaves."""
-LEAST_OVERLAP = 0.25
-"""Share of the shorter isotherm that has to lie in the overlap of a first guess: with less, a lucky crossing
-of two points wins [-]."""
+LEAST_OVERLAP = 0.1
+"""Share of the shorter isotherm that has to lie in the overlap: three decades measured by ten rows have
+their rows a ninth apart, with less nothing is compared [-]."""
+FIRST_OVERLAP = 0.25
+"""The same of a first guess: with less, a lucky crossing of two points wins [-]."""
 END_ROWS = 3
 """Rows at the end of an isotherm from which its slope is taken."""
 
@@ -51,7 +53,7 @@ class Overlap:
     decades : float
         Reduced frequencies that both cover [decades].
     held : bool
-        Whether this is the least overlap allowed, a quarter of the shorter isotherm: the two have not one
+        Whether this is the least overlap allowed, a tenth of the shorter isotherm: the two have not one
         shape and would part, so their shift is a limit and no measurement, nor its uncertainty [-].
     storage : float
         Root mean square difference of ln E' in the overlap [-].
@@ -104,8 +106,8 @@ def differences(cold: Sheet, hot: Sheet, shift: FloatArray) -> FloatArray:
     )
 
 
-def reach(cold: Sheet, hot: Sheet) -> tuple[float, float]:
-    """Shifts between which a quarter of the shorter isotherm lies in the overlap.
+def reach(cold: Sheet, hot: Sheet, share: float = LEAST_OVERLAP) -> tuple[float, float]:
+    """Shifts between which a share of the shorter isotherm lies in the overlap.
 
     Parameters
     ----------
@@ -113,13 +115,15 @@ def reach(cold: Sheet, hot: Sheet) -> tuple[float, float]:
         The colder isotherm.
     hot : Sheet
         The hotter one.
+    share : float
+        Of the shorter isotherm [-].
 
     Returns
     -------
     tuple of float
         Least and largest log10 a_T of the cold one less that of the hot one [decades].
     """
-    least = LEAST_OVERLAP * min(float(np.ptp(cold.x)), float(np.ptp(hot.x)))
+    least = share * min(float(np.ptp(cold.x)), float(np.ptp(hot.x)))
     return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
 
 
@@ -148,7 +152,7 @@ def first_guess(cold: Sheet, hot: Sheet, *, moduli: tuple[int, ...], vertical: b
         If no modulus E' occurs in both.
     """
     _check_common_modulus(cold, hot)
-    nearest, farthest = reach(cold, hot)
+    nearest, farthest = reach(cold, hot, FIRST_OVERLAP)
     nearest = min(max(0.0, nearest), farthest)
     grid = np.linspace(nearest, farthest, max(2, round((farthest - nearest) / STEP)))
     error = differences(cold, hot, grid)[list(moduli)]

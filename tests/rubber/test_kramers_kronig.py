@@ -83,18 +83,17 @@ def test_local_relation() -> None:
     f, loss = local_loss(F, 1e6 * np.log(1e6 * F))
     np.testing.assert_allclose(loss, 0.5 * np.pi * 1e6, rtol=1e-9)
     f, loss = local_loss(F, STORAGE)
-    inside = (f > 1e-1) & (f < 1e5)
-    # it leaves out the second derivative of the spectrum over ln omega: (pi^2/8)/(2 ln 10)^2 = 6 % here, doubled
-    np.testing.assert_allclose(loss[inside], SMOOTH.loss(2 * np.pi * f[inside]), rtol=0.12)
+    inside = (f > 1e6) & (f < 1e8)  # |z| < 1.1 about the peak of the spectrum, s = 2 ln 10 wide
+    # E'' and (pi/2) dE'/d ln omega smear H by kernels of variance pi^2/4 and pi^2/12 in ln omega: they differ by
+    # (pi^2/12) H''/H = (pi^2/12) (z^2 - 1)/s^2, at most 3.9 %, and by the width of a step, 0.33^2/24 of it
+    np.testing.assert_allclose(loss[inside], SMOOTH.loss(2 * np.pi * f[inside]), rtol=0.045)
 
 
 def test_refusals() -> None:
-    with pytest.raises(InputError, match="rows farther than 1 decade from its ends"):
+    with pytest.raises(InputError, match="rows farther than 1 decade from its ends; the test needs >= 6"):
         kramers_kronig([1.0, 10.0, 50.0], [1e6, 2e6, 3e6], [1e5, 1e5, 1e5])
     with pytest.raises(InputError, match=r"row 1 \(frequency 1 Hz\): loss = -1 Pa"):
         kramers_kronig([1.0, 10.0], [1e6, 2e6], [-1.0, 1e5])
-    with pytest.raises(InputError, match="too few for the Kramers-Kronig test"):
-        kramers_kronig([1.0, 15.0, 20.0, 30.0, 500.0], [1e6, 2e6, 3e6, 4e6, 5e6], np.full(5, 1e5))
     with pytest.raises(InputError, match="must have one shape"):
         local_loss([1.0, 2.0], [1e6])
     with pytest.raises(InputError, match="ascend without repetition"):

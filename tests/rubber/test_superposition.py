@@ -100,7 +100,7 @@ def test_truth_without_noise_to_interpolation_error() -> None:
     ],
 )
 def test_uncertainties_are_honest(rows: int, noise: float, step: int, *, uneven: bool) -> None:
-    temperatures = TEMPERATURES[::step]
+    temperatures = TEMPERATURES[2 * (step - 1) :: step]  # two steps of 7 K below -8 degC are > 3 decades
     truth = np.asarray(LAW.log10_a_T(temperatures))
     found = [
         chi2_per_shift(superpose(sweeps(s, noise, temperatures, rows, None, uneven), REFERENCE), truth)
@@ -115,15 +115,17 @@ def test_uncertainty_grows_along_the_chain() -> None:
     error = superpose(sweeps(1, 0.01), REFERENCE).log10_a_T_error
     at = int(np.flatnonzero(TEMPERATURES == REFERENCE)[0])
     assert error[at] == 0.0
-    assert np.all(np.diff(error[at:]) > 0.0)
-    assert np.all(np.diff(error[: at + 1]) < 0.0)
+    assert np.all(np.delete(error, at) > 0.0)
+    for side in (error[at + 1 :], error[at - 1 :: -1]):  # on the average: a steep curve may place one better
+        half = side.size // 2
+        assert side[half:].mean() > side[:half].mean()
 
 
 def test_vertical_shift_recovered() -> None:
     b = TEMPERATURES / REFERENCE
     found = [superpose(sweeps(s, 0.005, b=b), REFERENCE, vertical=True) for s in range(6)]
     away = TEMPERATURES != REFERENCE
-    z = np.array([((r.log10_b_T - np.log10(b)) / r.log10_b_T_error)[away] for r in found])
+    z = np.array([(r.log10_b_T - np.log10(b))[away] / r.log10_b_T_error[away] for r in found])
     # neighbours share their errors: of 6 x 14 numbers about 6 x 3 are independent, rms 1 +- 0.17
     assert 0.5 < np.sqrt(np.mean(z**2)) < 1.5
     truth = np.asarray(LAW.log10_a_T(TEMPERATURES))
@@ -198,19 +200,17 @@ def test_published_master_curve_unshifted_and_superposed_again() -> None:
         superpose(isotherms, 268.15)
     result = superpose(isotherms[1:], 268.15)
     difference = result.log10_a_T - published[1:]
-    warm = slice(
-        1, -2
-    )  # -35 to 85 degC: beyond, E' moves by less than its scatter over a sweep, or -42 is held
-    assert result.overlaps[0].held
+    warm = slice(0, -3)  # -42 to 77 degC: on the plateau beyond, ln E' moves by 0.05 to 0.1 per decade
+    assert result.overlaps[0].held  # 0.24 decades of overlap as published, below the least allowed
     assert np.sqrt(np.mean(difference[warm] ** 2)) < 0.12
     assert np.abs(difference[warm]).max() < 0.22
-    # the published factors are multiples of 0.06 decades chosen by eye or by E' alone: errors of 0.03 each
+    # the published factors are multiples of 0.06 decades: 0.03 each, however they were found
     pull = difference[warm] / np.hypot(result.log10_a_T_error[warm], 0.03)
     assert np.sqrt(np.mean(pull**2)) < 2.5
     master = table("pyvisco_freq_user_master.csv")
     inside = (result.frequency > master[0, 0]) & (result.frequency < master[-1, 0])
     x = np.log(result.frequency[inside])
-    for mine, column, tolerance in ((result.storage, 1, 0.025), (result.loss, 2, 0.045)):
+    for mine, column, tolerance in ((result.storage, 1, 0.02), (result.loss, 2, 0.04)):
         error = np.log(mine[inside]) - np.interp(x, np.log(master[:, 0]), np.log(master[:, column] * 1e6))
         assert np.sqrt(np.mean(error**2)) < tolerance
     # and it is the better one: neighbours agree better than with the published factors
@@ -218,7 +218,7 @@ def test_published_master_curve_unshifted_and_superposed_again() -> None:
         rms_storage(c, h, a - b)
         for (c, h), (a, b) in zip(pairwise(isotherms[1:]), pairwise(published[1:]), strict=True)
     ]
-    assert result.storage_residual <= np.sqrt(np.mean(np.square(there)))
+    assert result.storage_residual < 0.8 * np.sqrt(np.mean(np.square(there)))
 
 
 def rms_storage(cold: Isotherm, hot: Isotherm, step: float) -> float:
@@ -238,7 +238,7 @@ def test_published_raw_isotherms_are_another_polymer_than_the_published_master_c
     there = [rms_storage(c, h, a) for (c, h), a in zip(pairwise(isotherms[2:]), steps[2:], strict=True)]
     result = superpose(isotherms, 268.15, by="storage")
     assert result.storage_residual < 0.012
-    assert np.sqrt(np.mean(np.square(there))) > 10.0 * result.storage_residual
+    assert np.sqrt(np.mean(np.square(there))) > 5.0 * result.storage_residual
     assert np.all(np.diff(result.log10_a_T) < 0.0)
     # its E'' does not superpose (a minimum in each isotherm of the glass), and the result says so
     assert result.loss_residual > 0.2
