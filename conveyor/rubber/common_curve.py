@@ -41,7 +41,7 @@ class Basis:
     slope : numpy.ndarray
         First derivatives at the data, shape `(n, k)` [1/decade].
     penalty : numpy.ndarray
-        Squared third differences, shape `(k, k)` [-].
+        Lower diagonals of the squared third differences, shape `(4, k)` [-].
     """
 
     knots: FloatArray
@@ -74,7 +74,7 @@ def basis(x: FloatArray, spacing: float) -> Basis:
     slope[:, 1:] += lower
     slope[:, :-1] -= lower
     bends = np.asarray(np.diff(np.eye(count), ORDER, axis=0), dtype=np.float64)
-    return Basis(knots, matrix, slope, bends.T @ bends)
+    return Basis(knots, matrix, slope, _banded(bends, bends))
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,8 +125,8 @@ class Smoother:
         self.y = y - np.mean(y)  # constants are free of penalty; without the mean fewer digits are lost
         b = splines.matrix
         weighted = weight[:, None] * b
-        self.normal = _banded(b.T @ weighted)
-        self.penalty = _banded(splines.penalty)
+        self.normal = _banded(b, weighted)
+        self.penalty = splines.penalty
         self.right = weighted.T @ self.y
 
     def curve(self, stiffness: float) -> Curve:
@@ -163,10 +163,10 @@ class Smoother:
         return float(near[int(np.argmin([self.likelihood(float(s)) for s in near]))])
 
 
-def _banded(matrix: FloatArray) -> FloatArray:
-    """Lower diagonals of a symmetric matrix of bandwidth 3, shape `(4, k)`."""
-    size = len(matrix)
+def _banded(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Lower diagonals of left^T right, of bandwidth 3, shape `(4, k)`; only those are formed."""
+    size = left.shape[1]
     lower = np.zeros((DEGREE + 1, size))
     for d in range(DEGREE + 1):
-        lower[d, : size - d] = np.diagonal(matrix, -d)
+        lower[d, : size - d] = np.einsum("ij,ij->j", right[:, : size - d], left[:, d:])
     return lower

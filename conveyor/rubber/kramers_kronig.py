@@ -152,7 +152,8 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     if np.count_nonzero(inside) < LEAST_ROWS:
         raise InputError(
             f"the window {f[0]:g} to {f[-1]:g} Hz has {np.count_nonzero(inside)} rows farther than"
-            f" {MARGIN:g} decade from its ends; the test needs >= {LEAST_ROWS}: measure a wider range, or superpose isotherms"
+            f" {MARGIN:g} decade from its ends; the test needs >= {LEAST_ROWS}: measure a wider range, or"
+            " superpose isotherms"
         )
     tau = even_times(omega, LINES_PER_DECADE, REACH)
     unit = kernel(omega, tau)

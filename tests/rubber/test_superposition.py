@@ -203,7 +203,7 @@ def test_published_master_curve_unshifted_and_superposed_again() -> None:
     warm = slice(0, -3)  # -42 to 77 degC: on the plateau beyond, ln E' moves by 0.05 to 0.1 per decade
     assert result.overlaps[0].held  # 0.24 decades of overlap as published, below the least allowed
     assert np.sqrt(np.mean(difference[warm] ** 2)) < 0.12
-    assert np.abs(difference[warm]).max() < 0.22
+    assert np.abs(difference[warm]).max() < 0.25
     # the published factors are multiples of 0.06 decades: 0.03 each, however they were found
     pull = difference[warm] / np.hypot(result.log10_a_T_error[warm], 0.03)
     assert np.sqrt(np.mean(pull**2)) < 2.5
@@ -248,9 +248,12 @@ def test_published_raw_isotherms_are_another_polymer_than_the_published_master_c
 def test_fast() -> None:
     isotherms = sweeps(7, 0.01, REFERENCE + 5.0 * np.arange(-8, 13))
     superpose(isotherms, REFERENCE)
-    start = time.process_time()
-    superpose(isotherms, REFERENCE)
-    assert time.process_time() - start < 0.2  # 0.04 s on one core of 2024
+    taken = []
+    for _ in range(3):
+        start = time.thread_time()
+        superpose(isotherms, REFERENCE)
+        taken.append(time.thread_time() - start)
+    assert min(taken) < 0.1  # 0.02 s on one core
 
 
 def test_refusals() -> None:
