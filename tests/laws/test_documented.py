@@ -7,11 +7,26 @@ import re
 
 import pytest
 
-from conveyor import loading, power, resistance, tension
+from conveyor import (
+    belt_check,
+    drive_laws,
+    energy_laws,
+    loading,
+    motion_laws,
+    power,
+    resistance,
+    roll_life,
+    take_up,
+    tension,
+    vertical_curve,
+)
 from conveyor.contact import closed_forms
 
 WITHOUT_UNIT = {"minima", "carcass"}  # a mapping whose text states the unit; a name
-MODULES = (loading, resistance, tension, power, closed_forms)
+MODULES = (
+    loading, resistance, tension, power, closed_forms, drive_laws, take_up, motion_laws, vertical_curve, roll_life,
+    energy_laws, belt_check,
+)  # fmt: skip
 
 
 def _laws():
