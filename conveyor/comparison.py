@@ -446,14 +446,16 @@ def _band(
 ) -> tuple[float, float] | None:
     """Factors on the indentation between which nine tenths of the fit's replicas lie, by the roll that loses most.
 
-    Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber.
+    Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber. Fit and replicas
+    are both taken at the strain of the master curve: softening changes all alike.
     """
     replicas = compound.replicas(temperature)
     roll = _heaviest(runs[len(runs) // 2], strands) if runs else None
     if not replicas or roll is None:
         return None
+    base = compound.series(temperature)
     contact, load = roll.curve.contact, roll.load.peak_line_load
-    problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (contact.rubber, *replicas)]
+    problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
     low, high = np.quantile(friction[1:] / friction[0], _BAND)
     return float(low), float(high)

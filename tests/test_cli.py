@@ -180,7 +180,7 @@ def test_fit_writes_a_compound_that_the_shelf_reads(tmp_path: Path) -> None:
         "--shift", ROOT / "materials" / "s120.shift.csv", "-o", target, "--name", "mine",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert "rms 8.4%" in done.stdout
+    assert "rms 9.1%" in done.stdout
     shown = run("shelf", target)
     assert shown.returncode == 0, shown.stderr
     assert "mine" in shown.stdout
@@ -238,3 +238,99 @@ def test_fit_asks_for_a_temperature_that_nobody_states(tmp_path: Path) -> None:
     done = run("fit", data)
     assert done.returncode == 2
     assert "--at" in done.stderr
+
+
+def test_compare_prints_one_json_object() -> None:
+    done = run(
+        "compare", OVERLAND, "-c", "standard-cover", "-c", "low-rolling-resistance-cover",
+        "--temperature", "0:20:10", "--speed", "4.5,5", "--extra-cost", "low-rolling-resistance-cover=1000", "--json",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    found = json.loads(done.stdout)
+    assert len(found["scenes"]) == 2 * 3 * 2
+    assert found["base"] == "standard-cover"
+    assert {row["belt speed [m/s]"] for row in found["ranking"]} == {4.5, 5.0}
+    assert sorted({row["temperature [degC]"] for row in found["scenes"]}) == [0.0, 10.0, 20.0]
+
+
+def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:
+    book, table, figure = tmp_path / "c.xlsx", tmp_path / "c.csv", tmp_path / "c.png"
+    done = run(
+        "compare", OVERLAND, "-c", "s100", "-c", "s120", "--temperature", "-10,20 degC", "-o", book,
+        "--csv", table, "--plot", figure,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "S100" in done.stdout
+    assert "note:" in done.stdout
+    assert book.stat().st_size > 10_000
+    assert figure.read_bytes().startswith(b"\x89PNG")
+    assert len(table.read_text(encoding="utf-8").splitlines()) == 1 + 2 * 2
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "message"),
+    [
+        (("--temperature", "20:0:5"), 2, '--temperature: got "20:0:5", expected from:to:step'),
+        (("--temperature", "0:1:0"), 2, "--temperature"),
+        (("--temperature", "0:1e9:1e-3"), 2, "at most 1000 values"),
+        (("--temperature", "warm"), 2, '--temperature: got "warm"'),
+        (("--temperature", "nan"), 2, '--temperature: got "nan"'),
+        (("--speed", "5 fpm"), 2, '--speed: got "5 fpm"'),
+        (("--cover", "left"), 2, '--cover: got "left", allowed: bottom, top, both'),
+        (("--extra-cost", "x"), 2, "expected NAME=AMOUNT"),
+        (("--extra-cost", "standard-cover=nan"), 2, "expected NAME=AMOUNT"),
+        (("--base", "s100"), 2, '"s100" is none of the compounds compared: standard-cover'),
+        (("--temperature", "-90"), 1, "no scene has an answer"),
+        (("--plot", "x.xyz"), 2, "ends in .png, .svg or .pdf"),
+    ],
+)
+def test_compare_refuses(options: tuple[str, ...], code: int, message: str) -> None:
+    done = run("compare", OVERLAND, "-c", "standard-cover", *options)
+    assert done.returncode == code
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_template_goes_there_and_back(tmp_path: Path) -> None:
+    book = tmp_path / "input.xlsx"
+    assert run("template", book, "--from", OVERLAND).returncode == 0
+    (by_book, by_spec) = (json.loads(run("power", path, "--json").stdout) for path in (book, OVERLAND))
+    assert by_book["power_kW"] == by_spec["power_kW"]
+    assert run("power", tmp_path / "none.xlsx").returncode == 2
+
+
+def test_fit_shifts_isotherms_and_says_what_it_read(tmp_path: Path) -> None:
+    raw = ROOT / "tests" / "laboratory" / "files" / "real" / "pyvisco_freq_user_raw.csv"
+    target, figure = tmp_path / "polymer.yaml", tmp_path / "polymer.svg"
+    done = run("fit", raw, "--at", "20 degC", "-o", target, "--plot", figure)
+    assert done.returncode == 0, done.stderr
+    assert "shift of 21 isotherms to 20 degC" in done.stdout
+    assert 'column 2 "E_stor": storage, in MPa by the unit row' in done.stdout
+    assert "<svg" in figure.read_text(encoding="utf-8")
+    assert run("shelf", target, "--at", "30 degC").returncode == 0
+
+
+def test_fit_asks_for_what_is_doubtful() -> None:
+    real = ROOT / "tests" / "laboratory" / "files" / "real"
+    master, sweep = ROOT / "materials" / "s100.dma.csv", ROOT / "materials" / "s100.strain.csv"
+    for arguments, message in (
+        ((real / "S100_strain_sweep.txt",), "--modulus-unit"),
+        ((master, "--strain", sweep), "--reference-strain"),
+        ((sweep, "--at", "20 degC"), "holds a strain sweep; a master curve or isotherms"),
+        ((master, "--shift", sweep), "holds strain sweep, shift factors are needed here"),
+        ((master, "--vertical"), "--vertical shifts isotherms"),
+        ((master, "--at", "-300 degC"), "absolute zero"),
+    ):
+        done = run("fit", *arguments)
+        assert done.returncode == 2, done.stdout
+        assert message in done.stderr
+        assert "Traceback" not in done.stderr
+
+
+def test_shelf_draws(tmp_path: Path) -> None:
+    one, every = tmp_path / "s100.png", tmp_path / "all.svg"
+    assert run("shelf", "s100", "--plot", one).returncode == 0
+    assert run("shelf", "--plot", every).returncode == 0
+    assert one.read_bytes().startswith(b"\x89PNG")
+    assert "S100" in every.read_text(encoding="utf-8") or every.stat().st_size > 10_000

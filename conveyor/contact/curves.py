@@ -114,7 +114,7 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
         for start in range(0, order.size, step):
             chosen = order[start : start + step]
             batch = _Batch.of(group[chosen], np.log(lowest[[members[k] for k in chosen]]), rtol)
-            for row, curve in batch.curves(rtol).items():
+            for row, curve in ({} if batch is None else batch.curves(rtol)).items():
                 curves[members[chosen[row]]] = curve
     return curves
 
@@ -133,7 +133,8 @@ class _Batch:
     rows: Index
 
     @classmethod
-    def of(cls, group: Group, log_lowest: Array, rtol: float) -> _Batch:
+    def of(cls, group: Group, log_lowest: Array, rtol: float) -> _Batch | None:
+        """Half widths of the lightest and the heaviest loads; None where no scene of the chunk is narrow."""
         solving, checking = grades_for(rtol)
         size = log_lowest.size
         alpha_high = guess(group)
@@ -147,6 +148,8 @@ class _Batch:
         centre, half = 0.5 * (low + high), 0.5 * np.maximum(high - low, 0.0) + MARGIN
         widest = np.exp(centre + half)
         rows = np.flatnonzero(alive & fits(group, widest, solving))
+        if rows.size == 0:
+            return None
         group, widest = group[rows], widest[rows]
         rule = short_rule(group.layers, group.creeps, widest, solving)
         check = short_rule(group.layers, group.creeps, widest, checking, rule.unit)
@@ -176,6 +179,8 @@ class _Batch:
         matrix = assemble(self.rule[every], creeps, alpha, n)
         contact = equilibrium(matrix, alpha, rho)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(-1, count).all(axis=1)
+        if not good.any():
+            return rows[:0], rows[:0]
         if not good.all():
             keep = np.repeat(good, count)
             rows, every, rho, creeps = rows[good], every[keep], rho[keep], creeps[keep]

@@ -77,3 +77,10 @@ def test_ranges_are_refused(low, high):
 
 def test_no_scenes_no_curves():
     assert load_curves([], [], []) == []
+
+
+def test_a_batch_without_a_narrow_scene_has_its_reasons():
+    # a free cover of 4 mm under a roll: what the command line's support: free asks for
+    thin = replace(SCENES[0], support="free")
+    (found,) = load_curves([thin], LOW[:1], HIGH[:1], 1e-4)
+    assert isinstance(found, NoSolutionError)
