@@ -7,8 +7,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from conveyor.balance import Balance, balance
-from conveyor.line import StretchResult, walk
+from conveyor.balance import Balance
+from conveyor.curved import Convergence, run
+from conveyor.line import StretchResult
 from conveyor.models import Conveyor
 from conveyor.remarks import assumptions, warnings
 
@@ -36,9 +37,10 @@ def analyse(conveyor: Conveyor) -> Analysis:
     RangeError
         A compound is not known at the belt's temperature.
     """
-    stretches = walk(conveyor)
-    found = balance(conveyor, stretches)
-    return Analysis(conveyor, stretches, found, assumptions(conveyor), warnings(conveyor, stretches, found))
+    done = run(conveyor)
+    stretches, found = done.stretches, done.balance
+    remarks = warnings(conveyor, stretches, found)
+    return Analysis(conveyor, stretches, found, assumptions(conveyor), remarks, done.convergence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +57,8 @@ class Analysis:
         Forces, tensions, power of the whole, SI.
     assumptions, warnings : tuple of str
         What every figure rests on, and where that is strained.
+    convergence : Convergence or None
+        How tensions and roll loads settled on vertical curves; None without curves.
     """
 
     conveyor: Conveyor
@@ -62,6 +66,7 @@ class Analysis:
     balance: Balance
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
+    convergence: Convergence | None = None
 
     @cached_property
     def summary(self) -> pd.Series:

@@ -168,7 +168,7 @@ def _columns(results: tuple[StretchResult, ...], count: int) -> tuple[dict[str, 
 
 
 def _with_coefficient(conveyor: Conveyor, data: LoopData, sums: dict[str, float]) -> tuple[Placed, ...]:
-    """Single forces that no tension changes; the secondary ones by the length coefficient where the spec asks for it."""
+    """Single forces that no tension changes; the secondary ones by the length coefficient where it is asked for."""
     if conveyor.calculation.secondary != "C":
         return data.fixed
     main = sums["indentation"] + sums["rotation"] + sums["flexure"]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from conveyor.balance import Balance
 from conveyor.line import StretchResult, excited_band
+from conveyor.loop_remarks import loop_warnings
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
 from conveyor.stretches import Strand, roll_at
@@ -30,7 +31,8 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         f"Flexure of belt and bulk is {text(conveyor.calculation.flexure_share)} of the main resistance "
         "(no model: share of the total measured at one overland site).",
         "Roll drag does not depend on speed, load or temperature.",
-        "Bearings of the driven pulley are in the drive's efficiency; tension does not change the load of the rolls.",
+        "Bearings of the driven pulley are in the drive's efficiency; tension changes the load of the rolls on "
+        "vertical curves only.",
         f"Covers are at {text(conveyor.ambient.belt)} throughout.",
     )
 
@@ -47,6 +49,7 @@ def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Bala
                 *_defaults(conveyor),
                 *_left_out(conveyor),
                 *_loop(conveyor, found),
+                *loop_warnings(conveyor, results, found),
             )
         )
     )
@@ -154,7 +157,7 @@ def _left_out(conveyor: Conveyor) -> Iterator[str]:
 
 
 def _loop(conveyor: Conveyor, found: Balance) -> Iterator[str]:
-    installed = conveyor.drive.installed_power
+    installed = None if conveyor.drive.further_drives else conveyor.drive.installed_power
     if installed is not None and abs(found.power.motor) > si(installed):
         yield f"the motor needs {display(found.power.motor, 'power')}, installed are {text(installed)}"
     strength = conveyor.belt.carcass.strength

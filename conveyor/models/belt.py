@@ -12,6 +12,7 @@ from conveyor.units import (
     AreaMass,
     BeltMass,
     Bounds,
+    Fraction,
     Length,
     LineForce,
     Quantity,
@@ -71,6 +72,14 @@ class Carcass(Model):
     """Mass per area of the carcass alone; needed where the belt's mass is not given."""
     strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")] | None = None
     """Nominal breaking strength per width (ST1600: 1600 N/mm)."""
+    stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
+    """Tensile stiffness per width; of steel cord 72 times the strength without it."""
+    splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
+    """Endurance of the splice over the nominal strength, by test or from the belt's maker."""
+    splice_making: Literal["favourable", "normal", "unfavourable"] = "normal"
+    """Conditions under which the splice is made."""
+    duty: Literal["favourable", "normal", "unfavourable"] = "normal"
+    """Life wanted, consequences of a failure, and how hard the belt is used."""
 
 
 class Belt(Model):
