@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,10 @@ from conveyor.rubber import (
     Isotherm,
     KramersKronig,
     PronyFit,
+    ShiftComparison,
     Superposition,
     bootstrap,
+    compare_shift_laws,
     fit_prony,
     kramers_kronig,
     superpose,
@@ -36,6 +38,9 @@ _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
 _UNKNOWN = "not stated"
 _ZERO_CELSIUS = 273.15
+_SMALLEST_ERROR = (
+    1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
+)
 _FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run of one
 
 
@@ -63,6 +68,8 @@ class Request:
         Density of the times; chosen by AICc without it [1/decade].
     vertical : bool
         Whether isotherms may be shifted vertically, too.
+    by : {"both", "storage", "loss"}
+        Modulus whose overlap places the isotherms.
     replicas : int
         Of the bootstrap band; 0 for none.
     reading : mapping
@@ -78,6 +85,7 @@ class Request:
     equilibrium: float | None = None
     terms_per_decade: float | None = None
     vertical: bool = False
+    by: Literal["both", "storage", "loss"] = "both"
     replicas: int = REPLICAS
     reading: Mapping[str, Any] = field(default_factory=dict)
 
@@ -96,6 +104,8 @@ class Fitted:
         Whether E' and E'' belong together.
     superposition : Superposition or None
         Where isotherms were shifted.
+    laws : tuple of ShiftComparison
+        Table, WLF and Arrhenius on the shifts, the best first; empty without shifts.
     understood : tuple of str
         What was read from each file, one sentence a decision.
     frequency, storage, loss : ndarray
@@ -106,6 +116,7 @@ class Fitted:
     fit: PronyFit
     consistency: KramersKronig
     superposition: Superposition | None
+    laws: tuple[ShiftComparison, ...]
     understood: tuple[str, ...]
     frequency: Array
     storage: Array
@@ -149,6 +160,7 @@ def fit_file(data: Path, request: Request) -> Fitted:
         fit=fit,
         consistency=kramers_kronig(f, e1, e2),
         superposition=superposition,
+        laws=_laws(superposition, shifts, si(quantity(reference, "temperature"))),
         understood=tuple(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
         frequency=f,
         storage=e1,
@@ -178,7 +190,7 @@ def _superposed(data: Path, read: DmaData, reference: str, request: Request) -> 
     if request.shift is not None:
         raise InputError(f"{data}: holds isotherms, their shift is found from them; leave out --shift")
     sweeps = [Isotherm(s.temperature, s.frequency, s.storage, s.loss) for s in read.isotherms()]
-    return superpose(sweeps, si(quantity(reference, "temperature")), vertical=request.vertical)
+    return superpose(sweeps, si(quantity(reference, "temperature")), vertical=request.vertical, by=request.by)
 
 
 def _rows(data: Path, read: DmaData, found: Superposition | None) -> tuple[Array, Array, Array]:
@@ -301,6 +313,22 @@ def _add_shift(
     else:
         described["shift"]["log10_bT"] = [float(f"{y:.{_DIGITS}g}") for y in vertical[order]]
     described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
+
+
+def _laws(
+    superposition: Superposition | None, shifts: DmaData | None, reference: float
+) -> tuple[ShiftComparison, ...]:
+    """How well each law follows the shifts."""
+    if superposition is not None:
+        kelvin, decades, error = (
+            superposition.temperatures,
+            superposition.log10_a_T,
+            superposition.log10_a_T_error,
+        )
+        return compare_shift_laws(kelvin, decades, reference, error=np.maximum(error, _SMALLEST_ERROR))
+    if shifts is None or shifts.temperature is None or shifts.log10_a_T is None:
+        return ()
+    return compare_shift_laws(shifts.temperature, shifts.log10_a_T, reference)
 
 
 def _strain(request: Request, sweeps: DmaData) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -109,3 +109,16 @@ def _range(given: str) -> list[float]:
     if not (math.isfinite(low + high + step) and step > 0.0 and (high - low) / step <= _MOST_VALUES):
         return []
     return [low + k * step for k in range(math.floor((high - low) / step + 1e-9) + 1)]
+
+
+def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:
+    """One of the words an option allows.
+
+    Raises
+    ------
+    InputError
+        Another word.
+    """
+    if given not in allowed:
+        raise InputError(f'{option}: got "{given}", allowed: {", ".join(allowed)}')
+    return given

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import sys
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app, progress, values, write_text
+from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app, one_of, progress, values, write_text
 from conveyor.errors import InputError, NoSolutionError
 
 if TYPE_CHECKING:
@@ -65,7 +68,7 @@ def compare(
             compounds,
             temperatures=None if temperatures is None else values(temperatures, "--temperature", "degC"),
             speeds=None if speeds is None else values(speeds, "--speed", "m/s"),
-            cover=_one_of("--cover", cover, ("bottom", "top", "both")),
+            cover=one_of("--cover", cover, ("bottom", "top", "both")),
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
             shelves=shelf or (),
@@ -98,44 +101,59 @@ def _print_comparison(found: Comparison) -> None:
     from conveyor.report import comparing
 
     frame = found.ranking
+    rows = frame.astype(object).where(frame.notna(), None).to_dict("records")
     table = Table(
         title=escape(f"{found.conveyor.name}: {found.cover} cover, against {found.base}"),
         title_justify="left",
         box=box.SIMPLE_HEAD,
         pad_edge=False,
+        padding=(0, 1),
     )
-    shown = {
-        "compound": "compound",
-        "belt speed [m/s]": "m/s",
-        "mean motor power [kW]": "mean kW",
-        "mean motor power, low [kW]": "low",
-        "mean motor power, high [kW]": "high",
-        "motor power against base [-]": "change",
-        "peak motor power [kW]": "peak kW",
-        "at temperature [degC]": "at degC",
-        "energy per year [MWh]": "MWh/a",
-        **{name: name.replace("saving per year", "saved/a") for name in frame.columns if "saving" in name},
-        "payback [a]": "payback a",
-    }
-    names = [name for name in shown if name in frame.columns]
-    for name in names:
-        table.add_column(shown[name], justify="left" if name == "compound" else "right")
-    for row in frame[names].astype(object).where(frame[names].notna(), None).itertuples(index=False):
-        table.add_row(*(_figure(name, value) for name, value in zip(names, row, strict=True)))
-    console = Console(highlight=False)
+    columns = _columns(rows, several_speeds=frame["belt speed [m/s]"].nunique() > 1)
+    for heading in columns:
+        table.add_column(escape(heading), justify="left" if heading == "compound" else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*(escape(shown(row)) for shown in columns.values()))
+    console = Console(
+        highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else _PIPED
+    )
     console.print(table)
     for remark in comparing.remarks(found):
         console.print(f"[yellow]note:[/] {escape(remark)}")
 
 
-def _figure(name: str, value: object) -> str:
-    """A figure of the ranking as the terminal shows it."""
-    if value is None or isinstance(value, str):
-        return value or ""
-    number = float(str(value))
-    if "against" in name:
-        return f"{number:+.1%}"
-    return f"{number:g}" if name.startswith(("belt", "at")) else f"{number:,.1f}"
+Row = Mapping[Hashable, Any]
+_PIPED = 120  # columns where nobody's terminal limits them
+
+
+def _columns(rows: Sequence[Row], *, several_speeds: bool) -> dict[str, Callable[[Row], str]]:
+    """Headings and what stands under them, of what the ranking knows."""
+    saving = next((str(name) for name in rows[0] if str(name).startswith("saving")), None)
+    columns: dict[str, Callable[[Row], str]] = {"compound": lambda row: str(row["compound"])}
+    if several_speeds:
+        columns["m/s"] = lambda row: f"{row['belt speed [m/s]']:g}"
+    columns["mean\n[kW]"] = lambda row: _number(row["mean motor power [kW]"])
+    if any(row.get("mean motor power, low [kW]") is not None for row in rows):
+        columns["90 % band\n[kW]"] = _band
+    columns["change"] = lambda row: f"{row['motor power against base [-]']:+.1%}"
+    columns["peak\n[kW]"] = lambda row: _number(row["peak motor power [kW]"])
+    columns["at\n[°C]"] = lambda row: f"{row['at temperature [degC]']:g}"
+    if saving is not None:
+        columns[saving.replace("saving per year", "saved/a\n")] = lambda row: _number(row[saving])
+    if any(row.get("payback [a]") is not None for row in rows):
+        columns["payback\n[a]"] = lambda row: _number(row["payback [a]"])
+    return columns
+
+
+def _band(row: Row) -> str:
+    low, high = row["mean motor power, low [kW]"], row["mean motor power, high [kW]"]
+    return "" if low is None or high is None else f"{_number(low)}-{_number(high)}"
+
+
+def _number(value: float | None) -> str:
+    if value is None:
+        return ""
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"
 
 
 def _amount(given: str) -> tuple[str, float]:
@@ -148,9 +166,3 @@ def _amount(given: str) -> tuple[str, float]:
     raise InputError(
         f'--extra-cost: got "{given}", expected NAME=AMOUNT such as "low-rolling-resistance-cover=150000"'
     )
-
-
-def _one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:
-    if given not in allowed:
-        raise InputError(f'{option}: got "{given}", allowed: {", ".join(allowed)}')
-    return given

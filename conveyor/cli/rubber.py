@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Quiet, Shelves, app, write_text
+from conveyor.cli.app import Quiet, Shelves, app, one_of, write_text
 
 ZERO_CELSIUS = 273.15
 
@@ -37,6 +37,7 @@ def fit(
         float | None, typer.Option(help="Relaxation times per decade; else chosen by AICc.")
     ] = None,
     vertical: Annotated[bool, typer.Option("--vertical", help="Shift isotherms vertically, too.")] = False,
+    by: Annotated[str, typer.Option(help="Modulus that places the isotherms: both, storage, loss.")] = "both",
     plot: Annotated[
         Path | None, typer.Option(help="Draw data, fit and band to this file (.png, .svg, .pdf).")
     ] = None,
@@ -78,6 +79,7 @@ def fit(
             equilibrium=None if equilibrium is None else si(quantity(equilibrium, "pressure")),
             terms_per_decade=terms_per_decade,
             vertical=vertical,
+            by=one_of("--by", by, ("both", "storage", "loss")),
             reading={key: value for key, value in answers.items() if value is not None},
         ),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pandas as pd
@@ -66,9 +67,13 @@ def name(chart: Any, title: str, y: str) -> None:
 
 
 def power_over_temperature(
-    sheet: Worksheet, *, header: int, last: int, count: int, speed: float
+    sheet: Worksheet, rows: tuple[int, int], *, count: int, speed: float, least: float
 ) -> ScatterChart:
-    """Motor power of `count` compounds (columns 2 …) over temperature (column 1)."""
+    """Motor power of `count` compounds (columns 2 …) over temperature (column 1); `rows` are header and last.
+
+    The power axis begins below `least` [kW], at a round figure: differences between compounds are what is looked for.
+    """
+    header, last = rows
     chart = _scatter(f"Motor power at {speed:g} m/s", "belt temperature [degC]", "motor power [kW]")
     at = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
     for column in range(2, 2 + count):
@@ -76,6 +81,9 @@ def power_over_temperature(
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
     chart.x_axis.tickLblPos = "low"
     chart.y_axis.crosses = "min"
+    if least > 0.0:
+        step = 10.0 ** math.floor(math.log10(least))
+        chart.y_axis.scaling.min = step * math.floor(0.95 * least / step * 10.0) / 10.0
     return chart
 
 

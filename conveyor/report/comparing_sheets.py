@@ -14,6 +14,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.report import charts, comparing
 from conveyor.report.cells import GREY, HEADING, TITLE, put, table
 from conveyor.spec import fingerprint
+from conveyor.units import si
 
 if TYPE_CHECKING:
     from conveyor.comparison import Comparison
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 10_000
 """Scenes written to the workbook; beyond it a spreadsheet is the wrong place and takes half a minute to write."""
 _CHART_ROWS = 20
+_NAMES = 44  # characters of a compound's name on one line
 _LINE = 130  # characters of a note in one line of the merged columns
 
 
@@ -31,14 +33,15 @@ def ranking(sheet: Worksheet, comparison: Comparison) -> None:
     put(sheet["A2"], stamp, GREY)
     put(sheet["A3"], f"{comparison.cover} cover of each compound; base of savings: {comparison.base}", GREY)
     frame = comparison.ranking
-    last = table(sheet, frame, 5, widest=30)
+    table(sheet, frame, 5, widest=_NAMES)
     sheet.freeze_panes = "B6"
     value = 1 + list(frame.columns).index("mean motor power [kW]")
-    speeds = frame["belt speed [m/s]"].nunique()
-    if speeds == 1:
-        chart = charts.breakdown(sheet, header=5, last=last, label=1, value=value)
-        charts.name(chart, "Mean motor power", "motor power [kW]")
-        sheet.add_chart(chart, f"A{last + 3}")
+    speed = min(frame["belt speed [m/s]"], key=lambda v: abs(v - si(comparison.conveyor.belt.speed)))
+    rows = [6 + k for k, v in enumerate(frame["belt speed [m/s]"]) if v == speed]
+    chart = charts.breakdown(sheet, header=rows[0] - 1, last=rows[-1], label=1, value=value)
+    chart.y_axis.scaling.min = 0.0
+    charts.name(chart, f"Mean motor power at {speed:g} m/s", "motor power [kW]")
+    sheet.add_chart(chart, f"A{5 + len(frame) + 3}")
 
 
 def power(sheet: Worksheet, comparison: Comparison) -> None:
@@ -58,10 +61,11 @@ def power(sheet: Worksheet, comparison: Comparison) -> None:
             put(sheet.cell(row + 1, 1), "no temperature that every compound has an answer for", GREY)
             row += 4
             continue
-        last = table(sheet, block.reset_index(), row + 1, widest=24)
+        shown = block.rename(columns={name: f"{name} [kW]" for name in names}).reset_index()
+        last = table(sheet, shown, row + 1, widest=24)
         if len(block) > 1:
             chart = charts.power_over_temperature(
-                sheet, header=row + 1, last=last, count=len(names), speed=speed
+                sheet, (row + 1, last), count=len(names), speed=speed, least=float(block.to_numpy().min())
             )
             sheet.add_chart(chart, sheet.cell(row, len(names) + 3).coordinate)
         row = max(last, row + _CHART_ROWS) + 2
@@ -76,7 +80,7 @@ def scenes(sheet: Worksheet, comparison: Comparison) -> None:
         return
     sheet.freeze_panes = "B3"
     sheet.print_title_rows = "1:2"
-    table(sheet, frame, 2, widest=30)
+    table(sheet, frame, 2, widest=_NAMES)
     sheet.auto_filter.ref = f"A2:{get_column_letter(len(frame.columns))}{2 + len(frame)}"
 
 
@@ -84,7 +88,7 @@ def coverage(sheet: Worksheet, comparison: Comparison) -> None:
     """What the rolls excite against what the data hold; scenes without an answer."""
     put(sheet["A1"], "Frequencies that hold nine tenths of the loss, against the compounds' data", HEADING)
     frame = comparing.coverage(comparison)
-    last = 2 if frame.empty else table(sheet, frame, 2, widest=30)
+    last = 2 if frame.empty else table(sheet, frame, 2, widest=_NAMES)
     put(sheet.cell(last + 3, 1), "Scenes without an answer", HEADING)
     refused = comparing.refused(comparison).drop_duplicates()
     if refused.empty:

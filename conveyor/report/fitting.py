@@ -11,11 +11,13 @@ from conveyor.report.plots import colour, stacked
 from conveyor.units import si, text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from matplotlib.figure import Figure
 
     from conveyor.compound_file import Fitted
+    from conveyor.rubber import PronySeries
+    from conveyor.rubber.arrays import FloatArray
 
 _CANDIDATES = 6  # of the criterion's table that are printed
 _POINTS = 400
@@ -28,6 +30,7 @@ def lines(found: Fitted) -> list[str]:
         "read",
         *(f"  {line}" for line in found.understood),
         *_shift(found),
+        *_laws(found),
         *_series(found),
         *_criterion(found),
         *_consistency(found),
@@ -50,6 +53,16 @@ def _shift(found: Fitted) -> Iterator[str]:
         yield (
             f"  neighbouring residuals are correlated by {shifted.correlation:.2f}: the isotherms differ in shape, "
             "no shift makes them one curve"
+        )
+
+
+def _laws(found: Fitted) -> Iterator[str]:
+    if found.laws:
+        yield "shift laws"
+    for law in found.laws:
+        yield (
+            f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at {celsius(law.worst_temperature):.0f} "
+            f"degC; a point left out is missed by {law.left_out:.2f} decades"
         )
 
 
@@ -103,11 +116,14 @@ def figure(found: Fitted) -> Figure:
     at = omega / (2.0 * np.pi)
     series = found.fit.series
     replicas = found.compound.replicas(si(found.compound.reference_temperature))
-    for axis, data, model, k, label in (
-        (above, found.storage / 1e6, lambda s: s.storage(omega) / 1e6, 0, "E'"),
-        (above, found.loss / 1e6, lambda s: s.loss(omega) / 1e6, 1, "E''"),
-        (below, found.loss / found.storage, lambda s: s.tan_delta(omega), 2, "tan δ"),
-    ):
+    models: tuple[Callable[[PronySeries], FloatArray], ...] = (
+        lambda s: s.storage(omega) / 1e6,
+        lambda s: s.loss(omega) / 1e6,
+        lambda s: s.tan_delta(omega),
+    )
+    measured = (found.storage / 1e6, found.loss / 1e6, found.loss / found.storage)
+    for k, (axis, label) in enumerate(((above, "E'"), (above, "E''"), (below, "tan δ"))):
+        data, model = measured[k], models[k]
         axis.plot(f, data, color=colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
         axis.plot(at, model(series), color=colour(k), label=label)
         if replicas:

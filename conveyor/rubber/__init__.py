@@ -9,8 +9,10 @@ from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
 from conveyor.rubber.prony import CreepSeries, PronySeries
+from conveyor.rubber.relaxation_fit import RelaxationFit, RelaxationMisfit, fit_relaxation, relaxation_misfit
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shifted
 from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from conveyor.rubber.shift_laws import ShiftComparison, compare_shift_laws
 from conveyor.rubber.strain import AmplitudeFactors, StrainSweep
 from conveyor.rubber.superposition import Isotherm, Superposition, superpose
 from conveyor.rubber.term_count import Candidate
@@ -29,20 +31,26 @@ __all__ = [
     "Misfit",
     "PronyFit",
     "PronySeries",
+    "RelaxationFit",
+    "RelaxationMisfit",
     "ReplicaBand",
+    "ShiftComparison",
     "ShiftFit",
     "ShiftLaw",
     "ShiftTable",
     "StrainSweep",
     "Superposition",
     "bootstrap",
+    "compare_shift_laws",
     "entropic_b_T",
     "equivalent_linear",
     "fit_arrhenius",
     "fit_kraus",
     "fit_prony",
+    "fit_relaxation",
     "fit_wlf",
     "kramers_kronig",
+    "relaxation_misfit",
     "shifted",
     "softened",
     "superpose",
