@@ -2,6 +2,7 @@
 
 from conveyor.models.base import Model
 from conveyor.models.belt import Belt, Carcass, Cover, TopCover
+from conveyor.models.cases import LoadCase, standard_cases
 from conveyor.models.compound import (
     ArrheniusShift,
     FitStatistics,
@@ -14,10 +15,13 @@ from conveyor.models.compound import (
     WLFShift,
 )
 from conveyor.models.conveyor import Ambient, Calculation, Conveyor
-from conveyor.models.drive import Drive, DrivePulley, EnergyPrice, FurtherDrive, Operation
+from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.idlers import Idlers, IdlerSet, Roll
 from conveyor.models.material import BulkMaterial
+from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
 from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
+from conveyor.models.train import DrivePart
+from conveyor.models.uncertainty import Uncertainty
 
 __all__ = [
     "Ambient",
@@ -30,13 +34,17 @@ __all__ = [
     "Conveyor",
     "Cover",
     "Drive",
+    "DrivePart",
     "DrivePulley",
+    "DutyEntry",
+    "EmissionFactor",
     "EnergyPrice",
     "Feeding",
     "FitStatistics",
     "FurtherDrive",
     "IdlerSet",
     "Idlers",
+    "LoadCase",
     "MeasuredRange",
     "Model",
     "Operation",
@@ -51,5 +59,7 @@ __all__ = [
     "TableShift",
     "TakeUp",
     "TopCover",
+    "Uncertainty",
     "WLFShift",
+    "standard_cases",
 ]

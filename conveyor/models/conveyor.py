@@ -6,17 +6,19 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Number, refuse
+from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.belt import Belt
+from conveyor.models.cases import LoadCase, named_once
 from conveyor.models.compound import RubberCompound
-from conveyor.models.drive import Drive, Operation
+from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
+from conveyor.models.methods import Cema, Flexure
+from conveyor.models.operation import EarthTemperature, Operation
 from conveyor.models.route import Route
+from conveyor.models.uncertainty import Uncertainty
 from conveyor.resistance import FLEXURE_SHARE, FRICTION_FACTOR
-from conveyor.units import Acceleration, Bounds, Fraction, Quantity, Temperature, quantity
-
-EarthTemperature = Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")]
+from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, text
 
 
 class Ambient(Model):
@@ -52,7 +54,18 @@ class Calculation(Model):
         FLEXURE_SHARE.value, "fraction"
     )
     """Share of the flexure of belt and bulk in the main resistance."""
+    flexure: Flexure | None = None
+    """Laws for the flexure instead of the share."""
+    cema: Cema | None = None
+    """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
+
+    @model_validator(mode="after")
+    def _one_flexure(self) -> Self:
+        if self.flexure is not None and "flexure_share" in self.model_fields_set:
+            message = f"given beside flexure_share {text(self.flexure_share)}; give one of the two, remove the other"
+            refuse("Calculation", [Problem(("flexure",), message)])
+        return self
 
 
 class Conveyor(Model):
@@ -67,13 +80,17 @@ class Conveyor(Model):
     ambient: Ambient
     operation: Operation | None = None
     calculation: Calculation = Calculation()
+    cases: Annotated[tuple[LoadCase, ...], Field(max_length=100)] = ()
+    """Load cases to calculate beside the conveyor as given."""
+    uncertainty: Uncertainty | None = None
+    """Ranges of what is not known exactly."""
     notes: str | None = None
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
         from conveyor.models.checks import conflicts
 
-        refuse("Conveyor", conflicts(self))
+        refuse("Conveyor", [*conflicts(self), *named_once(self.cases)])
         return self
 
     @property

@@ -1,24 +1,20 @@
-"""The drive, and what its energy costs."""
+"""The drive: pulleys, motors, brakes, and the train between mains and belt."""
 
 from __future__ import annotations
 
 import math
-import re
-from dataclasses import dataclass
 from typing import Annotated, Any, Final, Self
 
-from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import ConfigDict, Field, model_validator
 
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
+from conveyor.models.train import PRODUCT_TOLERANCE, DrivePart, product, with_efficiency
 from conveyor.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
-from conveyor.units import Acceleration, Angle, Bounds, Duration, Force, Fraction, Mass, Power, quantity, si
+from conveyor.units import Acceleration, Angle, Bounds, Force, Fraction, Mass, Power, quantity, si, text
 
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
 """Friction taken for certain when it brakes, over the computed one: f downhill over f, general knowledge."""
-
-_PRICE = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
 
 
 class DrivePulley(Model):
@@ -53,11 +49,23 @@ class FurtherDrive(DrivePulley):
     name: Name
 
 
+def _train_instead(schema: dict[str, Any]) -> None:
+    """Let editors know that the train's parts may stand for the efficiency."""
+    schema["required"] = [name for name in schema["required"] if name != "efficiency"]
+    schema["anyOf"] = [{"required": ["efficiency"]}, {"required": ["train"]}]
+
+
 class Drive(DrivePulley):
     """The drive pulley and its motor; further drives beside it."""
 
+    model_config = ConfigDict(json_schema_extra=_train_instead)
+
     efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")]
-    """From the motor's shaft to the belt."""
+    """From the motor's shaft to the belt; may be left out where train is given: then the product of its parts there."""
+    train: Annotated[tuple[DrivePart, ...], Field(max_length=20)] = ()
+    """Parts of the drive train with their efficiencies, also those between mains and motor shaft."""
+    regeneration_efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
+    """From the belt to the motor's shaft when the belt drives; as efficiency without it."""
     start_factor: Annotated[Number, Field(ge=1, le=5)] = 1.3
     """Drive force at start over that in steady running; a regenerative conveyor's braking force likewise."""
     torque_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
@@ -69,10 +77,32 @@ class Drive(DrivePulley):
     further_drives: Annotated[tuple[FurtherDrive, ...], Field(max_length=20)] = ()
     """Drives beside the first; at one place the belt meets them in the order of the list."""
 
+    @model_validator(mode="before")
+    @classmethod
+    def _efficiency_of_train(cls, data: Any) -> Any:
+        return with_efficiency(data) if isinstance(data, dict) else data
+
     @model_validator(mode="after")
     def _shared(self) -> Self:
-        refuse("Drive", self._share_problems())
+        refuse("Drive", [*self._share_problems(), *self._train_problems()])
         return self
+
+    @property
+    def mains_efficiency(self) -> float:
+        """From the mains to the motor's shaft [-]; 1 where the train has no part there."""
+        return product(self.train, "mains")
+
+    def _train_problems(self) -> list[Problem]:
+        whole = product(self.train, "belt")
+        if not any(part.side == "belt" for part in self.train):
+            return []
+        if abs(si(self.efficiency) - whole) <= PRODUCT_TOLERANCE:
+            return []
+        message = (
+            f"got {text(self.efficiency)}, the parts of train from motor shaft to belt give {whole:.6g}; "
+            "leave efficiency out or correct one of the two"
+        )
+        return [Problem(("efficiency",), message)]
 
     @property
     def pulleys(self) -> tuple[DrivePulley, ...]:
@@ -102,43 +132,3 @@ class Drive(DrivePulley):
                 if pulley.installed_power is None
             ]
         return []
-
-
-@dataclass(frozen=True)
-class EnergyPrice:
-    """Price of a kilowatt hour in a currency named by its three-letter code."""
-
-    amount: float
-    """[currency/kWh]."""
-    currency: str
-
-    def __str__(self) -> str:
-        return f"{self.amount!r}".removesuffix(".0") + f" {self.currency}/kWh"
-
-
-def _price(value: Any) -> Any:
-    if isinstance(value, EnergyPrice):
-        return value
-    match = _PRICE.fullmatch(value) if isinstance(value, str) and len(value) <= 80 else None
-    if match is None:
-        shown = str(value)[:80]
-        message = f'got "{shown}", expected a price with the currency\'s code such as "0.12 EUR/kWh"'
-        raise PydanticCustomError("price", "{message}", {"message": message})
-    return EnergyPrice(float(match[1]), match[2])
-
-
-Price = Annotated[
-    EnergyPrice,
-    BeforeValidator(_price),
-    PlainSerializer(str, when_used="json"),
-    WithJsonSchema({"type": "string", "pattern": f"^{_PRICE.pattern}$", "examples": ["0.12 EUR/kWh"]}),
-]
-
-
-class Operation(Model):
-    """How long the conveyor runs and what its energy costs."""
-
-    hours_per_year: Annotated[Duration, Bounds(ge="0 h", le="8784 h")]
-    """Time under load in a year."""
-    price: Price | None = None
-    """Price of energy, as "0.12 EUR/kWh"."""

@@ -270,7 +270,7 @@ def test_price_round_trip(conveyor_data: dict[str, Any]) -> None:
     assert line.operation is not None
     assert line.operation.price is not None
     assert (line.operation.price.amount, line.operation.price.currency) == (0.12, "EUR")
-    assert line.as_data()["operation"] == {"hours_per_year": "5500 h", "price": "0.12 EUR/kWh"}
+    assert line.as_data()["operation"] == {"hours_per_year": "5500 h", "price": "0.12 EUR/kWh", "duty": []}
 
 
 def test_refusals_in_python_are_input_errors_by_replace(conveyor_data: dict[str, Any]) -> None:

@@ -1,0 +1,82 @@
+"""Load cases: which sections bear bulk, at which speeds and temperatures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Annotated, Final, Literal, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.models.operation import BeltSpeed, EarthTemperature
+from conveyor.units import Bounds, Fraction, Quantity, text
+
+Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load"]
+
+STANDARD_LOADINGS: Final[tuple[Loading, ...]] = ("full", "empty", "inclines only", "declines only")
+"""What a conveyor with its own ups and downs is checked for at least."""
+
+
+class LoadCase(Model):
+    """A loading of the conveyor, at every one of its speeds and temperatures."""
+
+    name: Name
+    loading: Loading = "as given"
+    """Sections that bear bulk: as given, all (full, part load), none, only those that rise, only those that fall."""
+    share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
+    """Mass flow over material.flow, for part load (a surge is above 100 %)."""
+    temperatures: Annotated[tuple[EarthTemperature, ...], Field(max_length=100)] = ()
+    """Of the belt's covers; that of ambient without."""
+    speeds: Annotated[tuple[BeltSpeed, ...], Field(max_length=100)] = ()
+    """Of the belt; belt.speed without."""
+
+    @model_validator(mode="after")
+    def _share_of_part_load(self) -> Self:
+        problems = []
+        if self.loading == "part load" and self.share is None:
+            problems.append(
+                Problem(("share",), 'missing: loading "part load" needs its share of material.flow')
+            )
+        elif self.loading != "part load" and self.share is not None:
+            message = f'got {text(self.share)} with loading "{self.loading}"; remove it, or set loading to "part load"'
+            problems.append(Problem(("share",), message))
+        refuse("LoadCase", problems)
+        return self
+
+
+def standard_cases(
+    temperatures: Sequence[str | Quantity] = (), speeds: Sequence[str | Quantity] = ()
+) -> tuple[LoadCase, ...]:
+    """Full, empty, inclines only, declines only, each at every temperature and speed.
+
+    Parameters
+    ----------
+    temperatures, speeds : sequence of str or Quantity
+        Of the belt ("-20 degC", "5 m/s"); those of the spec without.
+
+    Raises
+    ------
+    InputError
+        A value is refused.
+
+    Examples
+    --------
+    >>> [case.name for case in standard_cases(["-20 degC", "30 degC"])]
+    ['full', 'empty', 'inclines only', 'declines only']
+    """
+    return tuple(
+        LoadCase.from_data(
+            {"name": loading, "loading": loading, "temperatures": temperatures, "speeds": speeds}
+        )
+        for loading in STANDARD_LOADINGS
+    )
+
+
+def named_once(cases: Iterable[LoadCase]) -> Iterator[Problem]:
+    """Refuse a second case of one name."""
+    first: dict[str, int] = {}
+    for i, case in enumerate(cases):
+        if case.name in first:
+            message = f'got "{case.name}", already the name of cases[{first[case.name]}]; give each case its own name'
+            yield Problem(("cases", i, "name"), message)
+        first.setdefault(case.name, i)

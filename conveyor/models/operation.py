@@ -1,0 +1,161 @@
+"""How a conveyor is used in a year, and what its energy costs and emits."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, Final, Self
+
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
+from pydantic_core import PydanticCustomError
+
+from conveyor.models.base import Model, Problem, refuse
+from conveyor.units import Bounds, Duration, Fraction, Speed, Temperature, from_si, si, text
+
+EarthTemperature = Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")]
+BeltSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+Hours = Annotated[Duration, Bounds(ge="0 h", le="8784 h")]
+
+YEAR_HOURS: Final = 8784.0
+"""Of a leap year: no duty is longer."""
+HOURS_TOLERANCE: Final = 1e-9
+"""Hours are typed as decimals; a sum that differs by more is another year's."""
+_LONGEST: Final = 80
+_PRICE = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
+_EMISSION = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*(kg|g|t)\s*/\s*(kWh|MWh)\s*")
+_KILOGRAMS: Final = {"g": 1e-3, "kg": 1.0, "t": 1e3}
+_KILOWATT_HOURS: Final = {"kWh": 1.0, "MWh": 1e3}
+
+
+@dataclass(frozen=True)
+class EnergyPrice:
+    """Price of a kilowatt hour in a currency named by its three-letter code."""
+
+    amount: float
+    """[currency/kWh]."""
+    currency: str
+
+    def __str__(self) -> str:
+        return f"{self.amount!r}".removesuffix(".0") + f" {self.currency}/kWh"
+
+
+@dataclass(frozen=True)
+class EmissionFactor:
+    """Carbon dioxide of a kilowatt hour, as written: number and unit."""
+
+    number: float
+    unit: str
+
+    @property
+    def amount(self) -> float:
+        """Carbon dioxide [kg/kWh]."""
+        mass, energy = self.unit.split("/")
+        return self.number * _KILOGRAMS[mass] / _KILOWATT_HOURS[energy]
+
+    def __str__(self) -> str:
+        return f"{self.number!r}".removesuffix(".0") + f" {self.unit}"
+
+
+def _parsed(pattern: re.Pattern[str], value: Any, kind: str, wanted: str) -> re.Match[str]:
+    match = pattern.fullmatch(value) if isinstance(value, str) and len(value) <= _LONGEST else None
+    if match is None:
+        message = f'got "{str(value)[:_LONGEST]}", expected {wanted}'
+        raise PydanticCustomError(kind, "{message}", {"message": message})
+    return match
+
+
+def _price(value: Any) -> Any:
+    if isinstance(value, EnergyPrice):
+        return value
+    match = _parsed(_PRICE, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"')
+    return EnergyPrice(float(match[1]), match[2])
+
+
+def _emission(value: Any) -> Any:
+    if isinstance(value, EmissionFactor):
+        return value
+    match = _parsed(_EMISSION, value, "price", 'a mass of carbon dioxide per energy such as "0.35 kg/kWh"')
+    return EmissionFactor(float(match[1]), f"{match[2]}/{match[3]}")
+
+
+def _written(read: Callable[[Any], Any], pattern: re.Pattern[str], example: str) -> tuple[Any, ...]:
+    schema = {"type": "string", "pattern": f"^{pattern.pattern}$", "examples": [example]}
+    return BeforeValidator(read), PlainSerializer(str, when_used="json"), WithJsonSchema(schema)
+
+
+Price = Annotated[EnergyPrice, *_written(_price, _PRICE, "0.12 EUR/kWh")]
+Emission = Annotated[EmissionFactor, *_written(_emission, _EMISSION, "0.35 kg/kWh")]
+
+
+class DutyEntry(Model):
+    """A bar of the year's histogram: hours at a load, a temperature and a speed."""
+
+    hours: Hours
+    """In a year."""
+    share: Annotated[Fraction, Bounds(ge="0 %", le="200 %")]
+    """Mass flow over material.flow; 0 is the empty belt."""
+    temperature: EarthTemperature | None = None
+    """Of the belt's covers, where it differs from that of ambient."""
+    speed: BeltSpeed | None = None
+    """Of the belt, where it differs."""
+
+
+class Operation(Model):
+    """How long the conveyor runs, at which loads, and what its energy costs."""
+
+    hours_per_year: Hours
+    """Time in operation in a year; may be left out where duty is given: then the sum of its hours."""
+    price: Price | None = None
+    """Price of energy, as "0.12 EUR/kWh"."""
+    duty: Annotated[tuple[DutyEntry, ...], Field(max_length=1000)] = ()
+    """Histogram of the year; without it all hours are at the flow and temperature of the spec."""
+    feed_in_price: Price | None = None
+    """Credit for energy fed back; none without it."""
+    emission: Emission | None = None
+    """Carbon dioxide of energy drawn, as "0.35 kg/kWh"; it depends on grid and year."""
+    feed_in_emission: Emission | None = None
+    """Carbon dioxide credited for energy fed back; none without it."""
+    emission_source: str | None = None
+    """Where the emission factor comes from; needed with it."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _hours_of_duty(cls, data: Any) -> Any:
+        """Sum up the duty where the hours are left out; entries that cannot be read are refused by their field."""
+        if not isinstance(data, dict) or data.get("hours_per_year") is not None or not data.get("duty"):
+            return data
+        try:
+            entries = [DutyEntry.model_validate(entry) for entry in data["duty"]]
+        except (ValueError, TypeError):
+            return data
+        total = math.fsum(si(entry.hours) for entry in entries)
+        return {**data, "hours_per_year": from_si(float(f"{total:.12g}"), "duration", "h")}
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        refuse("Operation", self._problems())
+        return self
+
+    def _problems(self) -> Iterator[Problem]:
+        if self.duty:
+            hours = math.fsum(si(entry.hours) for entry in self.duty) / 3600.0
+            if hours > YEAR_HOURS:
+                yield Problem(("duty",), f"got {hours:.6g} h in all, a year has at most {YEAR_HOURS:g} h")
+            elif abs(si(self.hours_per_year) / 3600.0 - hours) > HOURS_TOLERANCE * YEAR_HOURS:
+                yield Problem(
+                    ("hours_per_year",),
+                    f"got {text(self.hours_per_year)}, the hours of duty add up to {hours:.6g} h; leave hours_per_year "
+                    "out or correct one of the two",
+                )
+        if self.emission is not None and not self.emission_source:
+            message = "missing: an emission factor holds for one grid and year; say where it comes from"
+            yield Problem(("emission_source",), message)
+        for name, needs in (("feed_in_price", "price"), ("feed_in_emission", "emission")):
+            if getattr(self, name) is not None and getattr(self, needs) is None:
+                yield Problem((needs,), f"missing: {name} is given; what is drawn counts too")
+        credit = self.feed_in_price
+        if credit is not None and self.price is not None and credit.currency != self.price.currency:
+            message = f"got {credit.currency}, price is in {self.price.currency}; use one currency"
+            yield Problem(("feed_in_price",), message)
