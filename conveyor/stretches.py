@@ -11,21 +11,25 @@ from dataclasses import dataclass
 from typing import Literal
 
 from conveyor.errors import NoSolutionError
-from conveyor.loading import RollLoad, bulk_line_mass, roll_loads
-from conveyor.models import Conveyor, IdlerSet, Roll, Section
+from conveyor.flexing import FlexureLaw
+from conveyor.loading import RollLoad, bulk_line_mass
+from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.resistance import (
     ROLL_ON_BELT_FRICTION,
     TILT_COEFFICIENT_30,
     TILT_COEFFICIENT_45,
     idler_rotation_resistance,
     idler_tilt_resistance,
-    roll_drag,
     roll_line_mass,
     section_main_resistance,
     slope_resistance,
 )
+from conveyor.roll_drags import SetDrags, roll_at
+from conveyor.set_loads import SetLoads
 from conveyor.tension import sag_tension
-from conveyor.units import Quantity, si
+from conveyor.units import si
+
+__all__ = ["FixedForces", "Pressing", "Strand", "Stretch", "roll_at", "roll_masses", "stretches"]
 
 Strand = Literal["carry", "return"]
 Pressing = Mapping[tuple[str, Strand], float]
@@ -56,6 +60,10 @@ class Stretch:
         Load of each roll of one set.
     least_tension : float
         That keeps the sag between the sets as small as asked for [N].
+    drags : tuple of float
+        Drag of each roll of one set at its rim [N].
+    span_flexure : float or None
+        Flexure of belt and bulk over one span [N], where the spec names laws for it; else a share stands in.
     """
 
     section: str
@@ -68,6 +76,8 @@ class Stretch:
     bulk_mass: float
     loads: tuple[RollLoad, ...]
     least_tension: float
+    drags: tuple[float, ...]
+    span_flexure: float | None = None
 
     @property
     def inclination(self) -> float:
@@ -88,12 +98,14 @@ class Stretch:
 def stretches(conveyor: Conveyor, pressing: Pressing | None = None) -> tuple[Stretch, ...]:
     """Both strands of every section, SI; `pressing` as of `roll_masses`."""
     sections = conveyor.route.sections
-    carry = [_stretch(conveyor, section, "carry", pressing or {}) for section in sections]
-    back = [_stretch(conveyor, section, "return", pressing or {}) for section in reversed(sections)]
-    return (*carry, *back)
+    carry, back = _Strand(conveyor, "carry", pressing or {}), _Strand(conveyor, "return", pressing or {})
+    return (
+        *(carry.stretch(section) for section in sections),
+        *(back.stretch(section) for section in reversed(sections)),
+    )
 
 
-def roll_masses(belt_mass: float, bulk_mass: float, pressing: float) -> tuple[float, float]:
+def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
     """Belt and bulk as they press on the rolls of a vertical curve [kg/m].
 
     A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
@@ -104,68 +116,78 @@ def roll_masses(belt_mass: float, bulk_mass: float, pressing: float) -> tuple[fl
         The belt lifts off with all that lies on it.
     """
     belt = belt_mass + pressing
-    if belt >= 0.0:
-        return belt, bulk_mass
     if bulk_mass + belt <= 0.0:
         raise NoSolutionError(
-            f"the belt lifts off: on a concave curve its tension pulls up like {-pressing:.4g} kg/m, belt and bulk are "
-            f"{belt_mass + bulk_mass:.4g} kg/m; choose a larger curve_radius or less tension"
+            f"the belt lifts off in {where}: on a concave curve its tension pulls up like {-pressing:.4g} kg/m, belt "
+            f"and bulk are {belt_mass + bulk_mass:.4g} kg/m; choose a larger curve_radius or less tension"
         )
-    return 0.0, bulk_mass + belt
+    return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 
 
-def _stretch(conveyor: Conveyor, section: Section, strand: Strand, pressing: Pressing) -> Stretch:
-    carrying = strand == "carry"
-    idlers = conveyor.idlers.carry if carrying else conveyor.idlers.return_
-    own = section.carry_spacing if carrying else section.return_spacing
-    spacing = si(idlers.spacing if own is None else own)
-    loaded = carrying and section.loaded
-    flow = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed)) if loaded else 0.0
-    flow *= conveyor.route.flow_shares[section.name]
-    belt_on_rolls, bulk_on_rolls = roll_masses(
-        conveyor.belt.line_mass, flow, pressing.get((section.name, strand), 0.0)
-    )
-    length = si(section.length)
-    rise = section.rise if carrying else -section.rise
-    return Stretch(
-        section=section.name,
-        strand=strand,
-        length=length,
-        rise=rise,
-        spacing=spacing,
-        idlers=idlers,
-        belt_mass=conveyor.belt.line_mass,
-        bulk_mass=flow,
-        least_tension=sag_tension(
-            conveyor.belt.line_mass + flow,
+class _Strand:
+    """What all stretches of a strand share."""
+
+    def __init__(self, conveyor: Conveyor, strand: Strand, pressing: Pressing) -> None:
+        self.strand, self.pressing = strand, pressing
+        self.carrying = strand == "carry"
+        self.idlers = conveyor.idlers.carry if self.carrying else conveyor.idlers.return_
+        self.spacing, self.sag = si(self.idlers.spacing), si(self.idlers.sag)
+        self.belt_mass = conveyor.belt.line_mass
+        self.gravity = si(conveyor.calculation.gravity)
+        self.full = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed))
+        self.flow_shares = conveyor.route.flow_shares
+        self.set_loads = SetLoads(conveyor, self.idlers)
+        self.set_drags = SetDrags(conveyor, self.idlers, strand)
+        self.flexure = FlexureLaw(conveyor, self.set_loads)
+
+    def stretch(self, section: Section) -> Stretch:
+        """One section."""
+        own = section.carry_spacing if self.carrying else section.return_spacing
+        spacing = self.spacing if own is None else si(own)
+        flow = self.full if self.carrying and section.loaded else 0.0
+        flow *= self.flow_shares[section.name]
+        pressing = self.pressing.get((section.name, self.strand), 0.0)
+        belt_on_rolls, bulk_on_rolls = roll_masses(
+            self.belt_mass, flow, pressing, where=f"{section.name}, {self.strand}"
+        )
+        length = si(section.length)
+        rise = section.rise if self.carrying else -section.rise
+        inclination = math.asin(rise / length)
+        loads = self.set_loads.of(
             spacing=spacing,
-            relative_sag=si(idlers.sag),
-            gravity=si(conveyor.calculation.gravity),
-        ),
-        loads=roll_loads(
-            bulk_line_mass=bulk_on_rolls,
-            belt_line_mass=belt_on_rolls,
+            inclination=inclination,
+            belt_mass=belt_on_rolls,
+            bulk_mass=bulk_on_rolls,
+            flow_mass=flow,
+        )
+        least = sag_tension(
+            self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
+        )
+        return Stretch(
+            section=section.name,
+            strand=self.strand,
+            length=length,
+            rise=rise,
             spacing=spacing,
-            n_rolls=idlers.rolls,
-            trough_angle=si(idlers.trough_angle),
-            roll_length=si(idlers.roll.length),
-            belt_width=si(conveyor.belt.width),
-            inclination=math.asin(rise / length),
-            gravity=si(conveyor.calculation.gravity),
-            bulk_shares=_shares(idlers.load_shares),
-            belt_shares=_shares(idlers.belt_shares),
-        ),
-    )
+            idlers=self.idlers,
+            belt_mass=self.belt_mass,
+            bulk_mass=flow,
+            loads=loads,
+            least_tension=least,
+            drags=self.set_drags.of(loads),
+            span_flexure=self._span(flow, spacing, inclination, least),
+        )
 
-
-def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
-    return None if given is None else tuple(si(share) for share in given)
-
-
-def roll_at(idlers: IdlerSet, place: int) -> Roll:
-    """Roll at a place of the set, left to right."""
-    middle = idlers.rolls in {3, 5} and place == idlers.rolls // 2
-    return idlers.middle if middle else idlers.roll
+    def _span(self, flow: float, spacing: float, inclination: float, least: float) -> float | None:
+        if not self.flexure.given:
+            return None
+        return self.flexure.span(
+            belt_mass=self.belt_mass,
+            bulk_mass=flow,
+            spacing=spacing,
+            inclination=inclination,
+            least_tension=least,
+        )
 
 
 @dataclass(frozen=True)
@@ -176,6 +198,8 @@ class FixedForces:
     tilt: float
     lift: float
     unit_main: float
+    flexure: float | None
+    """By laws; None where a share of the main resistance stands in."""
 
     @classmethod
     def of(cls, stretch: Stretch, gravity: float) -> FixedForces:
@@ -193,6 +217,7 @@ class FixedForces:
                 inclination=stretch.inclination,
                 gravity=gravity,
             ),
+            flexure=None if stretch.span_flexure is None else stretch.sets * stretch.span_flexure,
         )
 
 
@@ -204,12 +229,8 @@ def _set_mass(idlers: IdlerSet) -> float:
 def _rotation(stretch: Stretch) -> float:
     """Drag of all rolls of the stretch [N]."""
     total = 0.0
-    for place in range(stretch.idlers.rolls):
-        roll = roll_at(stretch.idlers, place)
-        drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
-        total += idler_rotation_resistance(
-            drag.force, n_rolls=1, spacing=stretch.spacing, length=stretch.length
-        )
+    for drag in stretch.drags:
+        total += idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
     return total
 
 
