@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis, analyse
-    from conveyor.comparison import compare, compare_compounds
+    from conveyor.comparison import Comparison, compare, compare_compounds
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
@@ -24,6 +24,7 @@ __version__ = version("conveyor")
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
+    "Comparison": "conveyor.comparison",
     "Conveyor": "conveyor.models",
     "ConveyorError": "conveyor.errors",
     "InputError": "conveyor.errors",
@@ -39,6 +40,7 @@ _WHERE = {
 
 __all__ = [
     "Analysis",
+    "Comparison",
     "Conveyor",
     "ConveyorError",
     "InputError",
