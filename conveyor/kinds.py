@@ -60,6 +60,11 @@ KINDS: dict[str, Kind] = {
     "duration": Kind("a time", "h d min s", "5500 h", "h", "h"),
     "frequency": Kind("a frequency", "Hz mHz kHz MHz GHz", "10 Hz", "Hz", "Hz"),
     "angular frequency": Kind("an angular frequency", "rad/s", "63 rad/s", "rad/s", "rad/s"),
+    "rotation": Kind("a rotational speed", "rpm", "650 rpm", "rpm", "rpm"),
+    "force per rotation": Kind("a force per rotational speed", "N/rpm", "0.001 N/rpm", "N/rpm", "N/rpm"),
+    "moment": Kind("a moment", "N*m N*mm lbf*in", "0.02 N*m", "N*m", "lbf*in"),
+    "bending stiffness": Kind("a bending stiffness", "N*m^2", "30 N*m^2", "N*m^2", "N*m^2"),
+    "viscosity": Kind("a kinematic viscosity", "mm^2/s cSt m^2/s", "100 mm^2/s", "mm^2/s", "cSt"),
     "temperature": Kind("a temperature", _TEMPERATURES, "20 degC", "degC", "degF"),
     "temperature difference": Kind(
         "a temperature difference", _DIFFERENCES, "50 K", "delta_degC", "delta_degF"

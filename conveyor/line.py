@@ -363,7 +363,9 @@ class _Scene:
             rolls=rolls,
             indentation=indentation,
             rotation=fixed.rotation,
-            flexure=flexure_resistance(indentation + fixed.rotation, share=self.track.flexure_share),
+            flexure=flexure_resistance(indentation + fixed.rotation, share=self.track.flexure_share)
+            if fixed.flexure is None
+            else fixed.flexure,
             tilt=fixed.tilt,
             lift=fixed.lift,
             unit_main=fixed.unit_main,

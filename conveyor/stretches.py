@@ -62,6 +62,8 @@ class Stretch:
         That keeps the sag between the sets as small as asked for [N].
     drags : tuple of float
         Drag of each roll of one set at its rim [N].
+    set_mass : float
+        Rotating mass of one set [kg].
     span_flexure : float or None
         Flexure of belt and bulk over one span [N], where the spec names laws for it; else a share stands in.
     """
@@ -77,6 +79,7 @@ class Stretch:
     loads: tuple[RollLoad, ...]
     least_tension: float
     drags: tuple[float, ...]
+    set_mass: float
     span_flexure: float | None = None
 
     @property
@@ -136,6 +139,7 @@ class _Strand:
         self.gravity = si(conveyor.calculation.gravity)
         self.full = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed))
         self.flow_shares = conveyor.route.flow_shares
+        self.set_mass = _set_mass(self.idlers)
         self.set_loads = SetLoads(conveyor, self.idlers)
         self.set_drags = SetDrags(conveyor, self.idlers, strand)
         self.flexure = FlexureLaw(conveyor, self.set_loads)
@@ -148,7 +152,7 @@ class _Strand:
         flow *= self.flow_shares[section.name]
         pressing = self.pressing.get((section.name, self.strand), 0.0)
         belt_on_rolls, bulk_on_rolls = roll_masses(
-            self.belt_mass, flow, pressing, where=f"{section.name}, {self.strand}"
+            self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
         )
         length = si(section.length)
         rise = section.rise if self.carrying else -section.rise
@@ -175,6 +179,7 @@ class _Strand:
             loads=loads,
             least_tension=least,
             drags=self.set_drags.of(loads),
+            set_mass=self.set_mass,
             span_flexure=self._span(flow, spacing, inclination, least),
         )
 
@@ -211,7 +216,7 @@ class FixedForces:
             unit_main=section_main_resistance(
                 friction_factor=1.0,
                 length=stretch.length,
-                roll_mass=roll_line_mass(_set_mass(stretch.idlers), spacing=stretch.spacing),
+                roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
                 belt_mass=stretch.belt_mass,
                 bulk_mass=stretch.bulk_mass,
                 inclination=stretch.inclination,

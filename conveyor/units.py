@@ -50,7 +50,8 @@ _PINT_NAME = {
     "t/m^3": "metric_ton/meter**3",
     "short_ton/h": "short_ton/hour", "km/h": "kilometer/hour", "in^2": "inch**2", "ft/min": "foot/minute",
     "m/min": "meter/minute", "ft^3/min": "foot**3/minute", "lbf/in": "force_pound/inch",
-    "lbf/ft": "force_pound/foot",
+    "lbf/ft": "force_pound/foot", "rpm": "1/minute", "N/rpm": "newton*minute", "lbf*in": "force_pound*inch",
+    "cSt": "centistokes",
 }  # fmt: skip
 _UNITS: dict[str, Any] = {
     form: _registry.Unit(_PINT_NAME.get(name, name.replace("^", "**"))) for form, name in SPELLINGS.items()
@@ -184,6 +185,7 @@ _SI_LABELS = {
     "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m", "pressure": "Pa", "duration": "s",
     "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
     "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
+    "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "bending stiffness": "N m²", "viscosity": "m²/s",
 }  # fmt: skip
 
 
@@ -369,6 +371,11 @@ Time = Annotated[Quantity, Measure("time")]
 Duration = Annotated[Quantity, Measure("duration")]
 Frequency = Annotated[Quantity, Measure("frequency")]
 AngularFrequency = Annotated[Quantity, Measure("angular frequency")]
+Rotation = Annotated[Quantity, Measure("rotation")]
+ForcePerRotation = Annotated[Quantity, Measure("force per rotation")]
+Moment = Annotated[Quantity, Measure("moment")]
+BendingStiffness = Annotated[Quantity, Measure("bending stiffness")]
+Viscosity = Annotated[Quantity, Measure("viscosity")]
 Temperature = Annotated[Quantity, Measure("temperature")]
 TemperatureDifference = Annotated[Quantity, Measure("temperature difference")]
 Angle = Annotated[Quantity, Measure("angle")]

@@ -45,6 +45,8 @@ DEFINITIONS = [
     ("100 lb/h", "mass flow", 100 * LB / 3600), ("5 kW", "power", 5000.0), ("300 hp", "power", 300 * 550 * FT * LBF),
     ("2 kWh", "energy", 7.2e6), ("150 kJ/mol", "molar energy", 1.5e5), ("95 %", "fraction", 0.95),
     ("0.95", "fraction", 0.95), ("32.2 ft/s^2", "acceleration", 32.2 * FT), ("3600 m³/h", "volume flow", 1.0),
+    ("600 rpm", "rotation", 10.0), ("0.01 N/rpm", "force per rotation", 0.6), ("20 N*mm", "moment", 0.02),
+    ("10 lbf*in", "moment", 10 * LBF * FT / 12), ("30 N*m²", "bending stiffness", 30.0), ("100 cSt", "viscosity", 1e-4),
 ]  # fmt: skip
 
 
@@ -99,7 +101,7 @@ TRAPS = [
     ("20 F", "temperature", r'did you mean "20 degF"\?'),
     ("10 rad/s", "frequency", r"\(an angular frequency\), expected a frequency .* not interchangeable"),
     ("10 Hz", "angular frequency", r"\(a frequency\), expected an angular frequency .* not interchangeable"),
-    ("600 rpm", "frequency", r'unknown unit "rpm"'),
+    ("600 rpm", "frequency", "a rotational speed"),
     ("10 degC", "temperature difference", 'write a difference as "10 K" or "10 delta_degC"'),
     ("10 delta_degC", "temperature", r"\(a temperature difference\), expected a temperature"),
     ("−5 degC", "temperature", 'write minus as "-"'),

@@ -182,3 +182,55 @@ def fill_ratio(mass_flow: float, *, belt_speed: float, bulk_density: float, area
     """
     require_positive(bulk_density=bulk_density, area=area)
     return bulk_line_mass(mass_flow, belt_speed=belt_speed) / (bulk_density * area)
+
+
+def filled_width(
+    area: float, *, middle_roll_length: float, trough_angle: float, surcharge_angle: float
+) -> float:
+    """Width of belt under a given cross-section of bulk: `cross_section` solved for b (ISO 5048).
+
+    With x = b - l_M: x² (cos²λ tan β/6 + cos λ sin λ/4) + x (l_M cos λ tan β/3 + l_M sin λ/2) + l_M² tan β/6 = A;
+    a heap narrower than l_M has A = b² tan β/6.
+
+    Parameters
+    ----------
+    area : float
+        A of the bulk [m²], positive.
+    middle_roll_length : float
+        l_M [m], at least 0.
+    trough_angle : float
+        λ of the wing rolls [rad], from 0 to below pi/2.
+    surcharge_angle : float
+        β, dynamic slope of the heap [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    float
+        b [m], along the belt; the same slope of the heap at every filling.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range, or a flat belt without a slope holds nothing.
+
+    Examples
+    --------
+    >>> trough = {"middle_roll_length": 0.436, "trough_angle": 0.7853982, "surcharge_angle": 0.3490659}
+    >>> round(filled_width(cross_section(1.03, **trough).area, **trough), 12)
+    1.03
+    """
+    require_positive(area=area)
+    require_not_negative(middle_roll_length=middle_roll_length)
+    require_angle(0.0, trough_angle=trough_angle, surcharge_angle=surcharge_angle)
+    sine, cosine, steepness = math.sin(trough_angle), math.cos(trough_angle), math.tan(surcharge_angle)
+    middle = middle_roll_length
+    over_middle = middle**2 * steepness / 6.0
+    if area <= over_middle:
+        return math.sqrt(6.0 * area / steepness)
+    square = cosine**2 * steepness / 6.0 + cosine * sine / 4.0
+    linear = middle * (cosine * steepness / 3.0 + sine / 2.0)
+    require(
+        square > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed"
+    )
+    root = math.sqrt(linear**2 + 4.0 * square * (area - over_middle))
+    return middle + 2.0 * (area - over_middle) / (linear + root)

@@ -229,6 +229,7 @@ def roll_loads(
     gravity: float,
     bulk_shares: tuple[float, ...] | None = None,
     belt_shares: tuple[float, ...] | None = None,
+    outer_shape: Shape = "triangular",
 ) -> tuple[RollLoad, ...]:
     """Load of every roll of a set (VDI 2341), and how it lies along the roll.
 
@@ -258,6 +259,8 @@ def roll_loads(
     belt_shares : tuple of float, optional
         The same for the belt's own weight [-]. Default: three rolls (l_M + 20 mm)/B on the middle one
         (VDI 2341), else in proportion to the lengths under the belt.
+    outer_shape : {"triangular", "uniform"}
+        How the bulk lies along the outer rolls of a set of two or more [-].
 
     Returns
     -------
@@ -275,7 +278,7 @@ def roll_loads(
     wing roll is already the force normal to it and is not multiplied by cos λ again. The loaded length of an
     outer roll ends at the belt edge or at the roll end, whichever comes first; the gaps between the rolls are
     not counted. The bulk's part on an outer roll falls linearly from the junction to zero at the end of the
-    loaded length, on the other rolls it is uniform; so is the belt's part everywhere.
+    loaded length unless `outer_shape` is uniform, on the other rolls it is uniform; so is the belt's part everywhere.
 
     Examples
     --------
@@ -294,6 +297,8 @@ def roll_loads(
     [('left wing', 312.27), ('middle', 1135.84), ('right wing', 312.27)]
     """
     require(n_rolls in _ROLE_NAMES, "n_rolls", n_rolls, "1, 2, 3 or 5 rolls are needed")
+    known = outer_shape in {"triangular", "uniform"}
+    require(known, "outer_shape", outer_shape, "one of triangular, uniform is needed")
     require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass)
     require_positive(spacing=spacing, roll_length=roll_length, belt_width=belt_width, gravity=gravity)
     require_angle(0.0, trough_angle=trough_angle)
@@ -309,7 +314,7 @@ def roll_loads(
             bulk_force=bulk[i] * bulk_line_mass * pull,
             belt_force=belt[i] * belt_line_mass * pull,
             length=lengths[i],
-            shape="triangular" if n_rolls > 1 and i in {0, last} else "uniform",
+            shape=outer_shape if n_rolls > 1 and i in {0, last} else "uniform",
         )
         for i, name in enumerate(_ROLE_NAMES[n_rolls])
     )

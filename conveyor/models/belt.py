@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Final, Literal, Self
+from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import model_validator
 
 from conveyor.models.base import Model, Problem, refuse
 from conveyor.models.compound import CompoundReference, RubberCompound
+from conveyor.models.listed import Listed, ListedName
 from conveyor.units import (
     AreaMass,
     BeltMass,
@@ -82,8 +83,10 @@ class Carcass(Model):
     """Life wanted, consequences of a failure, and how hard the belt is used."""
 
 
-class Belt(Model):
+class Belt(Listed):
     """A belt as listed by its maker, and its speed."""
+
+    library: ClassVar = "belts"
 
     width: Annotated[Length, Bounds(ge="100 mm", le="5 m")]
     speed: Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
@@ -94,6 +97,8 @@ class Belt(Model):
     """Mass per area or per length of the whole belt; else from covers and carcass."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="150 mm")] | None = None
     """Total thickness, to check covers and carcass against."""
+    listed: ListedName | None = None
+    """Entry of the belt library that gives what is not given here."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

@@ -75,7 +75,7 @@ def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
         across,
         middle_roll_length=inner,
         trough_angle=si(carry.trough_angle),
-        surcharge_angle=si(material.surcharge_angle),
+        surcharge_angle=material.surcharge,
     ).area
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
     if needed <= area:

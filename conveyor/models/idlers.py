@@ -1,4 +1,4 @@
-"""Rolls and the sets they stand in."""
+"""The sets that rolls stand in."""
 
 from __future__ import annotations
 
@@ -8,26 +8,14 @@ from typing import Annotated, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.models.base import Model, Problem, refuse
-from conveyor.units import Angle, Bounds, Force, Fraction, Length, Mass, Quantity, quantity, si, text
+from conveyor.models.rolls import Roll
+from conveyor.units import Angle, Bounds, Fraction, Length, Quantity, quantity, si, text
 
-ROLLS_UNDER_LOAD: Final = {1: "flat", 2: "V", 3: "trough", 5: "deep trough"}
 SHARE_SUM_TOLERANCE: Final = 1e-9
 """Shares are typed as decimals; anything coarser is a slip (the loading laws use the same figure)."""
 
 Spacing = Annotated[Length, Bounds(gt="0 m", le="20 m")]
 Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
-
-
-class Roll(Model):
-    """One roll."""
-
-    diameter: Annotated[Length, Bounds(ge="20 mm", le="1 m")]
-    length: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
-    """Length of the shell."""
-    rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]
-    """Mass of the parts that turn."""
-    drag: Annotated[Force, Bounds(ge="0 N", le="1 kN")] | None = None
-    """Running drag of the roll (bearings and seals) at its rim; else the acceptance limit of its diameter."""
 
 
 class IdlerSet(Model):
@@ -46,6 +34,12 @@ class IdlerSet(Model):
     """Share of each roll in the bulk's load, left to right; else by VDI 2341. Needed for 5 rolls."""
     belt_shares: tuple[Share, ...] | None = None
     """The same for the belt's own weight."""
+    share_rule: Literal["VDI 2341", "cross-section"] = "VDI 2341"
+    """Rule of the bulk's shares without load_shares; cross-section: by the area of bulk above each of 3 rolls."""
+    wing_load: Literal["triangular", "uniform"] = "triangular"
+    """Bulk along the outer rolls: falling to nothing at the edge, or even."""
+    offset: Annotated[Length, Bounds(ge="0 m", le="2 m")] = quantity("0 m")
+    """Distance along the belt of the plane of the middle rolls from that of the outer ones; the loads stay."""
     tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
     """Forward tilt of the outer rolls."""
     sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
@@ -61,6 +55,7 @@ class IdlerSet(Model):
         problems = self._roll_problems() + overlap_problems(("spacing",), self.spacing, self)
         for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
             problems += self._share_problems(name, shares)
+        problems += self._rule_problems()
         refuse("IdlerSet", problems)
         return self
 
@@ -90,6 +85,19 @@ class IdlerSet(Model):
                     "the load shares hold for rolls of equal length: make them equal",
                 )
             )
+        return problems
+
+    def _rule_problems(self) -> list[Problem]:
+        problems = []
+        if self.share_rule != "VDI 2341" and self.load_shares is not None:
+            message = f'got "{self.share_rule}" beside load_shares; give one of the two, remove the other'
+            problems.append(Problem(("share_rule",), message))
+        if si(self.offset) > 0.0 and self.rolls not in {3, 5}:
+            message = f"got {text(self.offset)}, but rolls: {self.rolls} has no middle ones; remove it"
+            problems.append(Problem(("offset",), message))
+        elif si(self.offset) >= si(self.spacing):
+            message = f"got {text(self.offset)}, but the sets are {text(self.spacing)} apart; correct one of the two"
+            problems.append(Problem(("offset",), message))
         return problems
 
     def _share_problems(self, name: str, shares: tuple[Quantity, ...] | None) -> list[Problem]:

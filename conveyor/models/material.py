@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, ClassVar, Literal
 
-from conveyor.models.base import Model, Name
-from conveyor.units import Angle, Bounds, Density, MassFlow
+from conveyor.loading import surcharge_from_slope
+from conveyor.models.base import Name
+from conveyor.models.listed import Listed, ListedName
+from conveyor.units import Angle, Bounds, Density, MassFlow, si
 
 
-class BulkMaterial(Model):
+class BulkMaterial(Listed):
     """What the belt carries."""
+
+    library: ClassVar = "materials"
 
     name: Name
     density: Annotated[Density, Bounds(gt="0 kg/m^3", le="20000 kg/m^3")]
@@ -18,3 +22,13 @@ class BulkMaterial(Model):
     """Mass flow; 0 is the empty belt."""
     surcharge_angle: Annotated[Angle, Bounds(ge="0 deg", le="45 deg")]
     """Slope of the moving heap."""
+    surcharge_convention: Literal["ISO 5048", "DIN 22101"] = "ISO 5048"
+    """ISO 5048: of a parabola at its edge, θ; DIN 22101: of a triangle of the same area, tan β = 2/3 tan θ."""
+    listed: ListedName | None = None
+    """Entry of the library of materials that gives what is not given here."""
+
+    @property
+    def surcharge(self) -> float:
+        """Surcharge angle θ of the parabolic heap, whatever the convention it is given in [rad]."""
+        given = si(self.surcharge_angle)
+        return given if self.surcharge_convention == "ISO 5048" else surcharge_from_slope(given)

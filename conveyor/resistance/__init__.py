@@ -1,5 +1,12 @@
 """Resistances to motion of a belt conveyor: one cited equation, one function; SI in and out."""
 
+from conveyor.resistance.cema import (
+    CemaTension,
+    cema_acceleration,
+    cema_effective_tension,
+    cema_idler_factor,
+    cema_pulley_friction,
+)
 from conveyor.resistance.defaults import (
     BULK_ON_BELT_FRICTION,
     BULK_ON_SKIRT_FRICTION,
@@ -20,6 +27,7 @@ from conveyor.resistance.defaults import (
     TILT_COEFFICIENT_45,
     Default,
 )
+from conveyor.resistance.flexure import belt_flexure_resistance, bulk_flexure_bound, rankine_coefficients
 from conveyor.resistance.idlers import (
     RollDrag,
     default_roll_drag,
@@ -39,11 +47,31 @@ from conveyor.resistance.main import (
     section_main_resistance,
     slope_resistance,
 )
+from conveyor.resistance.ploughs import SCRAPING_FACTOR, plough_resistance
 from conveyor.resistance.pulleys import (
     fabric_wrap_resistance,
     pulley_bearing_resistance,
     pulley_load,
     steel_cord_wrap_resistance,
+)
+from conveyor.resistance.rim_drag import (
+    TEST_LOAD,
+    TEST_ROTATION,
+    RollDragParts,
+    bearing_roll_drag,
+    linear_roll_drag,
+    roll_rotation,
+    standstill_drag,
+)
+from conveyor.resistance.roll_bearing import (
+    BEARING_F0,
+    BEARING_F1_EXPONENT,
+    BEARING_F1_FACTOR,
+    bearing_load_factor,
+    bearing_load_moment,
+    bearing_no_load_moment,
+    labyrinth_moment,
+    oil_viscosity,
 )
 from conveyor.resistance.secondary import (
     acceleration_length,
@@ -54,6 +82,9 @@ from conveyor.resistance.secondary import (
 )
 
 __all__ = [
+    "BEARING_F0",
+    "BEARING_F1_EXPONENT",
+    "BEARING_F1_FACTOR",
     "BULK_ON_BELT_FRICTION",
     "BULK_ON_SKIRT_FRICTION",
     "CLEANER_FRICTION",
@@ -70,14 +101,29 @@ __all__ = [
     "ROLL_DRAG_TO_153",
     "ROLL_DRAG_TO_178",
     "ROLL_ON_BELT_FRICTION",
+    "SCRAPING_FACTOR",
     "SHORTEST_FOR_FACTOR",
+    "TEST_LOAD",
+    "TEST_ROTATION",
     "TILT_COEFFICIENT_30",
     "TILT_COEFFICIENT_45",
+    "CemaTension",
     "Default",
     "RollDrag",
+    "RollDragParts",
     "acceleration_length",
     "acceleration_resistance",
     "acceleration_skirt_resistance",
+    "bearing_load_factor",
+    "bearing_load_moment",
+    "bearing_no_load_moment",
+    "bearing_roll_drag",
+    "belt_flexure_resistance",
+    "bulk_flexure_bound",
+    "cema_acceleration",
+    "cema_effective_tension",
+    "cema_idler_factor",
+    "cema_pulley_friction",
     "cleaner_resistance",
     "default_roll_drag",
     "equivalent_friction_factor",
@@ -85,15 +131,22 @@ __all__ = [
     "flexure_resistance",
     "idler_rotation_resistance",
     "idler_tilt_resistance",
+    "labyrinth_moment",
     "length_coefficient",
+    "linear_roll_drag",
     "main_resistance",
+    "oil_viscosity",
+    "plough_resistance",
     "pulley_bearing_resistance",
     "pulley_load",
+    "rankine_coefficients",
     "roll_drag",
     "roll_line_mass",
+    "roll_rotation",
     "secondary_resistance",
     "section_main_resistance",
     "skirt_resistance",
     "slope_resistance",
+    "standstill_drag",
     "steel_cord_wrap_resistance",
 ]

@@ -1,0 +1,77 @@
+"""Models that may name an entry of a library: what the entry knows stands in for what is not given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import StringConstraints, model_validator
+
+from conveyor import libraries
+from conveyor.errors import InputError
+from conveyor.models.base import Model, Problem, refuse
+
+ListedName = Annotated[str, StringConstraints(min_length=1, max_length=100)]
+
+
+class Listed(Model):
+    """Base of models with a field `listed`."""
+
+    library: ClassVar[libraries.Library]
+    """Which library the names are of."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_library(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or not isinstance(data.get("listed"), str):
+            return data
+        try:
+            entry = libraries.entry(cls.library, data["listed"])
+        except InputError as error:
+            refuse(cls.__name__, [Problem(("listed",), str(error))])
+            raise
+        return merged(entry.fields, data)
+
+    @property
+    def entry(self) -> libraries.Entry | None:
+        """The library's entry, if one is named."""
+        name: str | None = getattr(self, "listed", None)
+        return None if name is None else libraries.entry(self.library, name)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with changed fields; with another `listed` what came from the old entry goes."""
+        old = self.entry
+        if old is None or "listed" not in changes:
+            return super().replace(**changes)
+        data = {name: value for name, value in self.as_data().items() if name != "listed"}
+        return self.from_data(without(data, old.fields) | changes)
+
+
+def merged(entry: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields of an entry under those given; nested mappings likewise.
+
+    Examples
+    --------
+    >>> merged({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}}, {"carcass": {"thickness": "5 mm"}})
+    {'mass': '27 kg/m^2', 'carcass': {'kind': 'EP', 'thickness': '5 mm'}}
+    """
+    found: dict[str, Any] = dict(entry)
+    for name, value in given.items():
+        known = found.get(name)
+        if isinstance(value, Mapping) and isinstance(known, Mapping):
+            found[name] = merged(known, value)
+        else:
+            found[name] = value
+    return found
+
+
+def without(data: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Take off what equals an entry's."""
+    kept = {}
+    for name, value in data.items():
+        known = entry.get(name)
+        if isinstance(value, Mapping) and isinstance(known, Mapping):
+            kept[name] = without(value, known)
+        elif value != known:
+            kept[name] = value
+    return kept

@@ -1,0 +1,59 @@
+"""Laws that a calculation may use instead of its defaults, or beside them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.units import Angle, BendingStiffness, Bounds, Force, quantity
+
+
+class BeltFlexure(Model):
+    """Loss of the belt that bends over the idler sets: a tensioned beam with a loss tangent."""
+
+    bending_stiffness: Annotated[BendingStiffness, Bounds(ge="0 N*m^2", le="100000 N*m^2")] = quantity(
+        "0 N*m^2"
+    )
+    """Of the whole belt as it lies, lengthwise; 0 is the limit of a limp belt, which loses most."""
+    loss_tangent: Annotated[Number, Field(ge=0, le=1)]
+    """tan δ of the belt in bending at the frequency of the idler sets."""
+    tension: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
+    """Belt tension it is computed at; the least that the sag allows without it, on the safe side."""
+
+
+class BulkFlexure(Model):
+    """Working of the bulk by the wings of the trough as they open between the sets: an upper bound."""
+
+    opening_angle: Annotated[Angle, Bounds(ge="0 deg", le="30 deg")]
+    """By which each wing opens between the sets, measured or computed."""
+    friction_angle: Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
+    """Inner friction of the bulk."""
+
+
+class Flexure(Model):
+    """Laws for the flexure of belt and bulk, instead of a share of the main resistance."""
+
+    belt: BeltFlexure | None = None
+    bulk: BulkFlexure | None = None
+
+    @model_validator(mode="after")
+    def _something(self) -> Self:
+        if self.belt is None and self.bulk is None:
+            message = (
+                "missing: give belt, bulk or both, or remove flexure for the share of the main resistance"
+            )
+            refuse("Flexure", [Problem(("belt",), message)])
+        return self
+
+
+class Cema(Model):
+    """Factors of the classic form of CEMA, from the user's copy of the book."""
+
+    flexure_factor: Annotated[Number, Field(gt=0, le=0.1)]
+    """Ky, from the book's table over spacing, slope, length and load (0.016 to 0.035)."""
+    temperature_factor: Annotated[Number, Field(ge=1, le=10)] = 1.0
+    """Kt, 1 above freezing."""
+    idler_friction: Annotated[Force, Bounds(ge="0 N", le="1 kN")]
+    """Ai of one idler set (1.5 to 2.8 lbf by roll diameter and series)."""

@@ -1,0 +1,141 @@
+"""A roll: its size, what drags it, its bearings."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.listed import Listed, ListedName
+from conveyor.resistance import (
+    BEARING_F0,
+    BEARING_F1_EXPONENT,
+    BEARING_F1_FACTOR,
+    TEST_LOAD,
+    TEST_ROTATION,
+)
+from conveyor.units import (
+    Bounds,
+    Force,
+    ForcePerRotation,
+    Length,
+    Mass,
+    Moment,
+    Rotation,
+    Temperature,
+    TemperatureDifference,
+    Viscosity,
+    from_si,
+    quantity,
+    si,
+    text,
+)
+
+Drag = Annotated[Force, Bounds(ge="0 N", le="1 kN")]
+OilTemperature = Annotated[Temperature, Bounds(ge="-60 degC", le="200 degC")]
+OilViscosity = Annotated[Viscosity, Bounds(ge="2 mm^2/s", le="10000 mm^2/s")]
+
+
+class MakerDrag(Model):
+    """Straight line through a measured drag, as makers publish it: over load and speed."""
+
+    law: Literal["maker"]
+    drag: Drag
+    """Measured running drag at the rim."""
+    load: Annotated[Force, Bounds(ge="0 N", le="100 kN")] = from_si(TEST_LOAD, "force")
+    """Load of the roll in the measurement; else that of the acceptance test."""
+    rotation: Annotated[Rotation, Bounds(ge="0 rpm", le="5000 rpm")] = from_si(TEST_ROTATION, "rotation")
+    """Rotational speed in the measurement; else that of the acceptance test."""
+    load_slope: Annotated[Number, Field(ge=0, le=0.1)] = 0.0
+    """Newtons of drag per newton of load."""
+    rotation_slope: Annotated[ForcePerRotation, Bounds(ge="0 N/rpm", le="1 N/rpm")] = quantity("0 N/rpm")
+    """Drag per rotational speed."""
+
+
+class BearingDrag(Model):
+    """Drag from the friction of two equal bearings (Palmgren) and of the seals, over load, speed, temperature."""
+
+    law: Literal["bearing"]
+    mean_diameter: Annotated[Length, Bounds(gt="5 mm", le="500 mm")]
+    """Of a bearing: mean of bore and outside diameter."""
+    static_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")]
+    """Static load rating C0 of a bearing."""
+    first_viscosity: OilViscosity
+    """Viscosity of the grease's base oil at the first temperature."""
+    second_viscosity: OilViscosity
+    """The same at the second temperature."""
+    first_temperature: OilTemperature = quantity("40 degC")
+    second_temperature: OilTemperature = quantity("100 degC")
+    seal_moment: Annotated[Moment, Bounds(ge="0 N*m", le="10 N*m")]
+    """Friction moment of the seals of one end."""
+    warming: Annotated[TemperatureDifference, Bounds(ge="0 K", le="100 K")] = quantity(
+        "0 K", "temperature difference"
+    )
+    """How much warmer than the air the running bearings are; none is on the safe side."""
+    f0: Annotated[Number, Field(ge=0, le=20)] = BEARING_F0.value
+    """Factor of the no-load moment, from bearing type and lubrication."""
+    f1_factor: Annotated[Number, Field(ge=0, le=0.01)] = BEARING_F1_FACTOR.value
+    """z of the load moment's factor z (P/C0)^y."""
+    f1_exponent: Annotated[Number, Field(ge=0, le=2)] = BEARING_F1_EXPONENT.value
+    """y of the load moment's factor."""
+
+    @model_validator(mode="after")
+    def _thinner_when_hot(self) -> Self:
+        first, second = si(self.first_temperature), si(self.second_temperature)
+        if first == second:
+            message = f"got {text(self.second_temperature)}, that of the first viscosity; two are needed"
+            refuse("BearingDrag", [Problem(("second_temperature",), message)])
+        if (second - first) * (si(self.first_viscosity) - si(self.second_viscosity)) <= 0.0:
+            message = (
+                f"got {text(self.second_viscosity)} at {text(self.second_temperature)} and "
+                f"{text(self.first_viscosity)} at {text(self.first_temperature)}; the hotter oil is the thinner"
+            )
+            refuse("BearingDrag", [Problem(("second_viscosity",), message)])
+        return self
+
+
+class RollBearing(Model):
+    """The two equal bearings of a roll, for its rating life."""
+
+    dynamic_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")]
+    """Dynamic load rating C of a bearing."""
+    distance: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
+    """Distance of the bearings along the roll, in its middle."""
+    kind: Literal["ball", "roller"] = "ball"
+    """Rolling elements: decide the exponent of the life."""
+
+
+class Roll(Listed):
+    """One roll."""
+
+    library: ClassVar = "rolls"
+
+    diameter: Annotated[Length, Bounds(ge="20 mm", le="1 m")]
+    length: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
+    """Length of the shell."""
+    rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]
+    """Mass of the parts that turn."""
+    drag: Drag | None = None
+    """Running drag of the roll (bearings and seals) at its rim; else the acceptance limit of its diameter."""
+    drag_law: Annotated[MakerDrag | BearingDrag, Field(discriminator="law")] | None = None
+    """Law of the drag over load, speed and temperature, instead of one figure."""
+    bearing: RollBearing | None = None
+    """Bearings, for the rating life; without them no life is computed."""
+    listed: ListedName | None = None
+    """Entry of the roll library that gives what is not given here."""
+
+    @model_validator(mode="after")
+    def _one_drag(self) -> Self:
+        problems = []
+        if self.drag is not None and self.drag_law is not None:
+            message = f"given beside drag {text(self.drag)}; give one of the two, remove the other"
+            problems.append(Problem(("drag_law",), message))
+        if isinstance(self.drag_law, BearingDrag) and si(self.drag_law.mean_diameter) >= si(self.diameter):
+            message = (
+                f"got {text(self.drag_law.mean_diameter)}, but the roll's diameter is {text(self.diameter)}; "
+                "the bearings sit inside: correct one of the two"
+            )
+            problems.append(Problem(("drag_law", "mean_diameter"), message))
+        refuse("Roll", problems)
+        return self
