@@ -14,7 +14,7 @@ from conveyor.line import StretchResult
 from conveyor.loop import Loop, State
 from conveyor.loop_data import LoopData, loop_data
 from conveyor.models import Conveyor
-from conveyor.power import annual_cost, annual_energy_kwh, belt_power, motor_power, specific_energy
+from conveyor.power import annual_cost, annual_energy_kwh, belt_power, specific_energy
 from conveyor.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
@@ -233,7 +233,7 @@ def _forces(sums: dict[str, float], singles: tuple[SingleForce, ...]) -> Forces:
 
 def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
     belt = belt_power(force, belt_speed=data.speed)
-    motor = motor_power(belt, efficiency=data.efficiency)
+    motor = data.motor(force)
     flow, operation = data.flow, conveyor.operation
     price = None if operation is None else operation.price
     year = (
@@ -260,7 +260,6 @@ def _classical(conveyor: Conveyor, data: LoopData, forces: Forces, unit_main: fl
     tabled = SHORTEST_FOR_FACTOR < length <= _LONGEST_FOR_FACTOR
     secondary = secondary_resistance(main, length=length) if tabled else forces.secondary
     total = main + secondary + forces.special + forces.lift
-    belt = belt_power(total, belt_speed=data.speed)
     return Classical(
         friction_factor=factor,
         main=main,
@@ -271,5 +270,5 @@ def _classical(conveyor: Conveyor, data: LoopData, forces: Forces, unit_main: fl
         special=forces.special,
         lift=forces.lift,
         total=total,
-        motor=motor_power(belt, efficiency=data.efficiency),
+        motor=data.motor(total),
     )

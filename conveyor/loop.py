@@ -19,6 +19,9 @@ from conveyor.tension import grip_tension
 
 Array = NDArray[np.float64]
 
+Singles = tuple[list[float], list[float]]
+"""Single forces before and behind the drives of every boundary in use [N]."""
+
 STEADY = "steady"
 
 
@@ -186,7 +189,7 @@ class Loop:
             self._sagging[friction] = found
         return found
 
-    def singles(self, bends: Sequence[float], friction: float) -> tuple[list[float], list[float]]:
+    def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
         """Single forces before and behind the drives of every boundary [N]."""
         before, behind = [0.0] * len(self._drives), [0.0] * len(self._drives)
         for k, back, force, certain in self._fixed:
@@ -195,9 +198,9 @@ class Loop:
             (behind if back else before)[k] += friction * force
         return before, behind
 
-    def resistance(self, bends: Sequence[float], friction: float = 1.0) -> float:
-        """What the drives have to give in steady running, lift and all [N]."""
-        before, behind = self.singles(bends, friction)
+    def resistance(self, singles: Singles, friction: float = 1.0) -> float:
+        """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
+        before, behind = singles
         lift = self.lifts.whole
         return math.fsum((lift, friction * (self.totals.whole - lift), *before, *behind))
 
@@ -205,14 +208,14 @@ class Loop:
         self,
         name: str,
         forces: Sequence[float],
-        bends: Sequence[float],
+        singles: Singles,
         *,
         acceleration: float = 0.0,
         friction: float = 1.0,
         may_sag: bool = False,
     ) -> Motion:
         """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
-        before, behind = self.singles(bends, friction)
+        before, behind = singles
         sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
         ins, pasts, outs, shifts = [], [], [], []
         level, passed = 0.0, 0.0

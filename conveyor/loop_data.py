@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.line import StretchResult
 from conveyor.models import Conveyor, IdlerSet
+from conveyor.power import belt_power, motor_power
 from conveyor.single_forces import Bend, Placed, Places, Spot, bends, fixed_singles
 from conveyor.stretches import Stretch, roll_at
 from conveyor.take_up import LOOP_STRANDS
@@ -76,6 +77,8 @@ class LoopData:
         self.start_factor = conveyor.drive.start_factor
         self.least_friction = si(conveyor.drive.least_friction)
         self.efficiency = si(conveyor.drive.efficiency)
+        back = conveyor.drive.regeneration_efficiency
+        self.regeneration = self.efficiency if back is None else si(back)
         self.speed = si(conveyor.belt.speed)
         self.flow = si(conveyor.material.flow)
         self.gravity = si(conveyor.calculation.gravity)
@@ -89,6 +92,11 @@ class LoopData:
         )
         self.runs = np.diff(self.boundaries)
         self._geometry: Geometry | None = None
+
+    def motor(self, force: float) -> float:
+        """Power at the motor's shaft for a force at the belt, negative when the belt drives it [W]."""
+        belt = belt_power(force, belt_speed=self.speed)
+        return motor_power(belt, efficiency=self.efficiency if force >= 0.0 else self.regeneration)
 
     def geometry(self, results: Sequence[StretchResult]) -> Geometry:
         """Arrays of the stretches; made again only where the stretches are others."""

@@ -9,7 +9,6 @@ from conveyor.balance import Balance
 from conveyor.belt_duty import BeltDuty, belt_duty
 from conveyor.line import StretchResult
 from conveyor.models import Conveyor
-from conveyor.power import belt_power, motor_power
 from conveyor.starting import Motions, motions
 from conveyor.units import display, si
 
@@ -35,7 +34,7 @@ def _force(value: float) -> str:
 def _drives(conveyor: Conveyor, found: Balance) -> Iterator[str]:
     data = found.settled.loop.data
     for drive, side in zip(data.drives, found.settled.steady.drives, strict=True):
-        motor = motor_power(belt_power(side.force, belt_speed=data.speed), efficiency=data.efficiency)
+        motor = data.motor(side.force)
         if len(data.drives) > 1 and drive.power is not None and abs(motor) > drive.power:
             yield f'"{drive.name}" needs {display(motor, "power")}, installed are {display(drive.power, "power")}'
     if found.settled.least_force < 0.0:

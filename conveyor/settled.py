@@ -8,11 +8,16 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from conveyor.errors import NoSolutionError
-from conveyor.loop import STEADY, Condition, Loop, Motion, State
+from conveyor.loop import STEADY, Condition, Loop, Motion, Singles, State
 from conveyor.single_forces import SingleForce
 
 _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
+_EXTRAPOLATED = 3  # steps that show a ratio
+_SHRINKS = 0.5  # ratio below which the steps are a geometric row
+
+Bends = tuple[float, ...]
+"""Wrap and bearings of every pulley together [N]."""
 
 START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "start",
@@ -46,7 +51,7 @@ class Settled:
     """
 
     loop: Loop
-    bends: tuple[float, ...]
+    bends: Bends
     singles: tuple[SingleForce, ...]
     force: float
     least_force: float
@@ -104,11 +109,13 @@ def settle(loop: Loop) -> Settled:
         pulley.
     """
     data = loop.data
-    bends: tuple[float, ...] = (0.0,) * len(data.bends)
+    history: list[Bends] = [(0.0,) * len(data.bends)]
     drive = math.nan
     for _ in range(_LOOP_STEPS):
-        before, drive = drive, loop.resistance(bends)
-        motions = _motions(loop, bends, drive)
+        bends = history[-1]
+        singles = loop.singles(bends)
+        before, drive = drive, loop.resistance(singles)
+        motions = _motions(loop, bends, singles, drive)
         governing = max(
             (condition for motion in motions for condition in loop.conditions(motion)),
             key=lambda c: c.setting,
@@ -118,9 +125,12 @@ def settle(loop: Loop) -> Settled:
         if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
             break
         sides = loop.at_bends(motions[0], setting)
-        bends = tuple(
+        found = tuple(
             math.fsum(bend.forces(*side, data.gravity)) for bend, side in zip(data.bends, sides, strict=True)
         )
+        history.append(found)
+        if len(history) == _EXTRAPOLATED:
+            history = [_extrapolated(*history)]
     else:
         raise NoSolutionError(
             "the tensions round the belt do not settle: check pulley diameters and drive friction"
@@ -138,7 +148,7 @@ def settle(loop: Loop) -> Settled:
             ),
         ),
         force=drive,
-        least_force=loop.resistance(bends, data.least_friction),
+        least_force=loop.resistance(loop.singles(bends, data.least_friction), data.least_friction),
         motions=motions,
         setting=setting,
         needed=governing.setting,
@@ -146,28 +156,38 @@ def settle(loop: Loop) -> Settled:
     )
 
 
-def _motions(loop: Loop, bends: Sequence[float], drive: float) -> tuple[Motion, ...]:
+def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
+    """Where three steps lead to (Aitken); the last of them where they do not shrink."""
+    found = []
+    for a, b, c in zip(first, second, third, strict=True):
+        ratio = (c - b) / (b - a) if b != a else 0.0
+        found.append(c + (c - b) * ratio / (1.0 - ratio) if abs(ratio) < _SHRINKS else c)
+    return tuple(found)
+
+
+def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
     """Steady running and every state that the grip of the drives has to hold in."""
     data, factor, mass = loop.data, loop.data.start_factor, loop.masses.whole
 
     def shared(name: str, force: float, friction: float, over: float) -> Motion:
         forces = [drive.share * over * force for drive in data.drives]
         push = (over - 1.0) * force / mass
-        return loop.motion(name, forces, bends, acceleration=push, friction=friction, may_sag=over != 1.0)
+        here = singles if friction == 1.0 else loop.singles(bends, friction)
+        return loop.motion(name, forces, here, acceleration=push, friction=friction, may_sag=over != 1.0)
 
     found = [
         shared(STEADY, drive, 1.0, 1.0),
         shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor),
     ]
     certain = data.least_friction
-    least = loop.resistance(bends, certain) if loop.lifts.whole < 0.0 else drive
+    least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
     if least < 0.0 and certain < 1.0:
         found += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
     brakes = braked(loop, bends, certain)
     return tuple(found if brakes is None else [*found, brakes])
 
 
-def braked(loop: Loop, bends: Sequence[float], friction: float) -> Motion | None:
+def braked(loop: Loop, bends: Bends, friction: float) -> Motion | None:
     """All brakes on, drives off; None without brakes, or where they do not stop the belt."""
     data = loop.data
     held = math.fsum(drive.brake for drive in data.drives)
@@ -176,15 +196,14 @@ def braked(loop: Loop, bends: Sequence[float], friction: float) -> Motion | None
     return coasting(loop, bends, friction, [drive.brake for drive in data.drives], BRAKES)
 
 
-def coasting(
-    loop: Loop, bends: Sequence[float], friction: float, brakes: Sequence[float], name: str
-) -> Motion | None:
+def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float], name: str) -> Motion | None:
     """Drives off, brakes of given forces on [N]; None where the belt does not slow down."""
     data = loop.data
     rotating = [drive.reduced_mass for drive in data.drives]
-    retarding = loop.resistance(bends, friction) + math.fsum(brakes)
+    singles = loop.singles(bends, friction)
+    retarding = loop.resistance(singles, friction) + math.fsum(brakes)
     if retarding <= 0.0:
         return None
     slowing = retarding / (loop.masses.whole + math.fsum(rotating))
     forces = [mass * slowing - brake for mass, brake in zip(rotating, brakes, strict=True)]
-    return loop.motion(name, forces, bends, acceleration=-slowing, friction=friction, may_sag=True)
+    return loop.motion(name, forces, singles, acceleration=-slowing, friction=friction, may_sag=True)

@@ -120,7 +120,7 @@ def motions(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
     settled = found.settled
     loop, data = settled.loop, settled.loop.data
     mass, rotating = loop.masses.whole, math.fsum(drive.reduced_mass for drive in data.drives)
-    least = loop.resistance(settled.bends, data.least_friction)
+    least = settled.least_force
     brakes = math.fsum(drive.brake for drive in data.drives)
     wanted = conveyor.drive.stop_deceleration
     moving = math.fsum(placed.single.force for placed in loop.fixed if placed.certain)

@@ -10,7 +10,6 @@ from conveyor.balance import Balance
 from conveyor.belt_duty import BeltDuty
 from conveyor.curved import Convergence
 from conveyor.motion_laws import Stop
-from conveyor.power import belt_power, motor_power
 from conveyor.starting import Motions
 from conveyor.take_up import mean_tension, take_up_mass
 
@@ -42,14 +41,13 @@ def drives(found: Balance) -> pd.DataFrame:
     rows = []
     for state in found.settled.states.values():
         for drive, side in zip(data.drives, state.drives, strict=True):
-            belt = belt_power(side.force, belt_speed=data.speed)
             ratio = math.inf if side.slack <= 0.0 else side.tight / side.slack
             rows.append(
                 {
                     "drive": drive.name,
                     "state": state.name,
                     "force [N]": side.force,
-                    "motor power at full speed [kW]": motor_power(belt, efficiency=data.efficiency) / 1e3,
+                    "motor power at full speed [kW]": data.motor(side.force) / 1e3,
                     "installed power [kW]": None if drive.power is None else drive.power / 1e3,
                     "arriving [N]": side.arriving,
                     "leaving [N]": side.leaving,

@@ -187,6 +187,14 @@ def test_splitting_a_section_renaming_and_units_change_nothing(name):
         assert state.smallest == pytest.approx(same.smallest, rel=1e-11)
 
 
+def test_a_belt_that_drives_gives_its_motor_what_the_train_leaves():
+    found = balanced(**CASES["downhill"] | {"drive": {"regeneration_efficiency": "88 %"}})
+    assert found.power.motor == pytest.approx(0.88 * found.power.belt, rel=1e-14)
+    same = balanced(**CASES["downhill"] | {"drive": {}}).power
+    assert same.motor == pytest.approx(0.94 * found.power.belt, rel=1e-14)
+    assert balanced(drive={"regeneration_efficiency": "88 %"}).power.motor == balanced().power.motor
+
+
 def test_bulk_lies_behind_its_feeding_points_only():
     conveyor = line(**CASES["two feeding points"])
     whole = 1200.0 / 3.6 / 4.0

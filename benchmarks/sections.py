@@ -1,0 +1,75 @@
+"""The loop of tensions by number of sections: time of one load case after the forces along the belt are known.
+
+    python benchmarks/sections.py
+
+1,000 sections times 6 load cases times 3 temperatures are 18 such loops; the table's last column is that sum.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ["OMP_NUM_THREADS"] = "1"  # before numpy: BLAS reads it once
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import conveyor
+from conveyor.balance import balance
+from conveyor.line import Track, indented, surfaces
+from conveyor.models import Conveyor
+
+ROOT = Path(__file__).resolve().parents[1]
+COUNTS = (1, 10, 100, 1000)
+CASES = 18  # 6 load cases at 3 temperatures
+RUNS = 15
+
+
+def with_sections(line: Conveyor, count: int) -> Conveyor:
+    """The same length and lift in `count` sections that rise and fall."""
+    length, rise = line.route.length / count, line.route.rise / count
+    sections = [
+        {
+            "name": f"section {i + 1}",
+            "length": f"{length!r} m",
+            "lift": f"{rise + (0.01 if i % 2 else -0.01) * length * (count > 1)!r} m",
+        }
+        for i in range(count)
+    ]
+    return line.replace(route=line.route.replace(sections=sections))
+
+
+def fastest(work: Callable[[], object], runs: int = RUNS) -> float:
+    """Shortest wall time of several calls [s]."""
+    times = []
+    for _ in range(runs):
+        began = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - began)
+    return min(times)
+
+
+def main() -> None:
+    line = conveyor.load(ROOT / "examples" / "specs" / "overland.yaml")
+    print("sections   forces along the belt [ms]   first loop [ms]   each further loop [ms]   18 loops [ms]")
+    for count in COUNTS:
+        made = with_sections(line, count)
+        track, covers = Track(made), surfaces(made)
+        began = time.perf_counter()
+        (results,) = indented([track], [covers])
+        along = time.perf_counter() - began
+        if not isinstance(results, tuple):
+            raise results
+        began = time.perf_counter()
+        balance(made, results)
+        first = time.perf_counter() - began
+        each = fastest(lambda made=made, results=results: balance(made, results))
+        print(
+            f"{count:8d} {along * 1e3:28.1f} {first * 1e3:17.2f} {each * 1e3:24.3f} {CASES * each * 1e3:15.1f}"
+        )
+
+
+if __name__ == "__main__":
+    main()
