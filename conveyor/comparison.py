@@ -247,11 +247,8 @@ def compare_compounds(
     chosen = _compounds(compounds, shelves)
     at = [conveyor.ambient.belt] if temperatures is None else _quantities(temperatures, "temperature")
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
-    names = [compound.name for compound in chosen]
-    reference = names[0] if base is None else base
-    for name in (reference, *(extra_costs or {})):
-        if name not in names:
-            raise InputError(f'"{name}" is none of the compounds compared: {", ".join(names)}')
+    costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
+    reference = chosen[0].name if base is None else _named(base, chosen)
     found = _Found([], [], [])
     for done, compound in enumerate(chosen):
         if progress is not None:
@@ -267,7 +264,7 @@ def compare_compounds(
         tuple(found.scenes),
         tuple(found.refused),
         tuple(found.coverage),
-        dict(extra_costs or {}),
+        costs,
     )
 
 
@@ -285,6 +282,15 @@ def _compounds(
     if twice is not None:
         raise InputError(f'compounds: "{twice}" is given twice; each one once, under its own name')
     return chosen
+
+
+def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
+    """Name of one of the compounds, in any case."""
+    for compound in compounds:
+        if compound.name.casefold() == name.casefold():
+            return compound.name
+    listed = ", ".join(compound.name for compound in compounds)
+    raise InputError(f'"{name}" is none of the compounds compared: {listed}')
 
 
 def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:

@@ -252,7 +252,7 @@ class _Kind:
     """Rolls of one radius and spacing on one strand: all their line loads in one array.
 
     `rolls` are (stretch, place), `starts` where each one's loads begin, `weights` the quadrature's along the roll,
-    `sets` how many such sets there are.
+    `sets` how many such sets there are; `line_loads` are `distinct[which]`, for sections that bear alike.
     """
 
     strand: Strand
@@ -261,6 +261,8 @@ class _Kind:
     rolls: tuple[tuple[int, int], ...]
     starts: NDArray[np.int_]
     line_loads: Array
+    distinct: Array
+    which: NDArray[np.intp]
     weights: Array
     sets: Array
     lowest: float
@@ -305,6 +307,7 @@ def _kinds(route: tuple[Stretch, ...], points: int) -> tuple[_Kind, ...]:
         loads = [route[i].loads[place] for i, place in rolls]
         sampled = [load.line_loads(points) for load in loads]
         lines = np.concatenate([w for w, _ in sampled])
+        distinct, which = np.unique(lines, return_inverse=True)
         highest = max(float(lines.max()), *(load.peak_line_load for load in loads))
         found.append(
             _Kind(
@@ -314,6 +317,8 @@ def _kinds(route: tuple[Stretch, ...], points: int) -> tuple[_Kind, ...]:
                 rolls=tuple(rolls),
                 starts=np.cumsum([0, *(w.size for w, _ in sampled[:-1])]),
                 line_loads=lines,
+                distinct=distinct,
+                which=which,
                 weights=np.concatenate([weights for _, weights in sampled]),
                 sets=np.concatenate(
                     [np.full(w.size, route[i].sets) for (i, _), (w, _) in zip(rolls, sampled, strict=True)]
@@ -343,13 +348,19 @@ class _Scene:
         """Forces of every stretch, or the first contact's error."""
         route = self.track.stretches
         rolls: list[list[RollResult | None]] = [[None] * len(stretch.loads) for stretch in route]
+        together: dict[RollContact, list[_Kind]] = {}
         for contact, kind in zip(self.contacts, self.track.kinds, strict=True):
+            together.setdefault(contact, []).append(kind)
+        for contact, kinds in together.items():
             curve = curves[contact]
             if isinstance(curve, NoSolutionError):
                 return curve
-            forces = np.add.reduceat(curve.resistance(kind.line_loads) * kind.weights, kind.starts)
-            for (i, place), force in zip(kind.rolls, forces.tolist(), strict=True):
-                rolls[i][place] = RollResult(route[i].loads[place], curve, force)
+            drags = curve.resistance(np.concatenate([kind.distinct for kind in kinds]))
+            starts = np.cumsum([0, *(kind.distinct.size for kind in kinds)])
+            for kind, start in zip(kinds, starts.tolist(), strict=False):
+                forces = np.add.reduceat(drags[start + kind.which] * kind.weights, kind.starts)
+                for (i, place), force in zip(kind.rolls, forces.tolist(), strict=True):
+                    rolls[i][place] = RollResult(route[i].loads[place], curve, force)
         return tuple(
             self._result(stretch, fixed, tuple(roll for roll in found if roll is not None))
             for stretch, fixed, found in zip(route, self.track.fixed, rolls, strict=True)

@@ -20,7 +20,16 @@ Array = NDArray[np.float64]
 
 SHARES = (0.05, 0.5, 0.95)
 """Of the loss: the band between the outer ones holds nine tenths of it."""
+_NARROW = 0.2  # width α below which a hundred harmonics and more carry the loss
+_POINTS = 240
 _REACH = 40.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lies less than a thousandth of the loss
+
+
+def _many_harmonics(layer: Layer, creep: CreepSpectrum, end: float) -> tuple[Array, NDArray[np.complex128]]:
+    """Nodes and weights of the sum where so many harmonics share the loss that it is an integral over ln m."""
+    logs, step = np.linspace(0.0, np.log(end), _POINTS, retstep=True)
+    m = np.exp(logs)
+    return m, step * layer.symbol(m, creep)
 
 
 def excited_harmonics(
@@ -45,7 +54,12 @@ def excited_harmonics(
     edges = [(centre - alpha, centre + alpha) for centre, alpha, _ in strips]
     span = max(high for _, high in edges) - min(low for low, _ in edges)
     narrowest = min(alpha for _, alpha, _ in strips)
-    m, weights = series_rule(layer, creep, span=span, end=_REACH / narrowest)
+    end = _REACH / narrowest
+    m, weights = (
+        _many_harmonics(layer, creep, end)
+        if span < _NARROW
+        else series_rule(layer, creep, span=span, end=end)
+    )
     spectrum = np.zeros(m.size, dtype=complex)
     for centre, alpha, c in strips:
         v = np.arange(1, c.size + 1)
