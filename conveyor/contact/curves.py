@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
     may_touch_elsewhere,
@@ -176,7 +177,8 @@ class _Batch:
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * points(degree)).ravel()
         every = np.repeat(rows, count)
         rho, creeps = self.group.rho[every], self.group.creeps[every]
-        matrix = assemble(self.rule[every], creeps, alpha, n)
+        ik = ProductIK(n, alpha[:, None] / creeps.times)
+        matrix = assemble(self.rule[every], creeps, alpha, n, ik)
         contact = equilibrium(matrix, alpha, rho)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(-1, count).all(axis=1)
         if not good.any():
@@ -185,8 +187,9 @@ class _Batch:
             keep = np.repeat(good, count)
             rows, every, rho, creeps = rows[good], every[keep], rho[keep], creeps[keep]
             contact, matrix = chosen_rows(contact, np.flatnonzero(keep)), matrix[keep]
+            ik = ik[np.flatnonzero(keep)]
         error = order_error(contact, matrix, rho, _exponent(contact, count)).reshape(-1, count).max(axis=1)
-        by_loss = friction_by_loss(self.check[every], creeps, contact, rho)
+        by_loss = friction_by_loss(self.check[every], creeps, contact, rho, ik)
         energy = np.abs(relative_difference(by_loss, contact.friction)).reshape(-1, count).max(axis=1)
         error = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), self.floor)
         _, pressing = pulling_and_pressing(contact, max(float(error.max()), SIGN_FLOOR))
