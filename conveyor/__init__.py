@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis, analyse
+    from conveyor.cases import CaseStudy, analyse_cases
     from conveyor.comparison import Comparison, compare, compare_compounds
+    from conveyor.duty import DutyStudy, analyse_duty
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
@@ -24,15 +26,19 @@ __version__ = version("conveyor")
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
+    "CaseStudy": "conveyor.cases",
     "Comparison": "conveyor.comparison",
     "Conveyor": "conveyor.models",
     "ConveyorError": "conveyor.errors",
+    "DutyStudy": "conveyor.duty",
     "InputError": "conveyor.errors",
     "NoSolutionError": "conveyor.errors",
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
     "analyse": "conveyor.analysis",
+    "analyse_cases": "conveyor.cases",
+    "analyse_duty": "conveyor.duty",
     "compare": "conveyor.comparison",
     "compare_compounds": "conveyor.comparison",
     "load": "conveyor.spec",
@@ -40,9 +46,11 @@ _WHERE = {
 
 __all__ = [
     "Analysis",
+    "CaseStudy",
     "Comparison",
     "Conveyor",
     "ConveyorError",
+    "DutyStudy",
     "InputError",
     "NoSolutionError",
     "RangeError",
@@ -50,6 +58,8 @@ __all__ = [
     "ValidityWarning",
     "__version__",
     "analyse",
+    "analyse_cases",
+    "analyse_duty",
     "compare",
     "compare_compounds",
     "load",
@@ -59,4 +69,6 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name in _WHERE:
         return getattr(import_module(_WHERE[name]), name)
+    if name == "uncertainty":
+        return import_module("conveyor.uncertainty")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

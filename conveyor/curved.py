@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from conveyor.balance import Balance, balance
 from conveyor.errors import NoSolutionError
@@ -50,6 +51,10 @@ class Run:
     convergence: Convergence | None
 
 
+Settling: TypeAlias = Generator[Masses, tuple[StretchResult, ...], Run]
+"""Asks for the forces along the belt under a pressing mass [kg/m], is sent them, and returns the run."""
+
+
 def run(conveyor: Conveyor) -> Run:
     """Calculate a conveyor; with vertical curves tensions and rolls' loads are iterated until they agree.
 
@@ -60,14 +65,32 @@ def run(conveyor: Conveyor) -> Run:
     RangeError
         A compound is not known at the belt's temperature.
     """
-    stretches = _walk(conveyor, {})
+    steps = settling(conveyor)
+    pressing = next(steps)
+    while True:
+        try:
+            pressing = steps.send(_walk(conveyor, pressing))
+        except StopIteration as end:
+            done: Run = end.value
+            return done
+
+
+def settling(conveyor: Conveyor) -> Settling:
+    """The iteration of `run`, step by step, so that many conveyors can be settled side by side.
+
+    Raises
+    ------
+    NoSolutionError
+        The tensions do not settle, or the belt lifts off with its bulk.
+    """
+    stretches = yield {}
     found = balance(conveyor, stretches)
     if not any(section.curve for section in conveyor.route.sections):
         return Run(stretches, found, {}, None)
     before, change = _curve_tensions(conveyor, found), 1.0
     for step in range(1, _STEPS + 1):
         pressing = pressing_masses(conveyor, found)
-        stretches = _walk(conveyor, pressing)
+        stretches = yield pressing
         found = balance(conveyor, stretches)
         now, last = _curve_tensions(conveyor, found), change
         change = max(abs(now[key] - before[key]) for key in now) / found.tensions.largest

@@ -22,7 +22,7 @@ class LoadCase(Model):
 
     name: Name
     loading: Loading = "as given"
-    """Sections that bear bulk: as given, all (full, part load), none, only those that rise, only those that fall."""
+    """Sections that bear bulk: as given (part load too), all, none, only those that rise, only those that fall."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
     """Mass flow over material.flow, for part load (a surge is above 100 %)."""
     temperatures: Annotated[tuple[EarthTemperature, ...], Field(max_length=100)] = ()

@@ -1,0 +1,133 @@
+"""Many variants of a conveyor calculated side by side: load cases, bars of a duty, ranges of inputs.
+
+All contacts of all variants are solved in one batch; variants of one rubber and temperature share its series, rolls
+that share a contact its load curve. On vertical curves tensions and roll loads are iterated in step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from conveyor.curved import Masses, Run, Settling, settling
+from conveyor.errors import NoSolutionError, RangeError
+from conveyor.line import Surface, Surfaces, Track, indented, surfaces, worked_surfaces
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.rubber import PronySeries
+from conveyor.stretches import Strand
+from conveyor.units import Quantity, si
+
+NoAnswer: TypeAlias = NoSolutionError | RangeError
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A conveyor, and what of it is not as its spec says.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        Its ambient gives the temperature.
+    rubber : mapping of strand to PronySeries
+        Covers' rubber at the belt's temperature instead of the compounds' [Pa, s].
+    drag : float
+        Drag of all rolls over the computed one [-].
+    """
+
+    conveyor: Conveyor
+    rubber: Mapping[Strand, PronySeries] = field(default_factory=dict)
+    drag: float = 1.0
+
+
+def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAnswer]:
+    """Calculate every scene as `curved.run` would; all contacts of all scenes side by side.
+
+    Parameters
+    ----------
+    scenes : sequence of Scene
+        The variants.
+    rtol : float, optional
+        Relative tolerance of the contacts; that of each spec without it [-].
+
+    Returns
+    -------
+    list
+        In their order the runs, or why a scene has none.
+    """
+    found: dict[int, Run | NoAnswer] = {}
+    covers = _covers(scenes, found)
+    going: dict[int, tuple[Settling, Masses]] = {}
+    for i in covers:
+        steps = settling(scenes[i].conveyor)
+        going[i] = steps, next(steps)
+    while going:
+        going = _step(scenes, covers, going, rtol, found)
+    return [found[i] for i in range(len(scenes))]
+
+
+def _step(
+    scenes: Sequence[Scene],
+    covers: Mapping[int, Surfaces],
+    going: Mapping[int, tuple[Settling, Masses]],
+    rtol: float | None,
+    found: dict[int, Run | NoAnswer],
+) -> dict[int, tuple[Settling, Masses]]:
+    """Load the rolls of every scene anew, solve them together; those that are settled go into `found`."""
+    jobs: dict[int, tuple[Track, Surfaces]] = {}
+    for i, (_, pressing) in going.items():
+        try:
+            track = _track(scenes[i], rtol, pressing)
+            temperature = si(scenes[i].conveyor.ambient.belt)
+            jobs[i] = track, worked_surfaces(track, covers[i], temperature)
+        except (NoSolutionError, RangeError) as error:
+            found[i] = error
+    walked = indented([track for track, _ in jobs.values()], [cover for _, cover in jobs.values()])
+    left = {}
+    for i, results in zip(jobs, walked, strict=True):
+        if isinstance(results, NoSolutionError):
+            found[i] = results
+            continue
+        steps = going[i][0]
+        try:
+            left[i] = steps, steps.send(results)
+        except StopIteration as end:
+            found[i] = end.value
+        except NoSolutionError as error:
+            found[i] = error
+    return left
+
+
+def _track(scene: Scene, rtol: float | None, pressing: Masses) -> Track:
+    track = Track(scene.conveyor, rtol, pressing)
+    if scene.drag != 1.0:
+        track.fixed = tuple(replace(forces, rotation=scene.drag * forces.rotation) for forces in track.fixed)
+    return track
+
+
+def _covers(scenes: Sequence[Scene], found: dict[int, Run | NoAnswer]) -> dict[int, Surfaces]:
+    """The covers of every scene; a compound's series at a temperature is formed once."""
+    known: list[tuple[RubberCompound, RubberCompound, float, dict[Strand, Surface]]] = []
+    covers: dict[int, Surfaces] = {}
+    for i, scene in enumerate(scenes):
+        conveyor, at = scene.conveyor, si(scene.conveyor.ambient.belt)
+        carry, back = conveyor.carry_compound, conveyor.return_compound
+        same = next((c for a, b, t, c in known if a is carry and b is back and t == at), None)
+        try:
+            formed = surfaces(conveyor, at) if same is None else same
+        except RangeError as error:
+            found[i] = error
+            continue
+        if same is None:
+            known.append((carry, back, at, formed))
+        thick: dict[Strand, Quantity] = {
+            "carry": conveyor.belt.bottom_cover.thickness,
+            "return": conveyor.return_cover_thickness,
+        }
+        covers[i] = {
+            strand: replace(
+                surface, thickness=si(thick[strand]), rubber=scene.rubber.get(strand, surface.rubber)
+            )
+            for strand, surface in formed.items()
+        }
+    return covers
