@@ -161,9 +161,12 @@ def rubber(sheet: Worksheet, analysis: Analysis) -> None:
     conveyor = analysis.conveyor
     temperature, at = si(conveyor.ambient.belt), text(conveyor.ambient.belt)
     compounds = {c.name: c for c in (conveyor.carry_compound, conveyor.return_compound)}
-    row = 1
+    put(sheet["A1"], "What the rolls ask of the rubber", HEADING)
+    asked = analysis.rubber.astype(object).set_index("strand").T.rename_axis("quantity").reset_index()
+    row = table(sheet, asked, 2, by_row="quantity") + 3
+    first = row
     for compound in compounds.values():
-        if row > 1:
+        if row > first:
             sheet.row_breaks.append(Break(id=row - 1))
         put(sheet.cell(row, 1), f"{compound.name} ({compound.kind}) at {at}", HEADING)
         for name, value in _facts(compound).items():
