@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor.balance import Balance
+from conveyor.belt_duty import BeltDuty, belt_duty
 from conveyor.curved import Convergence, run
 from conveyor.line import StretchResult
 from conveyor.models import Conveyor
 from conveyor.remarks import assumptions, warnings
+from conveyor.starting import Motions, motions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -103,6 +105,16 @@ class Analysis:
 
         return tables.rubber(self.conveyor, self.stretches)
 
+    @cached_property
+    def motions(self) -> Motions:
+        """Start, coasting, braking, holding; limits of the bulk."""
+        return motions(self.conveyor, self.stretches, self.balance)
+
+    @cached_property
+    def belt_duty(self) -> BeltDuty:
+        """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
+        return belt_duty(self.conveyor, self.balance)
+
     @property
     def error_estimate(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
@@ -119,6 +131,13 @@ class Analysis:
             "power_kW": {"belt": power.belt / 1e3, "motor": power.motor / 1e3},
             "friction_factor": self.balance.friction_factor,
             "tensions_N": asdict(self.balance.tensions),
+            "drives": _drives(self.balance),
+            "take_up": {
+                "kind": self.balance.settled.loop.data.take_up.kind,
+                "setting_N": self.balance.settled.setting,
+                "least_setting_N": self.balance.settled.needed,
+                "governed_by": self.balance.settled.condition_name(self.balance.settled.governed_by),
+            },
             "energy": {
                 "kWh_per_tonne_km": power.energy_per_tonne_km,
                 "kWh_per_year": power.energy_per_year,
@@ -175,3 +194,18 @@ class Analysis:
         from conveyor.report.excel import write
 
         return write(self, Path(path))
+
+
+def _drives(found: Balance) -> list[dict[str, Any]]:
+    """Every drive in steady running, plain numbers."""
+    motor = found.settled.loop.data.motor
+    return [
+        {
+            "drive": side.name,
+            "force_N": side.force,
+            "motor_kW": motor(side.force) / 1e3,
+            "arriving_N": side.arriving,
+            "leaving_N": side.leaving,
+        }
+        for side in found.settled.steady.drives
+    ]

@@ -9,9 +9,11 @@ import pandas as pd
 from conveyor.balance import Balance
 from conveyor.belt_duty import BeltDuty
 from conveyor.curved import Convergence
+from conveyor.models import Conveyor
 from conveyor.motion_laws import Stop
 from conveyor.starting import Motions
 from conveyor.take_up import mean_tension, take_up_mass
+from conveyor.units import si
 
 
 def tension_states(found: Balance, moving: Motions | None = None) -> pd.DataFrame:
@@ -32,6 +34,24 @@ def tension_states(found: Balance, moving: Motions | None = None) -> pd.DataFram
         rows[f"{name} [N]"] = [
             t for pair in zip(state.starts.tolist(), state.ends.tolist(), strict=True) for t in pair
         ]
+    return pd.DataFrame(rows)
+
+
+def profile(conveyor: Conveyor) -> pd.DataFrame:
+    """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
+    along, across, up = 0.0, 0.0, 0.0
+    rows = [{"behind section": "", "along the belt [m]": 0.0, "horizontal [m]": 0.0, "height [m]": 0.0}]
+    for section in conveyor.route.sections:
+        length = si(section.length)
+        along, across, up = along + length, across + math.sqrt(length**2 - section.rise**2), up + section.rise
+        rows.append(
+            {
+                "behind section": section.name,
+                "along the belt [m]": along,
+                "horizontal [m]": across,
+                "height [m]": up,
+            }
+        )
     return pd.DataFrame(rows)
 
 

@@ -148,6 +148,7 @@ def test_safety_and_diameters():
 
 @pytest.mark.parametrize("name", ["shuttle", "downhill_brakes"])
 def test_examples_with_tables(name):
+    from conveyor.report import loop_plots as plots
     from conveyor.report import loop_tables as tables
     from conveyor.starting import motions
 
@@ -168,5 +169,17 @@ def test_examples_with_tables(name):
     assert tables.pulleys(duty)["large enough"].all()
     assert len(tables.curves(duty)) == 2 * sum(s.curve is not None for s in made.route.sections)
     assert (tables.convergence(done.convergence) >= 0.0).all()
+    profile = tables.profile(made)
+    assert profile["height [m]"].iloc[-1] == pytest.approx(made.route.rise, rel=1e-12, abs=1e-12)
+    assert profile["horizontal [m]"].iloc[-1] <= made.route.length
+    for figure in (plots.route_profile(made), plots.tension_diagram(found, moving)):
+        assert figure.axes[0].lines
+    lines = {line.get_label(): line for line in plots.tension_diagram(found, moving).axes[0].lines}
+    assert 1e3 * lines["steady"].get_ydata()[1:-1] == pytest.approx(states["steady [N]"].to_numpy(), rel=1e-12)
+    told = done.to_dict()
+    assert math.fsum(d["force_N"] for d in told["drives"]) == pytest.approx(
+        told["forces_N"]["total"], rel=1e-12
+    )
+    assert told["take_up"]["setting_N"] >= told["take_up"]["least_setting_N"] * (1.0 - 1e-12)
     assert "moving mass [kg]" in tables.start_stop(moving).index
     assert tables.belt(duty)["safety, steady [-]"] == duty.safety_steady

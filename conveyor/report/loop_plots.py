@@ -1,0 +1,88 @@
+"""Figures of the route and of the tensions: matplotlib figures returned, never shown or saved."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from conveyor.report.loop_tables import profile
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from conveyor.balance import Balance
+    from conveyor.models import Conveyor
+    from conveyor.starting import Motions
+
+_SIZE = (9.0, 4.8)
+_ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
+
+
+def _figure() -> tuple[Figure, Axes]:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=_SIZE, layout="constrained")
+    axis = figure.add_subplot()
+    axis.grid(visible=True, color="0.9")
+    axis.spines[["top", "right"]].set_visible(False)
+    return figure, axis
+
+
+def route_profile(conveyor: Conveyor) -> Figure:
+    """Height over horizontal distance from the tail; feeding points, drives and vertical curves marked."""
+    figure, axis = _figure()
+    table = profile(conveyor)
+    x, z = table["horizontal [m]"].to_numpy(), table["height [m]"].to_numpy()
+    axis.plot(x, z, color="#1F4E79", marker=".", zorder=2)
+    names = [section.name for section in conveyor.route.sections]
+    for point in conveyor.route.feeding_points:
+        i = 0 if point.section is None else names.index(point.section)
+        axis.plot(x[i], z[i], "v", color="#2E8B57", markersize=10, label="feeding")
+    for pulley in conveyor.drive.pulleys:
+        fixed = {"head": len(names), "tail": 0}
+        i = fixed.get(pulley.position, 0)
+        if pulley.section is not None:
+            i = names.index(pulley.section) + (1 if pulley.position == "carry" else 0)
+        axis.plot(x[i], z[i], "o", color="#C55A11", markersize=9, fillstyle="none", label="drive")
+    for i, section in enumerate(conveyor.route.sections):
+        if section.curve is not None:
+            axis.plot(
+                x[i : i + 2], z[i : i + 2], color="#A61C3C", linewidth=3, label=f"{section.curve} curve"
+            )
+    if np.ptp(x) < _ASPECT * np.ptp(z):
+        axis.set_aspect("equal", adjustable="datalim")
+    axis.set(xlabel="horizontal distance [m]", ylabel="height over the tail [m]", title=conveyor.name)
+    _legend_once(axis)
+    return figure
+
+
+def tension_diagram(found: Balance, moving: Motions | None = None) -> Figure:
+    """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
+    figure, axis = _figure()
+    settled = found.settled
+    geometry = settled.loop.geometry
+    way = np.repeat(geometry.way, 2)[1:-1]
+    states = settled.states | ({} if moving is None else moving.states)
+    for state in states.values():
+        tensions = np.stack([state.starts, state.ends], axis=1).ravel()
+        x = np.concatenate([[0.0], way, way[-1:]])
+        y = np.concatenate([[state.leaving], tensions, [state.arriving]])
+        axis.plot(x, 1e-3 * y, label=state.name)
+    axis.plot(way, 1e-3 * np.repeat(geometry.least, 2), color="0.6", linestyle=":", label="least for sag")
+    tail = geometry.way[len(geometry.length) // 2]
+    axis.axvline(tail, color="0.8", zorder=0)
+    axis.annotate(
+        "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
+    )
+    axis.set(xlabel="distance from the head along the belt, return strand first [m]", ylabel="tension [kN]")
+    axis.legend(fontsize=8)
+    return figure
+
+
+def _legend_once(axis: Axes) -> None:
+    handles, labels = axis.get_legend_handles_labels()
+    once = dict(zip(labels, handles, strict=True))
+    if once:
+        axis.legend(once.values(), once.keys(), fontsize=8)
