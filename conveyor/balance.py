@@ -10,6 +10,7 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.classical import cema_estimate
 from conveyor.line import StretchResult
 from conveyor.loop import Loop, State
 from conveyor.loop_data import LoopData, loop_data
@@ -127,6 +128,8 @@ class Balance:
     friction_factor: float
     classical: Classical
     settled: Settled
+    cema: Classical | None = None
+    """Classic form of CEMA, where the spec gives its factors; its f is the one DIN 22101 would need."""
 
     @cached_property
     def points(self) -> tuple[TensionPoint, ...]:
@@ -156,6 +159,7 @@ def balance(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Balance:
         friction_factor=equivalent_friction_factor(forces.main, unit_main_force=unit_main),
         classical=_classical(conveyor, data, forces, unit_main),
         settled=settled,
+        cema=_cema(conveyor, data, results, settled, unit_main),
     )
 
 
@@ -249,6 +253,29 @@ def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
         if year is None or price is None
         else annual_cost(year, price_per_kwh=price.amount),
         currency=None if price is None else price.currency,
+    )
+
+
+def _cema(
+    conveyor: Conveyor,
+    data: LoopData,
+    results: tuple[StretchResult, ...],
+    settled: Settled,
+    unit_main: float,
+) -> Classical | None:
+    factors = conveyor.calculation.cema
+    if factors is None:
+        return None
+    found = cema_estimate(conveyor, factors, [result.stretch for result in results], settled.singles)
+    return Classical(
+        friction_factor=equivalent_friction_factor(found.main, unit_main_force=unit_main),
+        main=found.main,
+        secondary=found.secondary,
+        secondary_by="Tp + Tam (CEMA)",
+        special=found.special,
+        lift=found.lift,
+        total=found.total,
+        motor=data.motor(found.total),
     )
 
 

@@ -18,6 +18,7 @@ from conveyor.resistance import (
     acceleration_skirt_resistance,
     cleaner_resistance,
     fabric_wrap_resistance,
+    plough_resistance,
     pulley_bearing_resistance,
     pulley_load,
     skirt_resistance,
@@ -137,10 +138,25 @@ class Places:
 
 
 def fixed_singles(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
-    """Single forces that no tension changes: feeding points and cleaners."""
+    """Single forces that no tension changes: feeding points, cleaners and ploughs."""
     points = conveyor.route.feeding_points
     fed = [placed for point in points for placed in _feeding(conveyor, point, places)]
-    return (*fed, *_cleaners(conveyor))
+    return (*fed, *_cleaners(conveyor), *_ploughs(conveyor, places))
+
+
+def _ploughs(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
+    """Ploughs, where there is bulk to sweep."""
+    if si(conveyor.material.flow) == 0.0:
+        return ()
+    found = []
+    for i, plough in enumerate(conveyor.route.ploughs, start=1):
+        force = plough_resistance(
+            si(plough.width), scraping_factor=si(plough.scraping_factor), n_ploughs=plough.count
+        )
+        place = "head" if plough.section is None else f"behind {plough.section}, carry"
+        single = SingleForce(f"plough {i} (x{plough.count})", "special", place, force, "ISO 5048, F_a")
+        found.append(Placed(Spot(places.boundary(plough.position, plough.section)), single))
+    return tuple(found)
 
 
 def _feeding(conveyor: Conveyor, feeding: Feeding, places: Places) -> tuple[Placed, ...]:

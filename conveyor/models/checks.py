@@ -30,6 +30,7 @@ def conflicts(conveyor: Conveyor) -> list[Problem]:
         _feeding_fits,
         _drives_placed,
         _coefficient_holds,
+        _flexure_applies,
     )
     return [problem for check in checks for problem in check(conveyor)]
 
@@ -144,7 +145,7 @@ def _warm_enough(conveyor: Conveyor) -> Iterator[Problem]:
 
 
 def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
-    """Feeding and cleaners are no faster and no wider than the belt."""
+    """Feeding, cleaners and ploughs are no faster and no wider than the belt."""
     belt, route = conveyor.belt, conveyor.route
     points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
     points |= {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
@@ -159,6 +160,7 @@ def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
         (*location, "skirt_width"): point.skirt_width for location, point in points.items()
     }
     widths |= {("cleaners", i, "width"): cleaner.width for i, cleaner in enumerate(route.cleaners)}
+    widths |= {("ploughs", i, "width"): plough.width for i, plough in enumerate(route.ploughs)}
     for location, width in widths.items():
         if si(width) > si(belt.width):
             yield Problem(
@@ -177,6 +179,16 @@ def _drives_placed(conveyor: Conveyor) -> Iterator[Problem]:
     for location, name in named.items():
         if name is not None:
             yield from conveyor.route.section_problem(location, name)
+
+
+def _flexure_applies(conveyor: Conveyor) -> Iterator[Problem]:
+    """The law of the bulk's flexure knows troughs of up to 3 rolls only; so does the width under the bulk."""
+    flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
+    if flexure is not None and flexure.bulk is not None and rolls == 5:
+        yield Problem(
+            ("calculation", "flexure", "bulk"),
+            "given, but the wings of 5 rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
+        )
 
 
 def _coefficient_holds(conveyor: Conveyor) -> Iterator[Problem]:

@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.idlers import Spacing
+from conveyor.models.ploughs import Plough
 from conveyor.resistance import (
     BULK_ON_BELT_FRICTION,
     BULK_ON_SKIRT_FRICTION,
@@ -215,6 +216,7 @@ class Route(Model):
     take_up: TakeUp | None = None
     """Without it the slack side of the drive is kept at the least tension that grip and sag ask for."""
     cleaners: Annotated[tuple[Cleaner, ...], Field(max_length=100)] = ()
+    ploughs: Annotated[tuple[Plough, ...], Field(max_length=100)] = ()
     pulleys: Annotated[tuple[Pulley, ...], Field(max_length=100)] = ()
     turned_over: Switch = False
     """Whether the return strand is turned over, so that its rolls run on the bottom cover too."""
@@ -239,6 +241,7 @@ class Route(Model):
         named: list[tuple[Location, str | None]] = [
             (("pulleys", i, "section"), pulley.section) for i, pulley in enumerate(self.pulleys)
         ]
+        named += [(("ploughs", i, "section"), plough.section) for i, plough in enumerate(self.ploughs)]
         named += [(("further_feeding", i, "section"), f.section) for i, f in enumerate(self.further_feeding)]
         if self.feeding is not None:
             named.append((("feeding", "section"), self.feeding.section))
