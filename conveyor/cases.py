@@ -16,8 +16,9 @@ from conveyor.curved import Run
 from conveyor.energy_laws import MOTOR_SERIES, next_motor
 from conveyor.errors import ConveyorError, InputError
 from conveyor.line import StretchResult
+from conveyor.loop_data import loop_data
 from conveyor.models import Conveyor, LoadCase, Route, Section, standard_cases
-from conveyor.power import belt_power, motor_power
+from conveyor.power import motor_power
 from conveyor.scenes import Scene, runs
 from conveyor.settled import Settled
 from conveyor.units import Quantity, display, from_si, si, text
@@ -339,11 +340,7 @@ def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
 
 def shaft_power(conveyor: Conveyor, force: float) -> float:
     """Power at the motors' shafts for a drive force [N]; negative when the belt drives [W]."""
-    drive = conveyor.drive
-    back = drive.regeneration_efficiency
-    at_belt = belt_power(force, belt_speed=si(conveyor.belt.speed))
-    efficiency = drive.efficiency if at_belt >= 0.0 or back is None else back
-    return motor_power(at_belt, efficiency=si(efficiency))
+    return loop_data(conveyor).motor(force)
 
 
 def mains_power(conveyor: Conveyor, force: float) -> float:

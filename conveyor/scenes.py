@@ -6,7 +6,7 @@ that share a contact its load curve. On vertical curves tensions and roll loads 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
@@ -57,29 +57,30 @@ def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAns
     """
     found: dict[int, Run | NoAnswer] = {}
     covers = _covers(scenes, found)
+    worked = _Worked()
     going: dict[int, tuple[Settling, Masses]] = {}
     for i in covers:
         steps = settling(scenes[i].conveyor)
         going[i] = steps, next(steps)
     while going:
-        going = _step(scenes, covers, going, rtol, found)
+        going = _step(scenes, (covers, worked), going, rtol, found)
     return [found[i] for i in range(len(scenes))]
 
 
 def _step(
     scenes: Sequence[Scene],
-    covers: Mapping[int, Surfaces],
+    surfaced: tuple[Mapping[int, Surfaces], _Worked],
     going: Mapping[int, tuple[Settling, Masses]],
     rtol: float | None,
     found: dict[int, Run | NoAnswer],
 ) -> dict[int, tuple[Settling, Masses]]:
     """Load the rolls of every scene anew, solve them together; those that are settled go into `found`."""
+    covers, worked = surfaced
     jobs: dict[int, tuple[Track, Surfaces]] = {}
     for i, (_, pressing) in going.items():
         try:
             track = _track(scenes[i], rtol, pressing)
-            temperature = si(scenes[i].conveyor.ambient.belt)
-            jobs[i] = track, worked_surfaces(track, covers[i], temperature)
+            jobs[i] = track, worked.of(track, covers[i])
         except (NoSolutionError, RangeError) as error:
             found[i] = error
     walked = indented([track for track, _ in jobs.values()], [cover for _, cover in jobs.values()])
@@ -96,6 +97,37 @@ def _step(
         except NoSolutionError as error:
             found[i] = error
     return left
+
+
+class _Worked:
+    """Covers at the strain of their rolls; of tracks that bear alike on one cover, formed once."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Hashable, ...], tuple[Surfaces, Surfaces]] = {}
+
+    def of(self, track: Track, covers: Surfaces) -> Surfaces:
+        """As `line.worked_surfaces`; the very surfaces of an alike track, so that load curves are shared."""
+        conveyor = track.conveyor
+        at = si(conveyor.ambient.belt)
+        key = (
+            (at, track.speed, conveyor.calculation.strain, conveyor.calculation.support),
+            (id(conveyor.carry_compound), id(conveyor.return_compound)),
+            *((strand, id(cover.rubber), cover.thickness) for strand, cover in covers.items()),
+            *(
+                (
+                    kind.strand,
+                    kind.radius,
+                    kind.spacing,
+                    kind.line_loads.tobytes(),
+                    (kind.weights * kind.sets).tobytes(),
+                )
+                for kind in track.kinds
+            ),
+        )
+        if key not in self._known:
+            # the given covers are kept with them: an id is its object's only while it lives
+            self._known[key] = covers, worked_surfaces(track, covers, at)
+        return self._known[key][1]
 
 
 def _track(scene: Scene, rtol: float | None, pressing: Masses) -> Track:
