@@ -21,7 +21,7 @@ from conveyor.models import Conveyor, LoadCase, Route, Section, standard_cases
 from conveyor.power import motor_power
 from conveyor.scenes import Scene, runs
 from conveyor.settled import Settled
-from conveyor.units import Quantity, display, from_si, si, text
+from conveyor.units import Quantity, display, from_si, si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -263,6 +263,12 @@ def _variants(
     return made, refused
 
 
+def scaled(value: Quantity, factor: float) -> Quantity:
+    """A quantity times a factor, in its own unit."""
+    changed: Quantity = value * factor
+    return changed
+
+
 def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = None) -> Conveyor:
     """The conveyor loaded as a case says, at a belt speed.
 
@@ -287,8 +293,7 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
         changes["belt"] = conveyor.belt.replace(speed=speed)
     if case.loading in {"empty", "part load"}:
         share = 0.0 if case.share is None else si(case.share)
-        flow, unit = conveyor.material.flow, text(conveyor.material.flow).split()[1]
-        changes["material"] = conveyor.material.replace(flow=from_si(share * si(flow), "mass flow", unit))
+        changes["material"] = conveyor.material.replace(flow=scaled(conveyor.material.flow, share))
     if case.loading in {"full", "inclines only", "declines only"}:
         sections = [_loaded(section, case) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):

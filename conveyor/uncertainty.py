@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
-from conveyor.cases import shaft_power, with_temperature
+from conveyor.cases import scaled, shaft_power, with_temperature
 from conveyor.curved import Run
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
@@ -297,12 +297,6 @@ def _temperature(conveyor: Conveyor, change: float) -> _Variation:
     scenes = [Scene(_refused("temperature", partial(with_temperature, conveyor, end))) for end in ends]
     low, given, high = (display(si(t), "temperature") for t in (ends[0], conveyor.ambient.belt, ends[1]))
     return _Variation("temperature of the belt", low, given, high, tuple(scenes))
-
-
-def scaled(value: Quantity, factor: float) -> Quantity:
-    """A quantity times a factor, in its own unit."""
-    changed: Quantity = value * factor
-    return changed
 
 
 def _with_flow(conveyor: Conveyor, factor: float) -> Conveyor:
