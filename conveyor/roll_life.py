@@ -16,10 +16,17 @@ BALL_EXPONENT: Final = 3.0  # [-], ISO 281, ball bearings
 ROLLER_EXPONENT: Final = 10.0 / 3.0  # [-], ISO 281, roller bearings
 WEIBULL_SLOPE_BALL: Final = 10.0 / 9.0  # [-], Lundberg and Palmgren, ball bearings
 SECONDS_PER_HOUR: Final = 3600.0
+SHELL_ROUNDING: Final = 1e-12  # of the shell's length, which distance and inset give back but for rounding
 
 
 def heavier_bearing_load(
-    bulk_force: float, *, belt_force: float, loaded_length: float, bearing_distance: float, triangular: bool
+    bulk_force: float,
+    *,
+    belt_force: float,
+    loaded_length: float,
+    bearing_distance: float,
+    triangular: bool,
+    inset: float = 0.0,
 ) -> float:
     """Load of the heavier bearing of a roll, by moments about the other one.
 
@@ -30,16 +37,19 @@ def heavier_bearing_load(
     belt_force : float
         Of belt and curve, even along the loaded length [N], at least 0.
     loaded_length : float
-        Length under the belt from the inner bearing on [m], positive, at most the distance of the bearings.
+        Length under the belt from the inner end of the shell on [m], positive, at most that of the shell,
+        bearing_distance + 2 inset.
     bearing_distance : float
         Between the two bearings [m], positive.
     triangular : bool
         True [-]: the bulk falls from the inner end to 0 at the loaded length's end (wing); False: even.
+    inset : float
+        Distance of each bearing from its end of the shell [m], negative outside it, above -bearing_distance/2.
 
     Returns
     -------
     float
-        Load [N], between half and all of the roll's.
+        Load [N], at least half of the roll's; more than all of it where the load's centre overhangs the bearing.
 
     Raises
     ------
@@ -48,7 +58,7 @@ def heavier_bearing_load(
 
     Notes
     -----
-    The loaded length is taken to begin at the inner bearing; the mass of the shell left out.
+    The loaded length begins at the inner end of the shell; the mass of the shell is left out.
 
     Examples
     --------
@@ -60,11 +70,16 @@ def heavier_bearing_load(
     """
     require_not_negative(bulk_force=bulk_force, belt_force=belt_force)
     require_positive(loaded_length=loaded_length, bearing_distance=bearing_distance)
-    allowed = f"at most bearing_distance = {bearing_distance!r} m is needed"
-    require(loaded_length <= bearing_distance, "loaded_length", loaded_length, allowed)
-    reach = loaded_length / bearing_distance
-    bulk_centre = reach / 3.0 if triangular else reach / 2.0
-    return bulk_force * (1.0 - bulk_centre) + belt_force * (1.0 - reach / 2.0)
+    shell = bearing_distance + 2.0 * inset
+    require(
+        shell > 0.0, "inset", inset, f"above -bearing_distance/2 = {-bearing_distance / 2.0!r} m is needed"
+    )
+    allowed = f"at most bearing_distance + 2 inset = {shell!r} m is needed"
+    ok = loaded_length <= shell * (1.0 + SHELL_ROUNDING)
+    require(ok, "loaded_length", loaded_length, allowed)
+    bulk_centre = (loaded_length / (3.0 if triangular else 2.0) - inset) / bearing_distance
+    belt_centre = (loaded_length / 2.0 - inset) / bearing_distance
+    return bulk_force * (1.0 - bulk_centre) + belt_force * (1.0 - belt_centre)
 
 
 def rating_life_hours(

@@ -1,18 +1,23 @@
-"""Every field of a conveyor as a row: as entered, in SI, and whether the spec or a default gave it."""
+"""Every field of a conveyor as a row: as entered, in SI, and whether the spec, a library or a default gave it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 import pandas as pd
 
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
+from conveyor.models.listed import Listed
 from conveyor.units import is_quantity, si, si_unit, text
 
-Origin = Literal["spec", "default"]
+Origin = Literal["spec", "library", "default"]
 Row = tuple[str, str, float | None, str, Origin]
+
+
+def _written(value: Any) -> Any:
+    return text(value) if is_quantity(value) else value
 
 
 def inputs(conveyor: Conveyor) -> pd.DataFrame:
@@ -26,18 +31,15 @@ def inputs(conveyor: Conveyor) -> pd.DataFrame:
     )
 
 
-def _rows(place: tuple[str | int, ...], value: Any, origin: Origin) -> Iterator[Row]:
+def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[Row]:
+    """Rows of a value; `entry` is what the library has in its place, if one is named."""
     field = field_path(place)
     if value is None:
         return
     if isinstance(value, RubberCompound):
         yield field, value.name, None, "", origin
     elif isinstance(value, Model):
-        for name, info in type(value).model_fields.items():
-            given = origin == "spec" and name in value.model_fields_set
-            yield from _rows(
-                (*place, info.alias or name), getattr(value, name), "spec" if given else "default"
-            )
+        yield from _fields(place, value, origin, entry)
     elif isinstance(value, tuple):
         for i, item in enumerate(value):
             yield from _rows((*place, i), item, origin)
@@ -49,3 +51,15 @@ def _rows(place: tuple[str | int, ...], value: Any, origin: Origin) -> Iterator[
         yield field, repr(value).removesuffix(".0"), float(value), "-", origin
     else:
         yield field, str(value), None, "", origin
+
+
+def _fields(place: tuple[str | int, ...], model: Model, origin: Origin, entry: Any) -> Iterator[Row]:
+    named = model.entry if isinstance(model, Listed) else None
+    known = entry if named is None else named.fields
+    held = known if isinstance(known, Mapping) else {}
+    for name, info in type(model).model_fields.items():
+        key, value = info.alias or name, getattr(model, name)
+        given = origin == "spec" and name in model.model_fields_set
+        listed = key in held and _written(value) == held[key]
+        came: Origin = "library" if listed else "spec" if given else "default"
+        yield from _rows((*place, key), value, came, held.get(key))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pandas as pd
 from conveyor.balance import Balance
 from conveyor.line import StretchResult, excited_band
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.roll_lives import roll_life, set_life
 from conveyor.stretches import Strand
 from conveyor.units import si
 
@@ -98,8 +100,11 @@ def rubber(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> pd.DataFra
 
 
 def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """One row a stretch: geometry, masses, forces; both strands, in running direction."""
-    return pd.DataFrame(
+    """One row a stretch: geometry, masses, forces; both strands, in running direction.
+
+    The life of a set stands there where the bearings of all its rolls are given.
+    """
+    table = pd.DataFrame(
         [
             {
                 "section": r.stretch.section,
@@ -121,11 +126,20 @@ def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
             for r in results
         ]
     )
+    lives = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
+    return _with_lives(table, "idler set L10 life [h]", lives)
+
+
+def _with_lives(table: pd.DataFrame, name: str, lives: Sequence[float | None]) -> pd.DataFrame:
+    """Append a column of lives, if there is one."""
+    if any(life is not None for life in lives):
+        table[name] = np.array(lives, dtype=float)
+    return table
 
 
 def rolls(results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """One row a roll of every stretch's set: load, contact at its highest line load, indentation."""
-    return pd.DataFrame(
+    """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
+    table = pd.DataFrame(
         [
             {
                 "section": r.stretch.section,
@@ -143,15 +157,29 @@ def rolls(results: tuple[StretchResult, ...]) -> pd.DataFrame:
                 "indentation [N]": roll.resistance,
                 "error estimate [-]": roll.peak.error,
                 "energy error [-]": roll.peak.energy_error,
+                "rim drag [N]": drag,
+                "rotation [rpm]": 60.0
+                * roll.curve.contact.speed
+                / (2.0 * math.pi * roll.curve.contact.radius),
             }
             for r in results
-            for roll in r.rolls
+            for roll, drag in zip(r.rolls, r.stretch.drags, strict=True)
         ]
     )
+    lives = [
+        roll_life(r.stretch, place, roll.curve.contact.speed)
+        for r in results
+        for place, roll in enumerate(r.rolls)
+    ]
+    heavier = [None if life is None else life.heavier for life in lives]
+    table = _with_lives(table, "heavier bearing [N]", heavier)
+    return _with_lives(table, "roll L10 life [h]", [None if life is None else life.both for life in lives])
 
 
 def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFrame:
     """Every newton and the law it comes from; the rows add up to the effective tension."""
+    by_law = results[0].stretch.span_flexure is not None
+    flexure = "calculation.flexure, laws" if by_law else "share of the main resistance, flagged default"
     by_strand = [
         (
             f"{label}, {strand}",
@@ -162,7 +190,7 @@ def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFr
         for label, name, kind, source in (
             ("indentation", "indentation", "main", "viscoelastic contact of every roll (docs/method.md)"),
             ("idler rotation", "rotation", "main", "roll drag x number of rolls"),
-            ("flexure of belt and bulk", "flexure", "main", "share of the main resistance, flagged default"),
+            ("flexure of belt and bulk", "flexure", "main", flexure),
             ("idler tilt", "tilt", "special", "ISO 5048, F_e"),
             ("lift", "lift", "lift", "ISO 5048, F_St"),
         )
@@ -176,18 +204,23 @@ def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFr
 
 
 def comparison(found: Balance) -> pd.DataFrame:
-    """Compare with the classical calculation with a given f."""
-    forces, classical = found.forces, found.classical
+    """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
+    forces = found.forces
+    estimates = {"classical, given f": found.classical, "CEMA classic, given Ky": found.cema}
     return pd.DataFrame(
         {
             "this calculation": [
                 found.friction_factor, forces.main, forces.secondary, forces.special, forces.lift, forces.total,
                 found.power.motor / 1e3,
             ],
-            "classical, given f": [
-                classical.friction_factor, classical.main, classical.secondary, classical.special, classical.lift,
-                classical.total, classical.motor / 1e3,
-            ],
+        }
+        | {
+            name: [
+                made.friction_factor, made.main, made.secondary, made.special, made.lift, made.total,
+                made.motor / 1e3,
+            ]
+            for name, made in estimates.items()
+            if made is not None
         },
         index=[
             "f [-]", "main [N]", "secondary [N]", "special [N]", "lift [N]", "effective tension [N]",
