@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, mo
 from pydantic_core import PydanticCustomError
 
 from conveyor.models.base import Model, Problem, refuse
-from conveyor.units import Bounds, Duration, Fraction, Speed, Temperature, from_si, si, text
+from conveyor.units import Bounds, Duration, Fraction, Speed, Temperature, si, text
 
 EarthTemperature = Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")]
 BeltSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
@@ -123,15 +123,18 @@ class Operation(Model):
     @model_validator(mode="before")
     @classmethod
     def _hours_of_duty(cls, data: Any) -> Any:
-        """Sum up the duty where the hours are left out; entries that cannot be read are refused by their field."""
+        """Sum up the duty where the hours are left out; a duty that is refused is so at its own place."""
         if not isinstance(data, dict) or data.get("hours_per_year") is not None or not data.get("duty"):
             return data
         try:
             entries = [DutyEntry.model_validate(entry) for entry in data["duty"]]
         except (ValueError, TypeError):
-            return data
-        total = math.fsum(si(entry.hours) for entry in entries)
-        return {**data, "hours_per_year": from_si(float(f"{total:.12g}"), "duration", "h")}
+            return {**data, "hours_per_year": "0 h"}
+        total = math.fsum(si(entry.hours) for entry in entries) / 3600.0
+        return {
+            **data,
+            "hours_per_year": f"{total:.12g} h" if total <= YEAR_HOURS else "0 h",
+        }
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
