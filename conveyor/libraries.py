@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from conveyor.document import read_document
 from conveyor.errors import InputError
+from conveyor.units import quantity, si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -126,6 +127,20 @@ def spacings() -> pd.DataFrame:
     '1.5 m'
     """
     return _table("spacing")
+
+
+def widest_spacings() -> dict[str, float]:
+    """Return the widest distances of idler sets in use, by strand [m].
+
+    Examples
+    --------
+    >>> widest_spacings()
+    {'carry': 3.0, 'return': 6.0}
+    """
+    guidance = entries("spacing")
+    return {
+        strand: si(quantity(guidance[f"{strand}, overland"].fields["to"])) for strand in ("carry", "return")
+    }
 
 
 def _table(library: Library) -> pd.DataFrame:

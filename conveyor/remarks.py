@@ -8,8 +8,8 @@ from conveyor.balance import Balance
 from conveyor.line import StretchResult, excited_band
 from conveyor.loop_remarks import loop_warnings
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, roll_drag
-from conveyor.stretches import Strand, roll_at
+from conveyor.roll_remarks import roll_assumptions, roll_warnings
+from conveyor.stretches import Strand
 from conveyor.units import display, si, text
 
 DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
@@ -27,10 +27,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
         "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
         "at the default tolerance.",
-        "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones.",
-        f"Flexure of belt and bulk is {text(conveyor.calculation.flexure_share)} of the main resistance "
-        "(no model: share of the total measured at one overland site).",
-        "Roll drag does not depend on speed, load or temperature.",
+        *roll_assumptions(conveyor),
         "Bearings of the driven pulley are in the drive's efficiency; tension changes the load of the rolls on "
         "vertical curves only.",
         f"Covers are at {text(conveyor.ambient.belt)} throughout.",
@@ -46,7 +43,7 @@ def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Bala
                 *_frequency(conveyor, results),
                 *_strain(conveyor, results),
                 *_contact(conveyor, results),
-                *_defaults(conveyor),
+                *roll_warnings(conveyor, results),
                 *_left_out(conveyor),
                 *_loop(conveyor, found),
                 *loop_warnings(conveyor, results, found),
@@ -125,22 +122,6 @@ def _contact(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator
                 f"{strand} rolls press in by {deepest:.0%} of the cover ({text(thickness)}): "
                 "beyond small strain, the linear law is strained"
             )
-
-
-def _defaults(conveyor: Conveyor) -> Iterator[str]:
-    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for place in range(idlers.rolls):
-            roll = roll_at(idlers, place)
-            drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
-            if drag.assumed:
-                yield (
-                    f"idlers.{strand}: roll drag not given, {display(drag.force, 'force')} a roll assumed "
-                    f"({drag.source}; an upper limit, give idlers.{strand}.roll.drag)"
-                )
-        if si(idlers.tilt_angle) > 0.0:
-            yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
-    if "flexure_share" not in conveyor.calculation.model_fields_set:
-        yield f"calculation.flexure_share not given: {FLEXURE_SHARE.value:.0%} assumed, measured at one overland site"
 
 
 def _left_out(conveyor: Conveyor) -> Iterator[str]:
