@@ -253,13 +253,16 @@ def _variants(
         speeds = case.speeds or (conveyor.belt.speed,)
         temperatures = case.temperatures or (conveyor.ambient.belt,)
         for speed in speeds:
+            try:
+                loaded = with_case(conveyor, case, speed=speed)
+            except ConveyorError as error:
+                refused += [CaseRefusal(case.name, si(t), si(speed), str(error)) for t in temperatures]
+                continue
             for temperature in temperatures:
                 try:
-                    variant = with_temperature(with_case(conveyor, case, speed=speed), temperature)
+                    made.append((case, with_temperature(loaded, temperature)))
                 except ConveyorError as error:
                     refused.append(CaseRefusal(case.name, si(temperature), si(speed), str(error)))
-                else:
-                    made.append((case, variant))
     return made, refused
 
 

@@ -7,18 +7,19 @@ that share a contact its load curve. On vertical curves tensions and roll loads 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from conveyor.curved import Masses, Run, Settling, settling
-from conveyor.errors import NoSolutionError, RangeError
+from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.line import Surface, Surfaces, Track, indented, surfaces, worked_surfaces
-from conveyor.models import Conveyor, RubberCompound
+from conveyor.models import Conveyor, Idlers, RubberCompound
 from conveyor.rubber import PronySeries
 from conveyor.stretches import Strand
 from conveyor.units import Quantity, si
 
-NoAnswer: TypeAlias = NoSolutionError | RangeError
+NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,31 +58,31 @@ def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAns
     """
     found: dict[int, Run | NoAnswer] = {}
     covers = _covers(scenes, found)
-    worked = _Worked()
+    shared = _Tracks(rtol), _Worked()
     going: dict[int, tuple[Settling, Masses]] = {}
     for i in covers:
         steps = settling(scenes[i].conveyor)
         going[i] = steps, next(steps)
     while going:
-        going = _step(scenes, (covers, worked), going, rtol, found)
+        going = _step(scenes, covers, shared, going, found)
     return [found[i] for i in range(len(scenes))]
 
 
 def _step(
     scenes: Sequence[Scene],
-    surfaced: tuple[Mapping[int, Surfaces], _Worked],
+    covers: Mapping[int, Surfaces],
+    shared: tuple[_Tracks, _Worked],
     going: Mapping[int, tuple[Settling, Masses]],
-    rtol: float | None,
     found: dict[int, Run | NoAnswer],
 ) -> dict[int, tuple[Settling, Masses]]:
     """Load the rolls of every scene anew, solve them together; those that are settled go into `found`."""
-    covers, worked = surfaced
+    tracks, worked = shared
     jobs: dict[int, tuple[Track, Surfaces]] = {}
     for i, (_, pressing) in going.items():
         try:
-            track = _track(scenes[i], rtol, pressing)
+            track = tracks.of(scenes[i], pressing)
             jobs[i] = track, worked.of(track, covers[i])
-        except (NoSolutionError, RangeError) as error:
+        except (NoSolutionError, RangeError, InputError) as error:
             found[i] = error
     walked = indented([track for track, _ in jobs.values()], [cover for _, cover in jobs.values()])
     left = {}
@@ -130,11 +131,42 @@ class _Worked:
         return self._known[key][1]
 
 
-def _track(scene: Scene, rtol: float | None, pressing: Masses) -> Track:
-    track = Track(scene.conveyor, rtol, pressing)
-    if scene.drag != 1.0:
-        track.fixed = tuple(replace(forces, rotation=scene.drag * forces.rotation) for forces in track.fixed)
-    return track
+class _Tracks:
+    """Loads of the rolls and forces without rubber; scenes that differ in rubber and temperature share them."""
+
+    def __init__(self, rtol: float | None) -> None:
+        self._rtol = rtol
+        self._known: dict[tuple[Hashable, ...], tuple[Conveyor, Track]] = {}
+
+    def of(self, scene: Scene, pressing: Masses) -> Track:
+        """The track of a scene.
+
+        Raises
+        ------
+        NoSolutionError
+            The belt lifts off on a concave curve.
+        InputError
+            A law of roll drag does not hold at a load.
+        """
+        conveyor = scene.conveyor
+        parts = (conveyor.belt, conveyor.idlers, conveyor.material, conveyor.route, conveyor.calculation)
+        air = si(conveyor.ambient.temperature) if _drag_follows_the_air(conveyor.idlers) else None
+        key = (*map(id, parts), air, frozenset(pressing.items()))
+        if key not in self._known:
+            # the conveyor is kept with its track: an id is its object's only while it lives
+            self._known[key] = conveyor, Track(conveyor, self._rtol, pressing)
+        track = copy(self._known[key][1])
+        track.conveyor = conveyor
+        if scene.drag != 1.0:
+            track.fixed = tuple(
+                replace(forces, rotation=scene.drag * forces.rotation) for forces in track.fixed
+            )
+        return track
+
+
+def _drag_follows_the_air(idlers: Idlers) -> bool:
+    rolls = [roll for each in (idlers.carry, idlers.return_) for roll in (each.roll, each.middle)]
+    return any(roll.drag_law is not None for roll in rolls)
 
 
 def _covers(scenes: Sequence[Scene], found: dict[int, Run | NoAnswer]) -> dict[int, Surfaces]:

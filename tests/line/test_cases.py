@@ -165,6 +165,24 @@ def test_the_air_keeps_its_distance_to_the_covers(downhill):
     assert with_temperature(downhill, downhill.ambient.belt) is downhill
 
 
+def test_bearings_follow_the_temperature_of_a_case(line):
+    # stiff grease when cold: a track shared between temperatures would miss it
+    law = {
+        "law": "bearing", "mean_diameter": "36 mm", "static_rating": "11 kN", "first_viscosity": "110 mm^2/s",
+        "second_viscosity": "12 mm^2/s", "seal_moment": "0.05 N*m",
+    }  # fmt: skip
+    carry = line.idlers.carry
+    greased = line.replace(
+        idlers=line.idlers.replace(carry=carry.replace(roll=carry.roll.replace(drag_law=law)))
+    )
+    cold, warm = analyse_cases(greased, [LoadCase(name="a", temperatures=("0 degC", "20 degC"))]).results
+    for one, celsius in ((cold, 0), (warm, 20)):
+        alone = conveyor.analyse(greased.replace(ambient={"temperature": f"{celsius} degC"})).balance.forces
+        assert one.balance.forces.idler_rotation == pytest.approx(alone.idler_rotation, rel=1e-12)
+        assert one.effective == pytest.approx(alone.total, rel=2.0 * RTOL)
+    assert cold.balance.forces.idler_rotation > 1.2 * warm.balance.forces.idler_rotation
+
+
 # friction on the safe side ----------------------------------------------------------------------------------------
 
 
