@@ -95,9 +95,9 @@ def layout(model: type[BaseModel]) -> Group:
 
     Examples
     --------
-    >>> from conveyor.models import Roll
-    >>> [(part.key, part.required, part.allowed) for part in layout(Roll).parts][0]
-    ('diameter', True, '≥ 20 mm, ≤ 1 m')
+    >>> from conveyor.models import Cleaner
+    >>> [(part.key, part.required, part.allowed) for part in layout(Cleaner).parts][1]
+    ('width', True, '> 0 m, ≤ 5 m')
     """
     return Group(key="", doc=first_line(model.__doc__), required=True, parts=_parts(model, ()))
 

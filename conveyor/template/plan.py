@@ -131,7 +131,7 @@ def written_out(model: type[BaseModel], name: str) -> Plan:
     --------
     >>> from conveyor.models import RubberCompound
     >>> [sheet.name for sheet in written_out(RubberCompound, "Rubber compound 1").tables]
-    ['Rubber compound 1 terms']
+    ['Rubber compound 1 terms', 'Rubber compound 1 sweeps']
     """
     root = layout(model)
     names = _Names(prefix=name)
