@@ -172,3 +172,41 @@ def band(study: UncertaintyStudy) -> pd.DataFrame:
             for name, (low, high) in ways.items()
         ]
     )
+
+
+def cases_data(study: CaseStudy) -> dict[str, object]:
+    """Load cases as plain numbers for JSON; units in the keys."""
+    return {
+        "conveyor": study.conveyor.name,
+        "friction_band": list(study.friction_band),
+        "cases": _records(cases(study)),
+        "governing": _records(governing(study)),
+        "motors": _records(motors(study.motors())) if study.results else [],
+        "refused": _records(refused_cases(study)),
+    }
+
+
+def duty_data(study: DutyStudy) -> dict[str, object]:
+    """A year as plain numbers for JSON; units in the keys."""
+    return {
+        "conveyor": study.conveyor.name,
+        "year": {str(name): float(value) for name, value in year(study).items()},
+        "emission_source": study.emission_source,
+        "duty": _records(duty(study)),
+    }
+
+
+def uncertainty_data(study: UncertaintyStudy) -> dict[str, object]:
+    """The power with its band as plain numbers for JSON; units in the keys."""
+    return {
+        "conveyor": study.conveyor.name,
+        "band": _records(band(study)),
+        "tornado": _records(tornado(study)),
+        "notes": list(study.notes),
+    }
+
+
+def _records(frame: pd.DataFrame) -> list[dict[str, object]]:
+    """Rows with None where a figure is not known."""
+    rows = frame.astype(object).where(frame.notna(), None).to_dict("records")
+    return [{str(name): value for name, value in row.items()} for row in rows]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -98,6 +99,18 @@ def test_scenes_side_by_side_settle_on_vertical_curves_as_alone():
         alone = conveyor.analyse(scene)
         assert done.convergence.steps == alone.convergence.steps
         assert done.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=2.0 * RTOL)
+
+
+def test_cases_of_one_temperature_share_their_load_curves(line):
+    loadings = [LoadCase(name=name, loading=name) for name in ("full", "empty", "declines only")]
+    variants = [
+        with_temperature(with_case(line, case), quantity(celsius))
+        for case in loadings
+        for celsius in ("0 degC", "20 degC")
+    ]
+    done = runs([Scene(variant) for variant in variants], 1e-4)
+    curves = {id(roll.curve) for run in done for stretch in run.stretches for roll in stretch.rolls}
+    assert len(curves) == 2 * 2  # strands, temperatures
 
 
 def test_one_result_a_case_speed_and_temperature(found):
@@ -391,3 +404,11 @@ def test_cases_of_the_spec_are_read_back_and_calculated():
 
 def test_without_cases_the_standard_ones(line):
     assert [case.loading for case in analyse_cases(line, rtol=1e-4).cases] == list(STANDARD_LOADINGS)
+
+
+def test_plain_data_for_json(found):
+    data = json.loads(json.dumps(case_tables.cases_data(found), allow_nan=False))
+    assert len(data["cases"]) == len(found.results)
+    assert data["friction_band"] == [pytest.approx(0.6), 1.0]
+    assert data["cases"][-1]["energy [kWh/(t km)]"] is None  # declines only
+    assert data["motors"][0]["drive"] == "drive"

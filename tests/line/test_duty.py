@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from conveyor.duty import analyse_duty
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
+from conveyor.report import case_tables
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -193,3 +195,10 @@ def test_refusals_name_the_bar(line):
         InputError, match=r"operation.duty\[0\] \(5 h, share 100 %, 190 degC\): ambient.temperature"
     ):
         analyse_duty(operated(line, {"hours": "5 h", "share": "100 %", "temperature": "190 degC"}))
+
+
+def test_plain_data_for_json(line):
+    study = analyse_duty(operated(line, HOURS), rtol=RTOL)
+    data = json.loads(json.dumps(case_tables.duty_data(study), allow_nan=False))
+    assert data["year"]["drawn [MWh]"] == pytest.approx(study.year.drawn_kwh / 1e3)
+    assert len(data["duty"]) == 1

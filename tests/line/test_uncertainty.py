@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -241,3 +242,10 @@ def test_studies_without_an_answer_are_refused(line):
         study(line, ranges(flow="50 %"))
     with pytest.raises(InputError, match=r"uncertainty.temperature: an end of the range is refused: ambient"):
         study(line, ranges(temperature="90 K"))
+
+
+def test_plain_data_for_json(line):
+    found = study(line, ranges(roll_drag="10 %"))
+    data = json.loads(json.dumps(case_tables.uncertainty_data(found), allow_nan=False))
+    assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(found.effects[0].motor_high / 1e3)
+    assert [row["combined by"] for row in data["band"]] == ["root of squares", "Latin hypercube, first order"]
