@@ -39,9 +39,12 @@ class Listed(Model):
         return None if name is None else libraries.entry(self.library, name)
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with changed fields; with another `listed` what came from the old entry goes."""
+        """Return a copy with changed fields; with another `listed` what came from the old entry goes.
+
+        `listed=None` keeps all values and forgets where they came from.
+        """
         old = self.entry
-        if old is None or "listed" not in changes:
+        if old is None or changes.get("listed") is None:
             return super().replace(**changes)
         data = {name: value for name, value in self.as_data().items() if name != "listed"}
         return self.from_data(without(data, old.fields) | changes)
