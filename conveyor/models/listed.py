@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import StringConstraints, model_validator
+from pydantic import GetJsonSchemaHandler, StringConstraints, model_validator
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from conveyor import libraries
 from conveyor.errors import InputError
@@ -31,6 +33,21 @@ class Listed(Model):
             refuse(cls.__name__, [Problem(("listed",), str(error))])
             raise
         return merged(entry.fields, data)
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Ask for what an entry may give only where none is named."""
+        described = handler.resolve_ref_schema(handler(schema))
+        known = {name for entry in libraries.entries(cls.library).values() for name in entry.fields}
+        needed: list[str] = described.get("required", [])
+        described["required"] = [name for name in needed if name not in known]
+        described["anyOf"] = [
+            {"required": ["listed"]},
+            {"required": [name for name in needed if name in known]},
+        ]
+        return described
 
     @property
     def entry(self) -> libraries.Entry | None:

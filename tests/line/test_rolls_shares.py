@@ -1,0 +1,200 @@
+"""Shares of the rolls in the bulk: by rule, by cross-section at the filling, as given; and along the roll."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.errors import InputError
+from conveyor.loading import cross_section, filled_width, middle_share_by_area, surcharge_from_slope
+from conveyor.set_loads import SetLoads
+from conveyor.stretches import stretches
+from conveyor.units import quantity, si
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+TROUGH = {"middle_roll_length": 0.465, "trough_angle": math.radians(35), "surcharge_angle": math.radians(20)}
+
+
+@pytest.fixture(scope="module")
+def line():
+    return conveyor.load(SPECS / "overland.yaml")
+
+
+def with_carry(line, **changes):
+    return line.replace(idlers=line.idlers.replace(carry=line.idlers.carry.replace(**changes)))
+
+
+def loads_of(line, section=1):
+    return stretches(line)[section].loads
+
+
+def middle_share(loads):
+    return loads[1].bulk_force / math.fsum(load.bulk_force for load in loads)
+
+
+@pytest.mark.parametrize("width", [0.01, 0.3, 0.465, 0.47, 0.8, 1.03, 1.2])
+def test_filled_width_is_the_inverse_of_the_cross_section(width):
+    middle = min(width, TROUGH["middle_roll_length"])
+    area = cross_section(width, **TROUGH | {"middle_roll_length": middle}).area
+    assert filled_width(area, **TROUGH) == pytest.approx(width, rel=1e-13)
+
+
+def test_filled_width_of_a_v_without_a_heap():
+    # two triangles: A = (b/2)² cos λ sin λ
+    width = filled_width(0.02, middle_roll_length=0.0, trough_angle=0.5, surcharge_angle=0.0)
+    assert width == pytest.approx(2.0 * math.sqrt(0.02 / (math.cos(0.5) * math.sin(0.5))), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"area": 0.0}, r"area = 0\.0"),
+        ({"middle_roll_length": -1.0}, r"middle_roll_length = -1\.0"),
+        ({"trough_angle": 2.0}, r"trough_angle = 2\.0"),
+        ({"trough_angle": 0.0, "surcharge_angle": 0.0}, r"a flat belt carries a heap only"),
+    ],
+)
+def test_filled_width_refuses(change, message):
+    given = TROUGH | {"area": 0.1} | change
+    with pytest.raises(InputError, match=message):
+        filled_width(given.pop("area"), **given)
+
+
+def test_vdi_2341_is_the_default(line):
+    assert middle_share(loads_of(line)) == pytest.approx(0.5 + 0.005 * 45.0, rel=1e-12)
+
+
+def test_by_cross_section_the_share_is_that_of_the_area_at_the_filling(line):
+    made = with_carry(line, share_rule="cross-section")
+    loads = loads_of(made)
+    area = si(line.material.flow) / si(line.belt.speed) / si(line.material.density)
+    trough = TROUGH | {"trough_angle": math.radians(45)}
+    width = filled_width(area, **trough)
+    assert middle_share(loads) == pytest.approx(middle_share_by_area(width, **trough), rel=1e-12)
+    assert loads[0].bulk_force == loads[2].bulk_force
+    before = math.fsum(load.force for load in loads_of(line))
+    assert math.fsum(load.force for load in loads) == pytest.approx(before, rel=1e-12)
+
+
+def test_a_small_flow_lies_on_the_middle_roll_alone(line):
+    little = line.replace(material=line.material.replace(flow="40 t/h"))
+    loads = loads_of(with_carry(little, share_rule="cross-section"))
+    assert middle_share(loads) == 1.0
+    empty = line.replace(material=line.material.replace(flow="0 t/h"))
+    assert all(load.bulk_force == 0.0 for load in loads_of(with_carry(empty, share_rule="cross-section")))
+
+
+def test_the_share_falls_as_the_trough_fills(line):
+    shares = []
+    for flow in ("500 t/h", "1000 t/h", "1800 t/h", "2400 t/h"):
+        made = line.replace(material=line.material.replace(flow=flow))
+        shares.append(middle_share(loads_of(with_carry(made, share_rule="cross-section"))))
+    assert shares == sorted(shares, reverse=True)
+    assert shares[-1] < shares[0]
+
+
+def test_the_conventions_of_the_heap_hold_the_same_bulk(line):
+    slope = math.atan(2.0 / 3.0 * math.tan(math.radians(20.0)))
+    din = line.material.replace(surcharge_convention="DIN 22101", surcharge_angle=f"{slope!r} rad")
+    assert din.surcharge == pytest.approx(math.radians(20.0), rel=1e-14)
+    assert surcharge_from_slope(slope) == din.surcharge
+    other = line.replace(material=din)
+    assert conveyor.analyse(other).balance.forces.total == conveyor.analyse(line).balance.forces.total
+    # by area the same width is covered; the triangle has more of its heap over the middle
+    iso = SetLoads(with_carry(line, share_rule="cross-section"), line.idlers.carry)
+    triangle = SetLoads(with_carry(other, share_rule="cross-section"), line.idlers.carry)
+    assert triangle.covered(100.0) == pytest.approx(iso.covered(100.0), rel=1e-13)
+    by_din = middle_share(loads_of(with_carry(other, share_rule="cross-section")))
+    by_iso = middle_share(loads_of(with_carry(line, share_rule="cross-section")))
+    assert by_din > by_iso
+    assert by_din == pytest.approx(by_iso, rel=0.05)  # they differ in the heap's top only
+
+
+def test_as_din_slope_the_same_angle_holds_more(line):
+    steep = line.material.replace(surcharge_convention="DIN 22101")
+    more = with_carry(line.replace(material=steep), share_rule="cross-section")
+    assert SetLoads(more, more.idlers.carry).covered(100.0) < SetLoads(line, line.idlers.carry).covered(100.0)
+
+
+def test_an_even_load_on_the_wings_keeps_the_force_and_lowers_the_peak(line):
+    even, falling = loads_of(with_carry(line, wing_load="uniform")), loads_of(line)
+    for one, other in zip(even, falling, strict=True):
+        assert one.force == other.force
+    assert even[0].peak_line_load < falling[0].peak_line_load
+    assert even[0].peak_line_load == pytest.approx(even[0].force / even[0].length, rel=1e-14)
+    # indentation grows like w^(4/3): an even load loses less
+    saved = conveyor.analyse(with_carry(line, wing_load="uniform")).balance.forces.indentation
+    assert saved < conveyor.analyse(line).balance.forces.indentation
+
+
+def test_an_offset_changes_no_load_and_says_so(line):
+    made = conveyor.analyse(with_carry(line, offset="150 mm"))
+    assert made.balance.forces == conveyor.analyse(line).balance.forces
+    assert any(
+        "idlers.carry.offset: the loads of the rolls are those of a set in one plane" in w
+        for w in made.warnings
+    )
+
+
+def test_five_rolls_with_their_shares(line):
+    shares = ["5 %", "15 %", "60 %", "15 %", "5 %"]
+    roll = line.idlers.carry.roll.replace(length="300 mm")
+    made = with_carry(line, rolls=5, roll=roll, load_shares=shares)
+    loads = loads_of(made)
+    total = math.fsum(load.bulk_force for load in loads)
+    assert [load.bulk_force / total for load in loads] == pytest.approx(
+        [0.05, 0.15, 0.6, 0.15, 0.05], rel=1e-12
+    )
+    assert len(stretches(made)[1].drags) == 5
+    with pytest.raises(InputError, match="not known for sets of 5 rolls"):
+        SetLoads(made, made.idlers.carry).covered(100.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            {"share_rule": "cross-section", "load_shares": ["20 %", "60 %", "20 %"]},
+            r'share_rule: got "cross-section" beside load_shares; give one of the two',
+        ),
+        ({"offset": "1.6 m"}, r"offset: got 1\.6 m, but the sets are 1\.5 m apart"),
+        (
+            {
+                "offset": "0.1 m",
+                "rolls": 2,
+                "roll": {"diameter": "159 mm", "length": "670 mm", "rotating_mass": "6 kg"},
+            },
+            r"offset: got 0\.1 m, but rolls: 2 has no middle ones; remove it",
+        ),
+    ],
+)
+def test_contradictions_are_refused(line, changes, message):
+    with pytest.raises(InputError, match=message):
+        with_carry(line, **changes)
+
+
+def test_the_assumptions_name_the_rule(line):
+    def told(made):
+        return next(a for a in conveyor.analyse(made).assumptions if a.startswith("Load shares"))
+
+    assert (
+        told(line)
+        == "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones."
+    )
+    by_area = with_carry(line, share_rule="cross-section")
+    assert "area of bulk above each roll at the section's filling, the heap a parabola (ISO 5048)" in told(
+        by_area
+    )
+    given = with_carry(line, load_shares=["20 %", "60 %", "20 %"])
+    assert "after the spec (idlers.carry.load_shares)" in told(given)
+
+
+def test_spacings_beyond_practice_are_warned_of(line):
+    wide = with_carry(line, spacing=quantity("3.5 m"))
+    told = conveyor.analyse(wide).warnings
+    assert any(
+        "idlers.carry: sets 3.5 m apart, the widest in use on overland conveyors are 3 m" in w for w in told
+    )
