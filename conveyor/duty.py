@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from conveyor.cases import mains_power, shaft_power, with_case, with_temperature
+from conveyor.cases import mains_power, shaft_power
 from conveyor.curved import Run
 from conveyor.energy_laws import Duty, DutyStep, duty_cost, duty_emission, duty_specific_energy, duty_sums
 from conveyor.errors import InputError, NoSolutionError
@@ -14,6 +14,7 @@ from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.power import JOULE_PER_KWH
 from conveyor.scenes import Scene, runs
 from conveyor.units import quantity, si, text
+from conveyor.variants import with_case, with_temperature
 
 if TYPE_CHECKING:
     import pandas as pd

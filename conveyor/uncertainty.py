@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
-from conveyor.cases import scaled, shaft_power, with_temperature
+from conveyor.cases import shaft_power
 from conveyor.curved import Run
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
@@ -26,6 +26,7 @@ from conveyor.rubber import PronySeries
 from conveyor.scenes import NoAnswer, Scene, runs
 from conveyor.stretches import Strand
 from conveyor.units import Quantity, display, from_si, si, text
+from conveyor.variants import scaled, with_temperature
 
 if TYPE_CHECKING:
     import pandas as pd

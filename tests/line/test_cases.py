@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor.cases import CaseStudy, analyse_cases, mains_power, shaft_power, with_case, with_temperature
+from conveyor.cases import CaseStudy, analyse_cases, mains_power, shaft_power
 from conveyor.energy_laws import MOTOR_SERIES
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, LoadCase, standard_cases
@@ -18,6 +18,7 @@ from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.report import case_tables
 from conveyor.scenes import Scene, runs
 from conveyor.units import quantity, si
+from conveyor.variants import with_case, with_temperature
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 RTOL = 1e-6
