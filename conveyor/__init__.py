@@ -67,6 +67,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "libraries":
+        return import_module("conveyor.libraries")
     if name in _WHERE:
         return getattr(import_module(_WHERE[name]), name)
     if name == "uncertainty":

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.balance import Balance
-from conveyor.line import StretchResult, excited_band
+from conveyor.indentation import IndentationCurve
+from conveyor.line import RollResult, StretchResult, excited_band
 from conveyor.loop_remarks import loop_warnings
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.roll_remarks import roll_assumptions, roll_warnings
 from conveyor.stretches import Strand
-from conveyor.units import display, si, text
+from conveyor.units import Quantity, display, si, text
 
 DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
 
@@ -112,16 +113,29 @@ def _contact(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator
             f'calculation.support is "{support}": a real cover is bonded to a carcass far stiffer than rubber, '
             '"confined" is meaningful for it; use this one to compare with the paper'
         )
-    covers = {"carry": conveyor.belt.bottom_cover.thickness, "return": conveyor.return_cover_thickness}
+    covers: dict[Strand, Quantity] = {
+        "carry": conveyor.belt.bottom_cover.thickness,
+        "return": conveyor.return_cover_thickness,
+    }
     for strand, thickness in covers.items():
-        deepest = max(
-            float(roll.peak.penetration) for r in results if r.stretch.strand == strand for roll in r.rolls
-        ) / si(thickness)
+        deepest = _deepest(results, strand) / si(thickness)
         if deepest > DEEP:
             yield (
                 f"{strand} rolls press in by {deepest:.0%} of the cover ({text(thickness)}): "
                 "beyond small strain, the linear law is strained"
             )
+
+
+def _deepest(results: tuple[StretchResult, ...], strand: Strand) -> float:
+    """Largest penetration of a strand's rolls [m]: of each contact at its highest load, the depth grows with it."""
+    highest: dict[IndentationCurve, RollResult] = {}
+    for r in results:
+        if r.stretch.strand == strand:
+            for roll in r.rolls:
+                known = highest.setdefault(roll.curve, roll)
+                if roll.load.peak_line_load > known.load.peak_line_load:
+                    highest[roll.curve] = roll
+    return max(float(roll.peak.penetration) for roll in highest.values())
 
 
 def _left_out(conveyor: Conveyor) -> Iterator[str]:

@@ -203,10 +203,15 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[str]:
 
 def _life_warnings(results: tuple[StretchResult, ...]) -> Iterator[str]:
     shortest: dict[Strand, tuple[float, str, str]] = {}
+    seen: set[tuple[Strand, int, float, float]] = set()
     for r in results:
         if all(roll.bearing is None for _, roll in _rolls(r.stretch.idlers)):
             continue
         for place, load in enumerate(r.stretch.loads):
+            key = (r.stretch.strand, place, load.bulk_force, load.belt_force)
+            if key in seen:
+                continue
+            seen.add(key)
             life = roll_life(r.stretch, place, r.rolls[place].curve.contact.speed)
             if life is not None:
                 found = (life.both, load.name, r.stretch.section)
