@@ -16,9 +16,10 @@ from conveyor.models.compound import (
 )
 from conveyor.models.conveyor import Ambient, Calculation, Conveyor
 from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
-from conveyor.models.idlers import Idlers, IdlerSet, Roll
+from conveyor.models.idlers import Idlers, IdlerSet
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
+from conveyor.models.rolls import Roll
 from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
 from conveyor.models.train import DrivePart
 from conveyor.models.uncertainty import Uncertainty

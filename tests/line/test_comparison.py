@@ -241,3 +241,16 @@ def test_workbook_and_figures(found, tmp_path):
         assert plots.save(figure, tmp_path / "p.svg").stat().st_size > 5000
     with pytest.raises(InputError, match=r"ends in \.png, \.svg or \.pdf"):
         plots.save(figure, tmp_path / "p.xyz")
+
+
+@pytest.mark.parametrize("spec", ["examples/specs/downhill_brakes.yaml", "examples/specs/in_plant_us.yaml"])
+def test_curves_and_regeneration_are_those_of_the_analysis(spec):
+    line = conveyor.load(spec)
+    name = line.carry_compound.name
+    (one,) = compare_compounds(line, [line.carry_compound], cover="bottom").scenes
+    alone = conveyor.analyse(line)
+    assert one.compound == name
+    # tensions in the curves are iterated to the tolerance of the contacts
+    assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=3e-4)
+    assert one.motor == pytest.approx(alone.balance.power.motor, rel=3e-4)
+    assert one.largest_tension == pytest.approx(alone.balance.tensions.largest, rel=3e-4)
