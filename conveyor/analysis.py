@@ -150,6 +150,13 @@ class Analysis:
                 "total_N": self.balance.classical.total,
                 "motor_kW": self.balance.classical.motor / 1e3,
             },
+            "cema": None
+            if self.balance.cema is None
+            else {
+                "friction_factor": self.balance.cema.friction_factor,
+                "total_N": self.balance.cema.total,
+                "motor_kW": self.balance.cema.motor / 1e3,
+            },
             "rubber": [
                 {
                     "strand": row["strand"],

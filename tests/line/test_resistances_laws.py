@@ -184,6 +184,10 @@ def test_cema_stands_beside_only_where_its_factors_are_given(line, result):
     table = tables.comparison(found.balance)["CEMA classic, given Ky"]
     parts = table["main [N]"] + table["secondary [N]"] + table["special [N]"] + table["lift [N]"]
     assert table["effective tension [N]"] == pytest.approx(parts, rel=1e-12)
+    told = found.to_dict()["cema"]
+    assert told["total_N"] == table["effective tension [N]"]
+    assert told["motor_kW"] == table["motor power [kW]"]
+    assert result.to_dict()["cema"] is None
     assert any("CEMA classic form: formulas as commonly reproduced" in w for w in found.warnings)
 
 
