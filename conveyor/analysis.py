@@ -18,6 +18,8 @@ from conveyor.starting import Motions, motions
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.studies import Studies
+
 
 def analyse(conveyor: Conveyor) -> Analysis:
     """Calculate a conveyor.
@@ -190,8 +192,8 @@ class Analysis:
             "warnings": list(self.warnings),
         }
 
-    def to_excel(self, path: str | Path) -> Path:
-        """Write the workbook.
+    def to_excel(self, path: str | Path, studies: Studies | None = None) -> Path:
+        """Write the workbook, with the sheets of `conveyor.studies` where they are given.
 
         Raises
         ------
@@ -200,7 +202,7 @@ class Analysis:
         """
         from conveyor.report.excel import write
 
-        return write(self, Path(path))
+        return write(self, Path(path), studies)
 
 
 def _drives(found: Balance) -> list[dict[str, Any]]:

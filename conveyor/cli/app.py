@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,6 +13,10 @@ from typing import Annotated, Any
 import typer
 
 from conveyor.errors import ConveyorError, InputError
+
+# matrices here are small: more BLAS threads than one cost time, and a lot of it on a busy machine
+for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_threads, "1")
 
 app = typer.Typer(
     name="conveyor",

@@ -12,6 +12,7 @@ from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
+    from conveyor.studies import Studies
 
 
 @app.command()
@@ -27,13 +28,17 @@ def power(
     Example: conveyor power examples/specs/overland.yaml -o overland.xlsx
     """
     import conveyor
+    from conveyor.studies import studies
 
-    result = conveyor.analyse(conveyor.load(spec, shelves=shelf or ()))
-    written = None if output is None else result.to_excel(output)
+    line = conveyor.load(spec, shelves=shelf or ())
+    result, asked = conveyor.analyse(line), studies(line)
+    written = None if output is None else result.to_excel(output, asked)
     if as_json:
-        print(json.dumps(result.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
+        found = result.to_dict() | asked.to_dict()
+        print(json.dumps(found, indent=2, allow_nan=False, ensure_ascii=False))
     elif not quiet:
         _print_power(result)
+        _print_studies(asked)
         if written is not None:
             print(f"\nworkbook: {written}")
 
@@ -82,3 +87,32 @@ def _print_power(result: Analysis) -> None:
     console.print(f"relative error of the contact solutions: at most {result.error_estimate:.0e}")
     for warning in result.warnings:
         console.print(f"[yellow]note:[/] {escape(warning)}")
+
+
+def _print_studies(asked: Studies) -> None:
+    """The figures of load cases, year and ranges that a designer looks for first."""
+    from rich.console import Console
+    from rich.markup import escape
+
+    from conveyor.report import case_tables
+
+    console = Console(highlight=False)
+    if asked.cases is not None:
+        console.print("\n[bold]load cases[/]")
+        for row in case_tables.governing(asked.cases).to_dict("records"):
+            at = f"{row['temperature [degC]']:g} °C, {row['belt speed [m/s]']:g} m/s"
+            console.print(
+                f"  {row['figure']}: {row['value']:,.0f} {row['unit']} [dim]({escape(str(row['case']))}, {at})[/]"
+            )
+    if asked.duty is not None:
+        console.print("\n[bold]year[/]")
+        for name, value in case_tables.year(asked.duty).items():
+            shown = f"{value:,.4f}" if abs(value) < 1.0 else f"{value:,.0f}"
+            console.print(f"  {escape(str(name))}: {shown}")
+    if asked.uncertainty is not None:
+        low, high = (figure / 1e3 for figure in asked.uncertainty.band)
+        first = ", ".join(escape(effect.name) for effect in asked.uncertainty.effects[:3])
+        console.print(
+            f"\n[bold]motor power[/] {low:,.0f} to {high:,.0f} kW in nine tenths of the ranges; "
+            f"what matters first: {first}"
+        )

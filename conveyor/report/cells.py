@@ -40,7 +40,11 @@ _HIGHEST = 409.0
 _FORMATS = (
     (r"error", "0.0E+00"),
     (r"^transit", "#,##0"),
+    (r"^(time|stopping time).*\[s\]", "#,##0.0"),
     (r"\[(s|Hz)\]", "0.00E+00"),
+    (r"\[(kg|t)\]", "#,##0"),
+    (r"\[m/s²\]", "0.000"),
+    (r"^value$", "#,##0.0"),
     (r"share|penetration of cover|against base|working strain", "0.0%"),
     (r"^payback", "0.0"),
     (r"factor of strain", "0.000"),
@@ -123,7 +127,7 @@ def table(
     names = [str(name) for name in frame.columns]
     formats = [number_format(str(name)) for name in frame[by_row]] if by_row else []
     for j, name in enumerate(names, start=column):
-        values = frame[name].tolist()
+        values = [_worded(value) for value in frame[name].tolist()]
         _head(sheet.cell(row, j), name, right=not all(v is None or isinstance(v, str) for v in values))
         longest = _two_lines(name) + 3
         for i, value in enumerate(values):
@@ -145,6 +149,11 @@ def table(
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
     return row + len(frame)
+
+
+def _worded(value: Any) -> Any:
+    """Yes and no in words, all else as it is."""
+    return {True: "yes", False: "NO"}[value] if isinstance(value, bool) else value
 
 
 def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:

@@ -98,6 +98,18 @@ def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     return chart
 
 
+def profile(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
+    """Height over the horizontal distance from the tail (columns 3, 4)."""
+    chart = _scatter("Profile of the route", "horizontal distance from the tail [m]", "height [m]")
+    across = Reference(sheet, min_col=3, min_row=header + 1, max_row=last)
+    _line(chart, Reference(sheet, min_col=4, min_row=header, max_row=last), across)
+    chart.legend = None
+    chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "#,##0"
+    chart.x_axis.tickLblPos = "low"
+    chart.y_axis.crosses = "min"
+    return chart
+
+
 def indentation(sheet: Worksheet, frame: pd.DataFrame, *, header: int) -> ScatterChart:
     """Indentation against line load, a curve for each block of rows (columns 2, 3)."""
     chart = _scatter("Indentation against line load", "line load [N/m]", "indentation [N/m]")

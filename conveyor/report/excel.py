@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
 from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
@@ -11,14 +12,16 @@ from typing import TYPE_CHECKING
 from uuid import uuid4
 
 from openpyxl import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
-from conveyor.report import comparing_sheets, sheets
+from conveyor.report import comparing_sheets, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.comparison import Comparison
+    from conveyor.studies import Studies
 
 SHEETS = {
     "Summary": sheets.summary,
@@ -27,6 +30,8 @@ SHEETS = {
     "Resistances": sheets.resistances,
     "Rolls": sheets.rolls,
     "Tensions": sheets.tensions,
+    "States": study_sheets.states,
+    "Loop": study_sheets.loop,
     "Indentation": sheets.indentation,
     "Rubber": sheets.rubber,
     "Checks and notes": sheets.notes,
@@ -41,13 +46,15 @@ COMPARISON_SHEETS = {
 }
 
 
-def write(analysis: Analysis, path: Path) -> Path:
+def write(analysis: Analysis, path: Path, studies: Studies | None = None) -> Path:
     """Write the workbook of an analysis: under a temporary name beside it first, then renamed.
 
     Parameters
     ----------
     analysis : Analysis
         What to report.
+    studies : Studies, optional
+        Load cases, duty and uncertainty, one sheet each.
     path : Path
         Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced.
 
@@ -62,7 +69,7 @@ def write(analysis: Analysis, path: Path) -> Path:
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    return _saved(path, lambda: build(analysis))
+    return _saved(path, lambda: build(analysis, studies))
 
 
 def write_comparison(comparison: Comparison, path: Path) -> Path:
@@ -98,28 +105,34 @@ def _saved(path: Path, made: Callable[[], Workbook]) -> Path:
     return path
 
 
-def build(analysis: Analysis) -> Workbook:
-    """Workbook of an analysis, not yet saved."""
+def build(analysis: Analysis, studies: Studies | None = None) -> Workbook:
+    """Workbook of an analysis and of the studies its spec asks for, not yet saved."""
+    fills: dict[str, Callable[[Worksheet], None]] = {
+        title: partial(fill, analysis=analysis) for title, fill in SHEETS.items()
+    }
+    last = fills.popitem()
+    if studies is not None and studies.cases is not None:
+        fills["Load cases"] = partial(study_sheets.cases, study=studies.cases)
+    if studies is not None and studies.duty is not None:
+        fills["Duty"] = partial(study_sheets.duty, study=studies.duty)
+    if studies is not None and studies.uncertainty is not None:
+        fills["Uncertainty"] = partial(study_sheets.uncertainty, study=studies.uncertainty)
+    return _book(analysis.conveyor.name, fills | dict([last]))
+
+
+def _book(name: str, fills: Mapping[str, Callable[[Worksheet], None]]) -> Workbook:
     book = Workbook()
     book.remove(book.worksheets[0])
-    book.properties.title = legible(analysis.conveyor.name)
+    book.properties.title = legible(name)
     book.properties.creator = f"conveyor {version('conveyor')}"
-    for title, fill in SHEETS.items():
+    for title, fill in fills.items():
         sheet = book.create_sheet(title)
-        fill(sheet, analysis)
-        print_set_up(sheet, analysis.conveyor.name)
+        fill(sheet)
+        print_set_up(sheet, name)
     return book
 
 
 def build_comparison(comparison: Comparison) -> Workbook:
     """Workbook of a comparison, not yet saved."""
-    book = Workbook()
-    book.remove(book.worksheets[0])
-    name = comparison.conveyor.name
-    book.properties.title = legible(name)
-    book.properties.creator = f"conveyor {version('conveyor')}"
-    for title, fill in COMPARISON_SHEETS.items():
-        sheet = book.create_sheet(title)
-        fill(sheet, comparison)
-        print_set_up(sheet, name)
-    return book
+    fills = {title: partial(fill, comparison=comparison) for title, fill in COMPARISON_SHEETS.items()}
+    return _book(comparison.conveyor.name, fills)

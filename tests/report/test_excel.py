@@ -21,7 +21,8 @@ from conveyor.report.cells import LONGEST
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
 SHEETS = [
-    "Summary", "Inputs", "Sections", "Resistances", "Rolls", "Tensions", "Indentation", "Rubber", "Checks and notes",
+    "Summary", "Inputs", "Sections", "Resistances", "Rolls", "Tensions", "States", "Loop",
+    "Indentation", "Rubber", "Checks and notes",
 ]  # fmt: skip
 
 
@@ -75,8 +76,8 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book):
                     assert all(isinstance(cell.value, int | float) for row in block for cell in row)
                     count += 1
     assert count == 1 + 2 * (
-        2 + 2 + 2 * 2
-    )  # bars; x and y of 2 tensions, 2 contacts, 2 moduli of 2 compounds
+        2 + 1 + 2 + 2 * 2
+    )  # bars; x and y of 2 tensions, the profile, 2 contacts, 2 moduli of 2 compounds
 
 
 def test_indentation_curves_of_the_chart_are_single_contacts(book, overland):
