@@ -10,6 +10,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from ruamel.yaml import YAML
+
+import conveyor
+import conveyor.spec
+from conveyor.studies import studies
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted((ROOT / "docs").glob("*.md"))
@@ -53,3 +58,29 @@ def test_links_and_pictures_exist(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+?)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
         if not target.startswith(("http://", "https://")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def fragments() -> list[str]:
+    text = (ROOT / "docs" / "conveyor.md").read_text(encoding="utf-8")
+    return re.findall(r"```yaml\n(.*?)```", text, flags=re.DOTALL)
+
+
+def merged(base: object, other: object) -> object:
+    if isinstance(base, dict) and isinstance(other, dict):
+        return base | {key: merged(base.get(key), value) for key, value in other.items()}
+    return other
+
+
+@pytest.mark.parametrize("number", range(len(fragments())))
+def test_fragment_of_the_designers_page(number: int) -> None:
+    overland = YAML(typ="safe").load(
+        (ROOT / "examples" / "specs" / "overland.yaml").read_text(encoding="utf-8")
+    )
+    spec = merged(overland, YAML(typ="safe").load(fragments()[number]))
+    line = conveyor.spec.from_data(spec)
+    assert conveyor.analyse(line).balance.power.motor > 0.0
+    studies(line)
+
+
+def test_the_designers_page_has_its_fragments() -> None:
+    assert len(fragments()) == 6
