@@ -175,7 +175,9 @@ def test_examples_with_tables(name):
     for figure in (plots.route_profile(made), plots.tension_diagram(found, moving)):
         assert figure.axes[0].lines
     lines = {line.get_label(): line for line in plots.tension_diagram(found, moving).axes[0].lines}
-    assert 1e3 * lines["steady"].get_ydata()[1:-1] == pytest.approx(states["steady [N]"].to_numpy(), rel=1e-12)
+    assert 1e3 * lines["steady"].get_ydata()[1:-1] == pytest.approx(
+        states["steady [N]"].to_numpy(), rel=1e-12
+    )
     told = done.to_dict()
     assert math.fsum(d["force_N"] for d in told["drives"]) == pytest.approx(
         told["forces_N"]["total"], rel=1e-12
