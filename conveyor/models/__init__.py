@@ -3,17 +3,7 @@
 from conveyor.models.base import Model
 from conveyor.models.belt import Belt, Carcass, Cover, TopCover
 from conveyor.models.cases import LoadCase, standard_cases
-from conveyor.models.compound import (
-    ArrheniusShift,
-    FitStatistics,
-    MeasuredRange,
-    Prony,
-    PronyTerm,
-    RubberCompound,
-    Source,
-    TableShift,
-    WLFShift,
-)
+from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Ambient, Calculation, Conveyor
 from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.idlers import Idlers, IdlerSet
@@ -21,12 +11,25 @@ from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
 from conveyor.models.rolls import Roll
 from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
+from conveyor.models.rubber_data import (
+    ArrheniusShift,
+    Band,
+    FitStatistics,
+    MeasuredRange,
+    Prony,
+    PronyTerm,
+    Source,
+    StrainDependence,
+    TableShift,
+    WLFShift,
+)
 from conveyor.models.train import DrivePart
 from conveyor.models.uncertainty import Uncertainty
 
 __all__ = [
     "Ambient",
     "ArrheniusShift",
+    "Band",
     "Belt",
     "BulkMaterial",
     "Calculation",
@@ -57,6 +60,7 @@ __all__ = [
     "RubberCompound",
     "Section",
     "Source",
+    "StrainDependence",
     "TableShift",
     "TakeUp",
     "TopCover",
