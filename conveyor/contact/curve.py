@@ -21,7 +21,7 @@ from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relati
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.excitation import excited_harmonics
 from conveyor.contact.fields import peak
-from conveyor.contact.lobatto import coefficients, interpolated, points
+from conveyor.contact.lobatto import coefficients, interpolated, points, weave, woven
 from conveyor.contact.narrow import LOW_ORDER_FROM, places, shared_rules
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import ContactProblem, Status
@@ -358,7 +358,7 @@ class _Sampler:
             raise NoSolutionError(Status.WRAP_LIMIT.message)
         if before is None:
             return _Sampled(contact, matrix)
-        return _Sampled(_woven(before.contact, contact), _weave(before.matrix, matrix))
+        return _Sampled(woven(before.contact, contact), weave(before.matrix, matrix))
 
     def judge(self, sampled: _Sampled, rtol: float) -> tuple[float, float, Sign]:
         """Largest error by order and energy, largest energy error (infinite where not yet asked), worst sign."""
@@ -385,20 +385,3 @@ def _general_ends(problem: ContactProblem, lowest: float, highest: float) -> Arr
             "the roll for a load curve, solve such loads one by one"
         )
     return np.array([s.half_width * problem.rho for s in ends])
-
-
-def _weave(even: Array, odd: Array) -> Array:
-    out = np.empty((even.shape[0] + odd.shape[0], *even.shape[1:]))
-    out[::2], out[1::2] = even, odd
-    return out
-
-
-def _woven(even: Contact, odd: Contact) -> Contact:
-    return Contact(
-        alpha=_weave(even.alpha, odd.alpha),
-        eps=_weave(even.eps, odd.eps),
-        c=_weave(even.c, odd.c),
-        pressure=_weave(even.pressure, odd.pressure),
-        friction=_weave(even.friction, odd.friction),
-        inside=even.inside.all() & np.ones(even.alpha.size + odd.alpha.size, dtype=bool),
-    )

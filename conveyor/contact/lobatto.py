@@ -64,3 +64,22 @@ def interpolated(contact: Contact, rho: Array | float, degree: int) -> tuple[Arr
     smallest = np.maximum(np.abs(drag).min(axis=1), np.finfo(float).tiny)
     missed: Array = (miss[..., 0] + miss[..., 1] / smallest[:, None]).max(axis=1)
     return coefficients(values), missed
+
+
+def weave(even: Array, odd: Array) -> Array:
+    """Values at the points of a degree from those of half of it and those between."""
+    out = np.empty((even.shape[0] + odd.shape[0], *even.shape[1:]))
+    out[::2], out[1::2] = even, odd
+    return out
+
+
+def woven(even: Contact, odd: Contact) -> Contact:
+    """The same of contacts."""
+    return Contact(
+        alpha=weave(even.alpha, odd.alpha),
+        eps=weave(even.eps, odd.eps),
+        c=weave(even.c, odd.c),
+        pressure=weave(even.pressure, odd.pressure),
+        friction=weave(even.friction, odd.friction),
+        inside=even.inside.all() & np.ones(even.alpha.size + odd.alpha.size, dtype=bool),
+    )
