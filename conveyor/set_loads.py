@@ -103,10 +103,10 @@ class SetLoads:
         Raises
         ------
         InputError
-            Sets of 5 rolls.
+            Sets of 4 or 5 rolls.
         """
-        if self.idlers.rolls == 5:
-            raise InputError("the width under the bulk is not known for sets of 5 rolls")
+        if self.idlers.rolls in {4, 5}:
+            raise InputError(f"the width under the bulk is not known for sets of {self.idlers.rolls} rolls")
         if flow_mass == 0.0:
             return 0.0
         flat = self.idlers.rolls == 1

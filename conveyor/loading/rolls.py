@@ -29,6 +29,7 @@ _ROLE_NAMES: Final = {
     1: ("flat",),
     2: ("left", "right"),
     3: ("left wing", "middle", "right wing"),
+    4: ("left wing", "left inner", "right inner", "right wing"),
     5: ("left outer wing", "left inner wing", "middle", "right inner wing", "right outer wing"),
 }
 
@@ -200,7 +201,8 @@ def _checked_shares(name: str, shares: tuple[float, ...], n_rolls: int) -> tuple
 def _bulk_shares(n_rolls: int, trough_angle: float, given: tuple[float, ...] | None) -> tuple[float, ...]:
     if given is not None:
         return _checked_shares("bulk_shares", given, n_rolls)
-    require(n_rolls != 5, "bulk_shares", given, "a set of 5 rolls has no rule in VDI 2341, give the 5 shares")
+    advice = f"a set of {n_rolls} rolls has no rule in VDI 2341, give the {n_rolls} shares"
+    require(n_rolls not in {4, 5}, "bulk_shares", given, advice)
     if n_rolls == 3:
         return _symmetric(middle_share_bulk(trough_angle))
     return (1.0 / n_rolls,) * n_rolls
@@ -242,7 +244,7 @@ def roll_loads(
     spacing : float
         Distance of the sets, a [m], positive.
     n_rolls : int
-        Rolls of a set [-]: 1, 2, 3 or 5, of equal length.
+        Rolls of a set [-]: 1 to 5, of equal length.
     trough_angle : float
         λ of the outer rolls [rad], from 0 to below pi/2; not used for 1 roll or given shares.
     roll_length : float
@@ -254,7 +256,7 @@ def roll_loads(
     gravity : float
         g [m/s²], positive.
     bulk_shares : tuple of float, optional
-        Share of each roll in the bulk's weight [-], from left to right, sum 1. Needed for 5 rolls; else
+        Share of each roll in the bulk's weight [-], from left to right, sum 1. Needed for 4 and 5 rolls; else
         VDI 2341: flat 1; two rolls 0.5 each; three rolls 0.5 + 0.005 λ[deg] on the middle one.
     belt_shares : tuple of float, optional
         The same for the belt's own weight [-]. Default: three rolls (l_M + 20 mm)/B on the middle one
@@ -296,7 +298,7 @@ def roll_loads(
     >>> [(r.name, round(r.force, 2)) for r in loads]
     [('left wing', 312.27), ('middle', 1135.84), ('right wing', 312.27)]
     """
-    require(n_rolls in _ROLE_NAMES, "n_rolls", n_rolls, "1, 2, 3 or 5 rolls are needed")
+    require(n_rolls in _ROLE_NAMES, "n_rolls", n_rolls, "1 to 5 rolls are needed")
     known = outer_shape in {"triangular", "uniform"}
     require(known, "outer_shape", outer_shape, "one of triangular, uniform is needed")
     require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass)

@@ -66,9 +66,9 @@ def _like(length: float, idlers: IdlerSet) -> str:
 
 
 def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
-    """The bulk fits the trough (ISO 5048); 5 rolls have no rule there and are not checked."""
+    """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
     carry, belt, material = conveyor.idlers.carry, conveyor.belt, conveyor.material
-    if carry.rolls == 5 or si(material.flow) == 0.0:
+    if carry.rolls in {4, 5} or si(material.flow) == 0.0:
         return
     across = usable_width(si(belt.width))
     inner = {1: across, 2: 0.0, 3: min(si(carry.roll.length), across)}[carry.rolls]
@@ -184,10 +184,10 @@ def _drives_placed(conveyor: Conveyor) -> Iterator[Problem]:
 def _flexure_applies(conveyor: Conveyor) -> Iterator[Problem]:
     """The law of the bulk's flexure knows troughs of up to 3 rolls only; so does the width under the bulk."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
-    if flexure is not None and flexure.bulk is not None and rolls == 5:
+    if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
         yield Problem(
             ("calculation", "flexure", "bulk"),
-            "given, but the wings of 5 rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
+            f"given, but the wings of {rolls} rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
         )
 
 

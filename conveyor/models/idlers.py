@@ -21,7 +21,7 @@ Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
 class IdlerSet(Model):
     """The rolls of one station, repeated at a spacing."""
 
-    rolls: Literal[1, 2, 3, 5]
+    rolls: Literal[1, 2, 3, 4, 5]
     """Rolls side by side."""
     spacing: Spacing
     """Distance of the sets along the belt."""
@@ -31,7 +31,7 @@ class IdlerSet(Model):
     middle_roll: Roll | None = None
     """The middle roll of 3 or 5, where it differs (its length may not)."""
     load_shares: tuple[Share, ...] | None = None
-    """Share of each roll in the bulk's load, left to right; else by VDI 2341. Needed for 5 rolls."""
+    """Share of each roll in the bulk's load, left to right; else by VDI 2341. Needed for 4 and 5 rolls."""
     belt_shares: tuple[Share, ...] | None = None
     """The same for the belt's own weight."""
     share_rule: Literal["VDI 2341", "cross-section"] = "VDI 2341"
@@ -102,8 +102,11 @@ class IdlerSet(Model):
 
     def _share_problems(self, name: str, shares: tuple[Quantity, ...] | None) -> list[Problem]:
         if shares is None:
-            needed = self.rolls == 5 and name == "load_shares"
-            message = "missing: 5 rolls have no rule for their shares of the load, give the 5 load_shares"
+            needed = self.rolls in {4, 5} and name == "load_shares"
+            message = (
+                f"missing: {self.rolls} rolls have no rule for their shares of the load, "
+                f"give the {self.rolls} load_shares"
+            )
             return [Problem((name,), message)] if needed else []
         if len(shares) != self.rolls:
             return [

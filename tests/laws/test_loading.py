@@ -174,7 +174,7 @@ def test_fill_ratio_is_one_where_the_section_is_full():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"n_rolls": 4}, r"n_rolls = 4 is not allowed: 1, 2, 3 or 5 rolls are needed"),
+        ({"n_rolls": 6}, r"n_rolls = 6 is not allowed: 1 to 5 rolls are needed"),
         ({"bulk_line_mass": -1.0}, r"bulk_line_mass = -1\.0 is not allowed: a finite number of at least 0"),
         ({"belt_line_mass": math.nan}, r"belt_line_mass = nan is not allowed"),
         ({"spacing": 0.0}, r"spacing = 0\.0 is not allowed: a finite number greater than 0"),
@@ -232,3 +232,42 @@ def test_refusals_of_roll_loads(change, message):
 def test_refusals(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+def test_four_rolls_bear_the_shares_they_are_given():
+    shares = (0.1, 0.4, 0.4, 0.1)
+    loads = loading.roll_loads(
+        bulk_line_mass=100.0,
+        belt_line_mass=20.0,
+        spacing=1.2,
+        n_rolls=4,
+        trough_angle=math.radians(35.0),
+        roll_length=0.3,
+        belt_width=1.1,
+        inclination=0.0,
+        gravity=9.81,
+        bulk_shares=shares,
+    )
+    assert [load.name for load in loads] == ["left wing", "left inner", "right inner", "right wing"]
+    assert [load.shape for load in loads] == ["triangular", "uniform", "uniform", "triangular"]
+    assert [load.bulk_force for load in loads] == pytest.approx(
+        [share * 100.0 * 9.81 * 1.2 for share in shares]
+    )
+    assert math.fsum(load.force for load in loads) == pytest.approx(120.0 * 9.81 * 1.2)
+    # the belt by the width on each roll: outer ones reach 0.25 m to its edge
+    assert [load.length for load in loads] == pytest.approx([0.25, 0.3, 0.3, 0.25])
+
+
+def test_four_rolls_need_their_shares():
+    with pytest.raises(InputError, match="a set of 4 rolls has no rule in VDI 2341, give the 4 shares"):
+        loading.roll_loads(
+            bulk_line_mass=100.0,
+            belt_line_mass=20.0,
+            spacing=1.2,
+            n_rolls=4,
+            trough_angle=0.6,
+            roll_length=0.3,
+            belt_width=1.1,
+            inclination=0.0,
+            gravity=9.81,
+        )
