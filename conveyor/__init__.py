@@ -9,7 +9,6 @@
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
 
-__version__ = version("conveyor")
+    __version__: str
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
@@ -67,6 +66,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("importlib.metadata").version("conveyor")
     if name == "libraries":
         return import_module("conveyor.libraries")
     if name in _WHERE:

@@ -120,9 +120,7 @@ class Analysis:
     @property
     def error_estimate(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
-        from conveyor.report import tables
-
-        return tables.worst_error(self.stretches)
+        return max(roll.curve.curve.error for stretch in self.stretches for roll in stretch.rolls)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""

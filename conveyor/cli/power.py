@@ -91,6 +91,8 @@ def _print_power(result: Analysis) -> None:
 
 def _print_studies(asked: Studies) -> None:
     """The figures of load cases, year and ranges that a designer looks for first."""
+    if asked.cases is None and asked.duty is None and asked.uncertainty is None:
+        return
     from rich.console import Console
     from rich.markup import escape
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import BSpline
-from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from conveyor.rubber.arrays import FloatArray
 
@@ -65,6 +63,8 @@ def basis(x: FloatArray, spacing: float) -> Basis:
     Basis
         Splines over the range of `x`.
     """
+    from scipy.interpolate import BSpline
+
     first, last = int(np.floor(x.min() / spacing)), int(np.floor(x.max() / spacing)) + 1
     knots = spacing * np.arange(first - DEGREE, last + DEGREE + 1, dtype=np.float64)
     count = knots.size - DEGREE - 1
@@ -104,6 +104,8 @@ class Curve:
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve the penalised normal equations, right side shape `(k,)` or `(k, m)` [-]."""
+        from scipy.linalg import cho_solve_banded
+
         return np.asarray(cho_solve_banded((self.factor, True), right))
 
 
@@ -131,6 +133,8 @@ class Smoother:
 
     def curve(self, stiffness: float) -> Curve:
         """Fit at a stiffness, log10 of the factor on the penalty [-]."""
+        from scipy.linalg import cho_solve_banded, cholesky_banded
+
         splines, strength = self.splines, 10.0**stiffness
         factor = cholesky_banded(self.normal + strength * self.penalty, lower=True)
         found = cho_solve_banded((factor, True), self.right)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares, nnls
 
 from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.strain import StrainSweep
@@ -144,6 +143,8 @@ def _moduli(
     strain: FloatArray, measured: FloatArray, which: int, place: FloatArray
 ) -> tuple[tuple[float, float], FloatArray]:
     """The two moduli of one branch of the law at ln critical strain and ln m, and the relative errors left."""
+    from scipy.optimize import nnls
+
     share = _kraus_shapes(strain, math.exp(place[0]), math.exp(place[1]))[which]
     unit = float(measured.max())
     columns = np.stack([1.0 - share, share], axis=1) * (unit / measured)[:, None]
@@ -153,6 +154,8 @@ def _moduli(
 
 def _searched(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) -> FloatArray:
     """Best of several starts in ln critical strain and ln m."""
+    from scipy.optimize import least_squares
+
     middle = 0.5 * (math.log(strain[0]) + math.log(strain[-1]))
     best, least = np.zeros(2), math.inf
     for exponent in _KRAUS_STARTS:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import nnls
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
@@ -231,6 +230,8 @@ def _matrix(t: FloatArray, e: FloatArray, tau: FloatArray) -> FloatArray:
 
 def _solve(t: FloatArray, e: FloatArray, tau: FloatArray, held: float | None) -> FloatArray:
     """Moduli of least relative squares, equilibrium first, shape `(1 + m,)` [Pa]."""
+    from scipy.optimize import nnls
+
     unit = float(e.min())
     matrix = _matrix(t, e, tau) * unit
     ones = np.ones_like(t)

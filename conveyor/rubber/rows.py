@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import nnls
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
@@ -248,6 +247,8 @@ def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
     ----------
     C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23.
     """
+    from scipy.optimize import nnls
+
     unit = float(np.exp(np.mean(np.log(rows.storage))))
     matrix = rows.matrix(tau) * unit
     if held is None:

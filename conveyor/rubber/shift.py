@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import R as GAS_CONSTANT
 from scipy.constants import zero_Celsius
-from scipy.interpolate import PchipInterpolator
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
 from conveyor.rubber.prony import PronySeries
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 REFERENCE_TOLERANCE = 0.01
 """Decades by which a table may miss log10 a_T = 0 at its reference: tables are printed to 2-3 decimals,
@@ -232,6 +234,8 @@ class ShiftTable:
 
     def __post_init__(self) -> None:
         """Check, sort, freeze."""
+        from scipy.interpolate import PchipInterpolator
+
         t = positive_vector("temperatures", self.temperatures, "K")
         y = finite_vector("log10_factors", self.log10_factors, "decades")
         if t.shape != y.shape or t.size < 2:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import R as GAS_CONSTANT
-from scipy.optimize import minimize_scalar
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
@@ -81,6 +80,8 @@ def fit_wlf(
     >>> round(fit.law.c1, 4), round(fit.law.c2, 3), fit.rms < 1e-6
     (8.86, 101.6, True)
     """
+    from scipy.optimize import minimize_scalar
+
     t, y, x = _table(temperatures, log10_a_T, reference, minimum=3)
     weight = _weights(x, error)
     floor = max(0.0, -float(x.min()))

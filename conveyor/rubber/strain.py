@@ -8,13 +8,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 SAME_TEMPERATURE = 0.5
 """Sweeps this close are at one temperature, and this far beyond the last one it still counts [K]: control of a DMA."""
@@ -108,6 +111,8 @@ class StrainSweep:
         RangeError
             The sweep does not show this modulus.
         """
+        from scipy.interpolate import PchipInterpolator
+
         curve = PchipInterpolator(np.log(self.strain), self.storage - positive("storage", storage, "Pa"))
         found = np.asarray(curve.roots(extrapolate=False), dtype=np.float64)
         if found.size == 0:
@@ -129,6 +134,8 @@ class _Run:
 
     @classmethod
     def of(cls, sweep: StrainSweep, name: str, reference: float) -> _Run:
+        from scipy.interpolate import PchipInterpolator
+
         values = getattr(sweep, name)
         curve = PchipInterpolator(np.log(sweep.strain), values, extrapolate=False)
         head = values[sweep.strain <= PLATEAU_SPAN * sweep.strain[0]]

@@ -9,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
@@ -278,6 +277,8 @@ def _result(sheets: list[Sheet], t_ref: float, moduli: tuple[int, ...], placed: 
 
 def _zeroed(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
     """Values less their interpolated one at the reference, and the derivative of the former by the latter."""
+    from scipy.interpolate import PchipInterpolator
+
     at = np.flatnonzero(t == t_ref)
     if at.size:
         weights = np.eye(t.size)[at[0]]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import nnls
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray
@@ -119,6 +118,8 @@ class Penalised:
 
     def solve(self, target: FloatArray, strength: float) -> FloatArray:
         """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa]."""
+        from scipy.optimize import nnls
+
         right = self.basis.T @ (target - self.fixed)
         matrix = self._stacked(strength)
         found, _ = nnls(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
