@@ -69,7 +69,8 @@ def main(count: int) -> None:
     print(f"{scenes} scenes ({count} compounds x 15 temperatures x 10 speeds), {len(found.refused)} refused")
     print(f"{wall:.1f} s, {cpu:.1f} s of processor time: {1e3 * cpu / scenes:.2f} ms a scene")
     print(
-        f"largest error estimate {max(s.error for s in found.scenes):.1e}; ten 200x200 solves {1e3 * reference():.2f} ms"
+        f"largest error estimate {max(s.error for s in found.scenes):.1e}; "
+        f"ten 200x200 solves {1e3 * reference():.2f} ms"
     )
     start = time.perf_counter()
     _ = found.table, found.ranking
