@@ -131,7 +131,9 @@ def refit(name: str) -> Fitted:
 
 def measured_text(compound: Measured) -> str:
     found = refit(compound.name).compound.replace(description=compound.description, missing=compound.missing)
-    return dump(found, "Written by examples/02_refit_materials.py; change the data or the script, not this file.")
+    return dump(
+        found, "Written by examples/02_refit_materials.py; change the data or the script, not this file."
+    )
 
 
 def wlf_at_reference(glass: float) -> WLF:
