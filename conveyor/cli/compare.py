@@ -48,6 +48,9 @@ def compare(
     plot: Annotated[
         Path | None, typer.Option(help="Draw power over temperature to this file (.png, .svg, .pdf).")
     ] = None,
+    tan_delta: Annotated[
+        Path | None, typer.Option(help="Draw the loss tangents and the band the rolls excite to this file.")
+    ] = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
@@ -85,6 +88,10 @@ def compare(
         from conveyor.report import plots
 
         written.append(f"figure: {plots.save(plots.power_against_temperature(found), plot)}")
+    if tan_delta is not None:
+        from conveyor.report import plots
+
+        written.append(f"figure: {plots.save(plots.compared_loss_tangents(found), tan_delta)}")
     if as_json:
         print(json.dumps(comparing.to_dict(found), indent=2, allow_nan=False, ensure_ascii=False))
     elif not quiet:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.report.comparing import celsius
 from conveyor.units import si, text
 
@@ -147,6 +147,30 @@ def loss_tangents(
     axis.set_ylim(bottom=0.0)
     axis.legend(fontsize=8)
     return figure
+
+
+def compared_loss_tangents(comparison: Comparison, temperature: float | None = None) -> Figure:
+    """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
+
+    Without a temperature the one nearest the spec's that every compound has an answer for.
+
+    Raises
+    ------
+    NoSolutionError
+        No temperature that every compound has an answer for.
+    """
+    at = [
+        {row.temperature for row in comparison.coverage if row.compound == c.name}
+        for c in comparison.compounds
+    ]
+    common = set.intersection(*at)
+    if not common:
+        raise NoSolutionError("no temperature that every compound has an answer for")
+    own = si(comparison.conveyor.ambient.belt) if temperature is None else temperature
+    chosen = min(common, key=lambda t: abs(t - own))
+    rows = [row.excited for row in comparison.coverage if row.temperature == chosen]
+    band = min(low for low, _ in rows), max(high for _, high in rows)
+    return loss_tangents(comparison.compounds, chosen, {"nine tenths of the rolls' loss": band})
 
 
 def master_curve(compound: RubberCompound, temperature: float | None = None) -> Figure:
