@@ -1,0 +1,110 @@
+"""Markup that is safe by construction: whatever is not markup already is escaped when it is put into an element."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from typing import Any
+
+# Controls, lone surrogates and non-characters, which HTML does not hold; marks that turn the reading direction
+_UNPRINTABLE = re.compile(
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]"
+)
+_ROWS, _ITEMS, _LETTERS = 40, 12, 300
+_VOID = frozenset({"br", "col", "meta"})
+_STYLE = "text-align:left;vertical-align:top"
+
+
+class Html(str):
+    """Text that is markup already."""
+
+    __slots__ = ()
+
+
+def escaped(value: object) -> Html:
+    r"""Return text as HTML can hold it; markup as it is.
+
+    Examples
+    --------
+    >>> print(escaped('<b title="x">'), escaped(Html("<b>")), escaped("bell\x07"))
+    &lt;b title=&quot;x&quot;&gt; <b> bell\x07
+    """
+    if isinstance(value, Html):
+        return value
+    return Html(escape(_UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], str(value)), quote=True))
+
+
+def element(tag: str, *content: object, **attributes: object) -> Html:
+    """Return an element around its content; ``class_`` is the attribute class, ``aria_label`` aria-label.
+
+    Examples
+    --------
+    >>> print(element("p", "a < b", element("br"), class_="note"))
+    <p class="note">a &lt; b<br></p>
+    """
+    given = "".join(
+        f' {name.removesuffix("_").replace("_", "-")}="{escaped(value)}"'
+        for name, value in attributes.items()
+        if value is not None
+    )
+    inner = "".join(map(escaped, content))
+    return Html(f"<{tag}{given}>" if tag in _VOID else f"<{tag}{given}>{inner}</{tag}>")
+
+
+def joined(parts: Iterable[object]) -> Html:
+    """Return markup in a row."""
+    return Html("".join(map(escaped, parts)))
+
+
+def listing(caption: str, rows: Iterable[tuple[str, object]]) -> Html:
+    """Return a small table of names and values, for notebooks.
+
+    Examples
+    --------
+    >>> print(listing("roll", [("width", "1 m")]).replace(' style="text-align:left;vertical-align:top"', ""))
+    <table><caption>roll</caption><tbody><tr><th scope="row">width</th><td>1 m</td></tr></tbody></table>
+    """
+    body = [
+        element(
+            "tr", element("th", name, scope="row", style=_STYLE), element("td", _shown(value), style=_STYLE)
+        )
+        for name, value in rows
+    ]
+    return element("table", element("caption", caption, style=_STYLE), element("tbody", *body))
+
+
+def grid(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
+    """Return a table of records under the union of their keys, for notebooks; long ones are cut."""
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    head = element("tr", *(element("th", name, scope="col", style=_STYLE) for name in names))
+    body = [
+        element("tr", *(element("td", _shown(row.get(name, "")), style=_STYLE) for name in names))
+        for row in rows[:_ROWS]
+    ]
+    if len(rows) > _ROWS:
+        body.append(element("tr", element("td", f"... {len(rows)} in all", colspan=str(len(names)))))
+    return element(
+        "table",
+        element("caption", caption, style=_STYLE),
+        element("thead", head),
+        element("tbody", *body),
+    )
+
+
+def _shown(value: object) -> Html:
+    """Plain data as markup: parts folded away, lists of records as tables, long lists cut."""
+    if isinstance(value, Mapping):
+        return _folded(f"{len(value)} fields", listing("", value.items()))
+    if isinstance(value, list | tuple):
+        if value and all(isinstance(item, Mapping) for item in value):
+            return _folded(f"{len(value)} entries", grid("", value))
+        more = f", ... {len(value)} in all" if len(value) > _ITEMS else ""
+        return joined([Html(", ").join(map(_shown, value[:_ITEMS])), more])
+    if isinstance(value, str) and not isinstance(value, Html) and len(value) > _LETTERS:
+        return escaped(f"{value[:_LETTERS]}... ({len(value)} characters)")
+    return escaped(value)
+
+
+def _folded(summary: str, content: Html) -> Html:
+    return element("details", element("summary", summary), content)

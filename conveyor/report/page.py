@@ -1,0 +1,386 @@
+"""One static page: its style, its parts, its shell. No script, nothing fetched, every text escaped."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+
+from conveyor.markup import Html, element, joined
+from conveyor.report.cells import number_format
+from conveyor.report.checks import Check
+from conveyor.report.unit_systems import converted, converted_rows
+from conveyor.units import System
+
+COLOURS = {
+    "paper": "#FFFFFF",
+    "ink": "#1B1F24",
+    "muted": "#4A5560",
+    "accent": "#1F4E79",
+    "pale": "#EEF3F8",
+    "line": "#C9D3DD",
+    "good": "#14602B",
+    "good-pale": "#E4F3E8",
+    "bad": "#9B1C1C",
+    "bad-pale": "#FDEBEB",
+    "open": "#5C4400",
+    "open-pale": "#FFF4D6",
+}
+"""Of the page, by what they stand for; contrast of every text is 4.5 or more (WCAG 2.2, 1.4.3)."""
+
+_STYLE = """
+* { box-sizing: border-box; }
+html { font: 16px/1.45 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif;
+  color-scheme: light; -webkit-text-size-adjust: 100%; }
+body { margin: 0 auto; padding: 1.5rem 1.25rem 3rem; max-width: 62rem; color: var(--ink); background: var(--paper); }
+h1 { font-size: 1.9rem; line-height: 1.2; margin: .15rem 0 .4rem; color: var(--accent); overflow-wrap: anywhere; }
+h2 { font-size: 1.3rem; margin: 2.4rem 0 .7rem; padding-top: .5rem; border-top: 2px solid var(--accent);
+  color: var(--accent); }
+h3 { font-size: 1.05rem; margin: 1.6rem 0 .4rem; }
+p, li, dd, td, th { overflow-wrap: anywhere; }
+p { margin: .5rem 0; }
+a { color: var(--accent); }
+:focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; }
+.kind, .note, figcaption, caption { color: var(--muted); }
+.kind { margin: 0; font-size: .9rem; letter-spacing: .04em; text-transform: uppercase; }
+.note { font-size: .9rem; }
+nav { margin: 1.2rem 0; padding: .7rem 1rem; background: var(--pale); }
+nav ol { margin: 0; padding-left: 1.4rem; columns: 15rem; }
+nav li { padding: .1rem 0; }
+.facts, .tiles { display: grid; gap: .6rem; margin: 1rem 0; }
+.facts { grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr)); }
+.tiles { grid-template-columns: repeat(auto-fit, minmax(10.5rem, 1fr)); }
+.facts dt, .tiles dt { font-size: .85rem; color: var(--muted); }
+.facts dd, .tiles dd { margin: 0; }
+.facts dd { font-weight: 600; }
+.tiles > div { padding: .6rem .8rem; background: var(--pale); border-left: 4px solid var(--accent); }
+.tiles dd { font-size: 1.45rem; font-weight: 600; line-height: 1.25; color: var(--accent); overflow-wrap: normal; }
+.tiles dd small { font-size: .95rem; font-weight: 400; }
+.scroll { overflow-x: auto; margin: .8rem 0; }
+table { border-collapse: collapse; width: 100%; font-size: .88rem; font-variant-numeric: tabular-nums; }
+caption { text-align: left; padding: 0 0 .35rem; }
+th, td { padding: .28rem .55rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line);
+  overflow-wrap: normal; }
+thead th { vertical-align: bottom; font-weight: 600; color: var(--paper); background: var(--accent); }
+tbody th { font-weight: 400; }
+tfoot th, tfoot td { font-weight: 600; border-top: 2px solid var(--accent); }
+.n { text-align: right; white-space: nowrap; }
+thead .n { white-space: normal; }
+.unit { white-space: nowrap; font-weight: 400; }
+.long { overflow-wrap: anywhere; min-width: 11rem; }
+.verdict { display: inline-block; padding: 0 .5rem; border-radius: .2rem; font-weight: 600; white-space: nowrap; }
+.pass { color: var(--good); background: var(--good-pale); }
+.fail { color: var(--bad); background: var(--bad-pale); }
+.open { color: var(--open); background: var(--open-pale); }
+.warnings li { margin: .35rem 0; }
+figure { margin: 1rem 0; }
+figcaption { font-size: .9rem; }
+svg { display: block; width: 100%; height: auto; font-family: system-ui, Arial, sans-serif; }
+svg * { stroke-linejoin: round; stroke-linecap: butt; }
+footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); color: var(--muted);
+  font-size: .85rem; overflow-wrap: anywhere; }
+@media screen and (max-width: 40rem) {
+  body { padding: 1rem .8rem 2rem; }
+  h1 { font-size: 1.5rem; }
+  .drawing svg { min-width: 33rem; }
+  .tiles { grid-template-columns: 1fr 1fr; }
+  .tiles dd { font-size: 1.2rem; }
+  .wide tbody th:first-child { position: sticky; left: 0; background: var(--paper); }
+}
+@page { size: A4; margin: 16mm 14mm 18mm; @bottom-right { content: counter(page) " / " counter(pages);
+  font: 8pt sans-serif; } }
+@media print {
+  html { font-size: 10pt; }
+  body { max-width: none; padding: 0; }
+  nav { display: none; }
+  a { text-decoration: none; }
+  h2, h3, caption { break-after: avoid; }
+  figure, tr, .tiles, .facts, .keep { break-inside: avoid; }
+  thead { display: table-header-group; }
+  tfoot { display: table-row-group; }
+  .scroll { overflow: visible; }
+  table { font-size: 8.5pt; }
+  .wide table { font-size: 7pt; }
+  .wide th, .wide td { padding: .2rem .3rem; }
+  .new-page { break-before: page; }
+  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+}
+"""
+_UNIT = re.compile(r"^(.*?)\s*\[([^\]]*)\]$")
+_OTHER_UNITS = {
+    "ft": "#,##0.0", "in": "0.000", "lbf": "#,##0.0", "hp": "#,##0.0", "psi": "#,##0.0", "fpm": "#,##0",
+    "stph": "#,##0", "lb": "#,##0", "lb/ft": "0.00", "lbf/in": "#,##0.00", "ft/s²": "0.000", "°F": "0.0",
+}  # fmt: skip
+"""Formats of units that the workbook's do not know."""
+_SPELLED = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
+_WIDE = 8  # columns beyond which a table is set smaller on paper
+_SHORT = 24  # rows up to which a table is kept on one page
+_LONG = 36  # characters beyond which a column of text may be broken anywhere
+_NOTHING = "–"
+_MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the page: its identifier, its heading, what is in it."""
+
+    name: str
+    heading: str
+    content: Html
+
+
+def number(name: str, value: float) -> str:
+    """Write a number as the workbook shows it, by the unit in its name.
+
+    Examples
+    --------
+    >>> number("tension [N]", 84147.576), number("share [-]", 0.4681), number("error estimate [-]", 8e-7)
+    ('84,147.6', '46.8%', '8.0E-07')
+    """
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "-∞"
+    pattern = _OTHER_UNITS.get(unit_of(name)[1], number_format(name))
+    if pattern == "General" or isinstance(value, int):
+        return f"{value:,}" if isinstance(value, int) else f"{value:,.6g}"
+    digits = len(pattern.partition(".")[2].rstrip("%E+0")) or pattern.partition(".")[2].split("E")[0].count(
+        "0"
+    )
+    kind = "%" if pattern.endswith("%") else "E" if "E" in pattern else "f"
+    written = f"{value:{',' if pattern.startswith('#') else ''}.{digits}{kind}}"
+    return written.removeprefix("-") if not written.strip("-0.,%") else written
+
+
+def unit_of(name: str) -> tuple[str, str]:
+    """Part a figure's name from its unit, as the page writes it.
+
+    Examples
+    --------
+    >>> unit_of("temperature [degC]"), unit_of("strand"), unit_of("equivalent DIN f [-]")
+    (('temperature', '°C'), ('strand', ''), ('equivalent DIN f', ''))
+    """
+    found = _UNIT.match(name)
+    if found is None:
+        return name, ""
+    return found[1], _SPELLED.get(found[2], found[2])
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _missing(value: object) -> bool:
+    return value is None or (isinstance(value, float) and math.isnan(value))
+
+
+def _written(name: str, value: Any) -> str:
+    plain = value.item() if hasattr(value, "item") else value
+    if _missing(plain):
+        return _NOTHING
+    if isinstance(plain, bool):
+        return "yes" if plain else "NO"
+    return number(name, plain) if _is_number(plain) else str(plain)
+
+
+def table(
+    frame: pd.DataFrame,
+    caption: str,
+    *,
+    system: System = "SI",
+    named: int = 1,
+    by_row: str = "",
+    foot: Sequence[object] = (),
+) -> Html:
+    """Return a table of results: headers with scope, units beside names, numbers as in the workbook.
+
+    Parameters
+    ----------
+    frame, caption
+        What, and what it is called.
+    system : {"SI", "US"}
+        Units to show it in.
+    named : int
+        Leading columns that name the row.
+    by_row : str
+        Name of a column of figures' names: each row's numbers are formatted by its own unit.
+    foot : sequence
+        A last line of totals, one value a column.
+    """
+    shown = converted_rows(frame, by_row, system) if by_row else converted(frame, system)
+    names = [str(name) for name in shown.columns]
+    columns = [shown[name].tolist() for name in names]
+    numeric = [
+        all(_missing(v) or _is_number(v) for v in column) and any(_is_number(v) for v in column)
+        for column in columns
+    ]
+    widths = [max((len(v) for v in column if isinstance(v, str)), default=0) for column in columns]
+    classes = [
+        "n" if isnumber else "long" if width > _LONG else None
+        for isnumber, width in zip(numeric, widths, strict=True)
+    ]
+    head = element("tr", *(_head(name, kind) for name, kind in zip(names, classes, strict=True)))
+    figures = shown[by_row].tolist() if by_row else [""] * len(shown)
+
+    def cell(j: int, value: Any, figure: str) -> Html:
+        tag, scope = ("th", "row") if j < named else ("td", None)
+        content = (
+            _figure_name(value) if by_row and names[j] == by_row else _written(figure or names[j], value)
+        )
+        return element(tag, content, scope=scope, class_=classes[j])
+
+    body = [
+        element("tr", *(cell(j, column[i], figures[i]) for j, column in enumerate(columns)))
+        for i in range(len(shown))
+    ]
+    parts = [element("caption", caption), element("thead", head), element("tbody", *body)]
+    if foot:
+        sums = converted(pd.DataFrame([dict(zip(frame.columns, foot, strict=True))]), system).iloc[0].tolist()
+        parts.append(
+            element(
+                "tfoot", element("tr", *(cell(j, "" if v is None else v, "") for j, v in enumerate(sums)))
+            )
+        )
+    return scrolling(element("table", *parts), caption, wide=len(names) > _WIDE, keep=len(shown) <= _SHORT)
+
+
+def _head(name: str, kind: str | None) -> Html:
+    words, unit = unit_of(name)
+    marked = joined([words, " ", element("span", f"[{unit}]", class_="unit")]) if unit else words
+    return element("th", marked, scope="col", class_=kind)
+
+
+def _figure_name(name: str) -> Html:
+    words, unit = unit_of(name)
+    return joined([words, " ", element("span", f"[{unit}]", class_="unit")] if unit else [words])
+
+
+def scrolling(content: Html, label: str, *, wide: bool, keep: bool) -> Html:
+    """Return a table that scrolls by itself where the screen is narrow."""
+    kinds = "scroll" + (" wide" if wide else "") + (" keep" if keep else "")
+    return element("div", content, class_=kinds, tabindex="0", role="group", aria_label=label)
+
+
+def listed(figures: pd.Series, caption: str, *, system: System = "SI") -> Html:
+    """Return named figures as a table: name, value, unit."""
+    frame = figures.rename_axis("quantity").rename("value").reset_index()
+    shown = converted_rows(frame, "quantity", system)
+    rows = []
+    for name, value in zip(shown["quantity"].tolist(), shown["value"].tolist(), strict=True):
+        words, unit = unit_of(str(name))
+        text = isinstance(value, str)
+        rows.append(
+            element(
+                "tr",
+                element("th", words, scope="row"),
+                element("td", _written(str(name), value), class_=None if text else "n"),
+                element("td", unit),
+            )
+        )
+    head = element(
+        "tr",
+        element("th", "quantity", scope="col"),
+        element("th", "value", scope="col", class_="n"),
+        element("th", "unit", scope="col"),
+    )
+    whole = element("table", element("caption", caption), element("thead", head), element("tbody", *rows))
+    return scrolling(whole, caption, wide=False, keep=len(rows) <= _SHORT)
+
+
+def verdicts(found: Iterable[Check], caption: str) -> Html:
+    """Return checks as a table; the verdict is a word and a mark, its colour says nothing more."""
+    heads = [element("th", name, scope="col") for name in ("check", "found", "asked for", "verdict")]
+    rows = [
+        element(
+            "tr",
+            element("th", check.subject, scope="row"),
+            element("td", check.found),
+            element("td", check.asked),
+            element("td", verdict(check.verdict)),
+        )
+        for check in found
+    ]
+    whole = element(
+        "table", element("caption", caption), element("thead", element("tr", *heads)), element("tbody", *rows)
+    )
+    return scrolling(whole, caption, wide=False, keep=len(rows) <= _SHORT)
+
+
+def verdict(word: str) -> Html:
+    """Return a verdict with its mark."""
+    kind, mark = _MARKS[word]
+    return element("span", element("span", mark, aria_hidden="true"), " ", word, class_=f"verdict {kind}")
+
+
+def facts(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
+    """Return names and values side by side."""
+    return element(
+        "dl",
+        *(element("div", element("dt", name), element("dd", value)) for name, value in pairs),
+        class_=kind,
+    )
+
+
+def tiles(figures: pd.Series, names: Sequence[str], system: System = "SI") -> Html:
+    """Return the key figures of a summary, large; those it does not hold are left out."""
+    given = converted(pd.DataFrame([figures[[name for name in names if name in figures.index]]]), system)
+    pairs = []
+    for name in given.columns:
+        words, unit = unit_of(str(name))
+        value = number(str(name), float(given[name].iloc[0]))
+        pairs.append((words, joined([value, " ", element("small", unit)]) if unit else value))
+    return facts(pairs, "tiles")
+
+
+def bullets(lines: Sequence[str], kind: str | None = None) -> Html:
+    """Return lines as a list; "none" where there are none."""
+    if not lines:
+        return element("p", "none")
+    return element("ul", *(element("li", line) for line in lines), class_=kind)
+
+
+def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str) -> Html:
+    """Return the whole document.
+
+    Parameters
+    ----------
+    title, kind : str
+        Of what, and what the page is.
+    top : Html
+        Below the title, above the contents.
+    parts : sequence of Part
+        Each under its heading, in their order.
+    foot : str
+        What made it.
+    """
+    colours = ":root { " + " ".join(f"--{name}: {value};" for name, value in COLOURS.items()) + " }"
+    head = element(
+        "head",
+        element("meta", charset="utf-8"),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        element("meta", name="generator", content=foot),
+        element("title", f"{title} – {kind}"),
+        element("style", Html(colours + _STYLE)),
+    )
+    contents = element(
+        "ol", *(element("li", element("a", part.heading, href=f"#{part.name}")) for part in parts)
+    )
+    sections = [
+        element(
+            "section",
+            element("h2", part.heading, id=part.name),
+            part.content,
+            aria_labelledby=part.name,
+        )
+        for part in parts
+    ]
+    body = element(
+        "body",
+        element("header", element("p", kind, class_="kind"), element("h1", title), top),
+        element("nav", contents, aria_label="Contents"),
+        element("main", *sections),
+        element("footer", foot),
+    )
+    return Html("<!DOCTYPE html>\n" + element("html", head, body, lang="en") + "\n")

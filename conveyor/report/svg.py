@@ -1,0 +1,157 @@
+"""Figures as SVG inside a page: text stays text, identifiers are the page's own, nothing but the drawing is kept."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from io import BytesIO
+from threading import Lock
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree as ET
+
+from conveyor.markup import Html, element
+from conveyor.report.plots import colour
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_SPACE = "{http://www.w3.org/2000/svg}"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+_FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
+_NUMBER = re.compile(r"-?\d+\.\d{2,}")
+_WIDTH = 6.9
+"""Of every figure [in]: its 9 pt letters stay legible on A4 and where a phone scrolls."""
+_DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
+_GUIDE = "#5F6670"
+_LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
+_SETTINGS = {"svg.fonttype": "none", "svg.hashsalt": "conveyor", "path.simplify_threshold": 0.5}
+_one_at_a_time = Lock()  # matplotlib's settings are the whole process's
+
+
+def inline(figure: Figure, name: str, label: str) -> Html:
+    """Draw a figure as an SVG element.
+
+    Parameters
+    ----------
+    figure : Figure
+        Of any of the plots here; it is restyled: no title, one width, curves told apart by dashes too.
+    name : str
+        Begins every identifier in it, unique in the page.
+    label : str
+        What it shows, for those who cannot see it.
+    """
+    restyle(figure)
+    return Html(_cleaned(_drawn(figure), name, label))
+
+
+def restyle(figure: Figure) -> None:
+    """Give a figure the page's width, no title (the caption is one), and curves that differ without colour."""
+    height = figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth())
+    figure.set_size_inches(_WIDTH, height)
+    for axis in figure.axes:
+        axis.set_title("")
+        axis.tick_params(labelsize=9)
+        _tell_apart(axis)
+        legend = axis.get_legend()
+        for text in (*axis.texts, *(legend.get_texts() if legend is not None else ())):
+            text.set_parse_math(False)  # a user's "$" is a dollar
+
+
+def _tell_apart(axis: Axes) -> None:
+    handles, labels = axis.get_legend_handles_labels()
+    lines = [line for line in axis.lines if line.get_label() in labels and line.get_linestyle() != "None"]
+    curves = [line for line in lines if line.get_linestyle() == "-" and line.get_linewidth() < 2.5]
+    for k, line in enumerate(curves):
+        line.set_linestyle(_DASHES[k % len(_DASHES)])  # type: ignore[arg-type]
+        line.set_color(colour(k))
+        line.set_linewidth(1.6)
+    for line in lines:
+        if line.get_linestyle() == ":":
+            line.set_color(_GUIDE)
+    if handles and axis.get_legend() is not None:
+        once = dict(zip(labels, handles, strict=True))
+        axis.legend(once.values(), once.keys(), fontsize=9, frameon=True, framealpha=0.9, edgecolor="none")
+
+
+def _drawn(figure: Figure) -> bytes:
+    import matplotlib as mpl
+
+    content = BytesIO()
+    with _one_at_a_time, mpl.rc_context(_SETTINGS), warnings.catch_warnings():  # type: ignore[arg-type]
+        # the browser chooses the font: a glyph that ours lacks is no fault
+        warnings.filterwarnings("ignore", "Glyph .* missing from font", UserWarning)
+        figure.savefig(content, format="svg", metadata={"Date": None})
+    return content.getvalue()
+
+
+def _cleaned(drawn: bytes, name: str, label: str) -> str:
+    root = ET.fromstring(drawn)  # noqa: S314 drawn here
+    used = {_link(node) for node in root.iter()} | {
+        found for node in root.iter() for value in node.attrib.values() for found in _REFERENCE.findall(value)
+    }
+    _without(root)
+    for node in root.iter():
+        node.tag = node.tag.removeprefix(_SPACE)
+        if node.text is not None and node.tag not in {"text", "tspan", "title"}:
+            node.text = None
+        node.tail = None
+        if node.get("id") in used:
+            node.set("id", f"{name}-{node.get('id')}")
+        else:
+            node.attrib.pop("id", None)
+        for key, value in list(node.attrib.items()):
+            node.set(key, _shortened(key, value, name))
+        link = node.attrib.pop(_LINK, None)
+        if link is not None:
+            node.set("href", f"#{name}-{link[1:]}")
+    for key in ("width", "height", "version"):
+        root.attrib.pop(key, None)
+    root.set("role", "img")
+    root.set("aria-label", label)
+    _flatten(root)
+    return ET.tostring(root, encoding="unicode")
+
+
+def _link(node: ET.Element) -> str:
+    return node.get(_LINK, "#")[1:]
+
+
+def _without(node: ET.Element) -> None:
+    for child in list(node):
+        if child.tag in _LEFT_OUT:
+            node.remove(child)
+        else:
+            _without(child)
+
+
+def _flatten(node: ET.Element) -> None:
+    """Groups that say nothing give way to what they hold."""
+    for child in list(node):
+        _flatten(child)
+    kept: list[ET.Element] = []
+    for child in list(node):
+        bare = child.tag in {"g", "defs"} and not child.attrib and (child.tag == "g" or len(child) == 0)
+        kept.extend(child if bare else [child])
+    node[:] = kept
+
+
+def _shortened(key: str, value: str, name: str) -> str:
+    value = _REFERENCE.sub(lambda found: f"url(#{name}-{found[1]})", value)
+    if key == "style":
+        return _FONT.sub(lambda found: f"{found[1]}sans-serif" if found[1] else "", value).strip(" ;")
+    if key in {"d", "x", "y", "transform"}:
+        return _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), value).replace(
+            "\n", ""
+        )
+    return value
+
+
+def figure(drawing: Html, caption: str) -> Html:
+    """Return a drawing with its caption; it scrolls by itself where the screen is narrow."""
+    return element(
+        "figure",
+        element("div", drawing, class_="scroll drawing", tabindex="0", role="group", aria_label=caption),
+        element("figcaption", caption),
+    )
