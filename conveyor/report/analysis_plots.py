@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 _PARTS = ("indentation", "idler_rotation", "flexure")
 _SUMS = ("main", "secondary", "special", "lift", "total")
 _BAR = 0.8  # of the distance of two rows
-_HATCH = ("", "////", "....")
+_HATCH = ("", "////", "\\\\\\\\")
 _POINTS = 300
 _BESIDE = 1.25  # half widths drawn on either side of a contact
-_PRESSURE_RTOL = 1e-4  # a figure's line is thicker
+_PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at the edges
 _TORNADO = 12  # inputs drawn, those that matter most
 
 
@@ -122,7 +122,7 @@ def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
     )
     axis.set_ylim(bottom=0.0)
     axis.margins(y=0.12)
-    axis.legend(fontsize=8)
+    axis.legend(fontsize=8, loc="lower center")
     return figure
 
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from conveyor.stretches import Strand
 
 _WHOLE = re.compile(r"^-?\d{4,}")  # grouped by thousands
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 Verdict = Literal["pass", "FAIL", "not checked"]
 
@@ -96,13 +98,17 @@ def band_words(band: tuple[float, float]) -> str:
 
     Examples
     --------
-    >>> band_words((154.31, 2605.4)), band_words((1e-3, 1e11))
-    ('154 to 2,605 Hz', '1e-03 to 1e+11 Hz')
+    >>> band_words((154.31, 2605.4)), band_words((7.7e-4, 1e11))
+    ('154 to 2,605 Hz', '8×10⁻⁴ to 1×10¹¹ Hz')
     """
-    plain = (
-        f"{f:,.0f}" if 100.0 <= f < 1e6 else f"{f:.3g}" if 0.01 <= f < 100.0 else f"{f:.0e}" for f in band
-    )
-    return f"{' to '.join(plain)} Hz"
+    return f"{' to '.join(map(_frequency, band))} Hz"
+
+
+def _frequency(value: float) -> str:
+    if _LEAST <= value < _MOST:
+        return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
+    digit, exponent = f"{value:.0e}".split("e")
+    return f"{digit}×10{str(int(exponent)).translate(RAISED)}"
 
 
 def _drives(analysis: Analysis, system: System) -> Iterator[Check]:

@@ -52,14 +52,14 @@ nav { margin: 1.2rem 0; padding: .7rem 1rem; background: var(--pale); }
 nav ol { margin: 0; padding-left: 1.4rem; columns: 15rem; }
 nav li { padding: .1rem 0; }
 .facts, .tiles { display: grid; gap: .6rem; margin: 1rem 0; }
-.facts { grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr)); }
-.tiles { grid-template-columns: repeat(auto-fit, minmax(10.5rem, 1fr)); }
+.facts { grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); }
+.tiles { grid-template-columns: repeat(3, 1fr); }
 .facts dt, .tiles dt { font-size: .85rem; color: var(--muted); }
 .facts dd, .tiles dd { margin: 0; }
 .facts dd { font-weight: 600; }
 .tiles > div { padding: .6rem .8rem; background: var(--pale); border-left: 4px solid var(--accent); }
 .tiles dd { font-size: 1.45rem; font-weight: 600; line-height: 1.25; color: var(--accent); overflow-wrap: normal; }
-.tiles dd small { font-size: .95rem; font-weight: 400; }
+.tiles dd small { font-size: .95rem; font-weight: 400; white-space: nowrap; }
 .scroll { overflow-x: auto; margin: .8rem 0; }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; font-variant-numeric: tabular-nums; }
 caption { text-align: left; padding: 0 0 .35rem; }
@@ -70,6 +70,7 @@ tbody th { font-weight: 400; }
 tfoot th, tfoot td { font-weight: 600; border-top: 2px solid var(--accent); }
 .n { text-align: right; white-space: nowrap; }
 thead .n { white-space: normal; }
+.v { text-align: right; }
 .unit { white-space: nowrap; font-weight: 400; }
 .long { overflow-wrap: anywhere; min-width: 11rem; }
 .verdict { display: inline-block; padding: 0 .5rem; border-radius: .2rem; font-weight: 600; white-space: nowrap; }
@@ -78,6 +79,7 @@ thead .n { white-space: normal; }
 .open { color: var(--open); background: var(--open-pale); }
 .warnings li { margin: .35rem 0; }
 figure { margin: 1rem 0; }
+.drawing svg { max-width: 48rem; }
 figcaption { font-size: .9rem; }
 svg { display: block; width: 100%; height: auto; font-family: system-ui, Arial, sans-serif; }
 svg * { stroke-linejoin: round; stroke-linecap: butt; }
@@ -94,7 +96,8 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
 @page { size: A4; margin: 16mm 14mm 18mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
 @media print {
-  html { font-size: 10pt; }
+  html { font-size: 9.5pt; line-height: 1.35; }
+  h2 { margin-top: 1.6rem; }
   body { max-width: none; padding: 0; }
   nav { display: none; }
   a { text-decoration: none; }
@@ -103,10 +106,11 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   thead { display: table-header-group; }
   tfoot { display: table-row-group; }
   .scroll { overflow: visible; }
-  table { font-size: 8.5pt; }
+  table { font-size: 8pt; }
+  th, td { padding: .16rem .4rem; }
+  .drawing svg { max-width: 150mm; }
   .wide table { font-size: 7pt; }
-  .wide th, .wide td { padding: .2rem .3rem; }
-  .new-page { break-before: page; }
+  .wide th, .wide td { padding: .15rem .25rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 """
@@ -118,7 +122,7 @@ _OTHER_UNITS = {
 """Formats of units that the workbook's do not know."""
 _SPELLED = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 _WIDE = 8  # columns beyond which a table is set smaller on paper
-_SHORT = 24  # rows up to which a table is kept on one page
+_SHORT = 18  # rows up to which a table is kept on one page
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
 _NOTHING = "–"
 _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
@@ -270,12 +274,11 @@ def listed(figures: pd.Series, caption: str, *, system: System = "SI") -> Html:
     rows = []
     for name, value in zip(shown["quantity"].tolist(), shown["value"].tolist(), strict=True):
         words, unit = unit_of(str(name))
-        text = isinstance(value, str)
         rows.append(
             element(
                 "tr",
                 element("th", words, scope="row"),
-                element("td", _written(str(name), value), class_=None if text else "n"),
+                element("td", _written(str(name), value), class_="v" if isinstance(value, str) else "n"),
                 element("td", unit),
             )
         )

@@ -1,0 +1,129 @@
+"""The HTML report: one static file with inline figures, for the screen, a phone and paper; no script, no network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from datetime import date
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+from uuid import uuid4
+
+from conveyor.errors import InputError
+from conveyor.markup import Html
+from conveyor.report import html_sections as sections
+from conveyor.report.html_comparison import parts_of, top_of
+from conveyor.report.html_studies import studied
+from conveyor.report.page import Part, page
+from conveyor.spec import fingerprint
+from conveyor.units import System
+
+if TYPE_CHECKING:
+    from conveyor.analysis import Analysis
+    from conveyor.comparison import Comparison
+    from conveyor.models import Conveyor
+    from conveyor.studies import Studies
+
+_ENDINGS = (".html", ".htm")
+
+
+def write(analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System = "SI") -> Path:
+    """Write the HTML report of an analysis: under a temporary name beside it first, then renamed.
+
+    Parameters
+    ----------
+    analysis : Analysis
+        What to report.
+    path : Path
+        Name of the page, ending in ``.html``; an older page there is replaced.
+    studies : Studies, optional
+        Load cases, duty and uncertainty.
+    system : {"SI", "US"}
+        Units of the tables; figures are in SI units.
+
+    Returns
+    -------
+    Path
+        The path given.
+
+    Raises
+    ------
+    InputError
+        The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
+        and an older page is untouched.
+    """
+    return _saved(path, lambda: build(analysis, studies, system=system))
+
+
+def write_comparison(comparison: Comparison, path: Path, *, system: System = "SI") -> Path:
+    """Write the HTML report of a comparison of compounds; as `write`.
+
+    Raises
+    ------
+    InputError
+        As `write`.
+    """
+    return _saved(path, lambda: build_comparison(comparison, system=system))
+
+
+def build(analysis: Analysis, studies: Studies | None = None, *, system: System = "SI") -> Html:
+    """Report of an analysis and of the studies its spec asks for, as text."""
+    parts: list[Part] = [
+        sections.key_figures(analysis, system),
+        sections.checked(analysis, system),
+        sections.warned(analysis),
+        sections.summed_up(analysis, system),
+        sections.resistances(analysis, system),
+        sections.route(analysis, system),
+        sections.tensions(analysis, system),
+        sections.rolls(analysis, system),
+        sections.rubber(analysis, system),
+        sections.start_and_stop(analysis, system),
+        sections.belt(analysis, system),
+        *(() if studies is None else studied(studies, system)),
+        sections.assumed(analysis),
+        sections.entered(analysis),
+        sections.provenance(analysis, system),
+    ]
+    conveyor = analysis.conveyor
+    return page(
+        conveyor.name, "Belt conveyor calculation", sections.top(analysis, system), parts, stamp(conveyor)
+    )
+
+
+def build_comparison(comparison: Comparison, *, system: System = "SI") -> Html:
+    """Report of a comparison, as text."""
+    conveyor = comparison.conveyor
+    return page(
+        conveyor.name,
+        "Comparison of belt covers",
+        top_of(comparison, system),
+        parts_of(comparison, system),
+        stamp(conveyor),
+    )
+
+
+def stamp(conveyor: Conveyor) -> str:
+    """What made a page, and of what."""
+    return f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec SHA-256 {fingerprint(conveyor)[:16]}"
+
+
+def _saved(path: Path, made: Callable[[], Html]) -> Path:
+    """Write a page under a temporary name beside its own, then rename."""
+    if path.suffix.lower() not in _ENDINGS:
+        raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
+    partial = path.with_name(f".{uuid4().hex}.part")
+    try:
+        if path.is_dir():
+            raise InputError(f"{path}: is a folder; give the name of a page in it")
+        if not path.absolute().parent.is_dir():
+            raise InputError(f"{path}: its folder does not exist; create it or choose another")
+        partial.write_bytes(made().encode())
+        partial.replace(path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        with suppress(OSError):  # no such file after the rename; a folder that went away has nothing to clean
+            partial.unlink(missing_ok=True)
+    return path

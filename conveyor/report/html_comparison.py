@@ -1,0 +1,105 @@
+"""The parts of the HTML report of a comparison of compounds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from conveyor.markup import Html, element, joined
+from conveyor.report import comparing, plots
+from conveyor.report.html_sections import drawn
+from conveyor.report.page import Part, bullets, facts, table
+from conveyor.units import System, display
+
+if TYPE_CHECKING:
+    from conveyor.comparison import Comparison
+
+_RANKED: Final = (
+    "compound", "belt speed [m/s]", "mean motor power [kW]", "mean motor power, low [kW]",
+    "mean motor power, high [kW]", "motor power against base [-]", "peak motor power [kW]",
+    "at temperature [degC]",
+)  # fmt: skip
+_COSTS: Final = ("energy per year", "cost per year", "saving per year", "extra cost", "payback")
+
+
+def top_of(comparison: Comparison, system: System) -> Html:
+    """What was compared at what."""
+    temperatures = sorted({scene.temperature for scene in comparison.scenes})
+    speeds = sorted({scene.speed for scene in comparison.scenes})
+    return facts(
+        (
+            ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
+            ("savings against", comparison.base),
+            ("cover", comparison.cover),
+            ("belt temperatures", _span(temperatures, "temperature", system)),
+            ("belt speeds", _span(speeds, "speed", system)),
+        )
+    )
+
+
+def _span(values: list[float], kind: str, system: System) -> str:
+    ends = list(dict.fromkeys(display(value, kind, system) for value in (values[:1] + values[-1:])))
+    return " to ".join(ends).replace("deg", "°") or "none answered"
+
+
+def parts_of(comparison: Comparison, system: System) -> list[Part]:
+    """Ranking, power over temperature and speed, coverage of the data, every scene, what to know."""
+    parts = [Part("warnings", "What to know", bullets(comparing.remarks(comparison), "warnings"))]
+    if comparison.scenes:
+        parts = [
+            _ranking(comparison, system),
+            *parts,
+            *_power(comparison, system),
+            _scenes(comparison, system),
+        ]
+    parts.insert(-1, _coverage(comparison, system))
+    refused = comparing.refused(comparison)
+    if not refused.empty:
+        parts.append(
+            Part("refused", "Without an answer", table(refused, "Scenes without an answer", system=system))
+        )
+    return parts
+
+
+def _ranking(comparison: Comparison, system: System) -> Part:
+    frame = comparison.ranking
+    ranked = frame[[name for name in _RANKED if name in frame.columns]]
+    content = [table(ranked, "The least mean power first", system=system)]
+    costs = [str(name) for name in frame.columns if str(name).startswith(_COSTS)]
+    if costs:
+        money = frame[["compound", "belt speed [m/s]", *costs]]
+        content.append(table(money, "Energy, cost and saving of a year", system=system))
+    return Part("ranking", "Ranking", joined(content))
+
+
+def _power(comparison: Comparison, system: System) -> list[Part]:
+    content = []
+    if len({scene.temperature for scene in comparison.scenes}) > 1:
+        made = plots.power_against_temperature(comparison)
+        slowest = min(scene.speed for scene in comparison.scenes)
+        caption = f"Motor power over the belt's temperature at {slowest:g} m/s; shaded: replicas of measured rubber."
+        content.append(drawn(made, "power-temperature", caption, system))
+    if len({scene.speed for scene in comparison.scenes}) > 1:
+        made = plots.power_against_speed(comparison)
+        content.append(
+            drawn(
+                made, "power-speed", "Motor power over belt speed at the coldest common temperature.", system
+            )
+        )
+    return [Part("power", "Power", joined(content))] if content else []
+
+
+def _scenes(comparison: Comparison, system: System) -> Part:
+    frame = comparison.table
+    kept = frame.drop(columns=[name for name in frame.columns if "per year" in str(name)])
+    return Part(
+        "scenes", "Every scene", table(kept, "One row a compound, speed and temperature", system=system)
+    )
+
+
+def _coverage(comparison: Comparison, system: System) -> Part:
+    frame = comparing.coverage(comparison)
+    note = element(
+        "p", "NO in the last column: the rolls ask for frequencies beyond the data.", class_="note"
+    )
+    content = joined([table(frame, "What the rolls excite, and what the data hold", system=system), note])
+    return Part("coverage", "Coverage of the data", content)
