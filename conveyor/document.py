@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
 import json
+import stat
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +25,9 @@ DEEPEST: Final = 50
 
 MOST_LINES: Final = 100
 """Errors listed of one file; the rest are counted."""
+
+_MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
+          codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
 
 Location = tuple[int | str, ...]
 _TAG = "tag:yaml.org,2002:"
@@ -121,14 +126,10 @@ def read_document(path: Path) -> Document:
 
 
 def _decoded(path: Path) -> str:
-    try:
-        content = path.read_bytes() if path.stat().st_size <= LARGEST_FILE or path.is_dir() else None
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    if content is None:
-        raise InputError(f"{path}: larger than {LARGEST_FILE:,} bytes; this is no spec or compound file")
+    content = _content(path)
+    for mark, encoding in _MARKS.items():
+        if content.startswith(mark):
+            raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -137,6 +138,27 @@ def _decoded(path: Path) -> str:
         raise InputError(
             f"{path}:{line}:{column} file: not UTF-8 text (byte 0x{content[error.start]:02x}); save it as UTF-8"
         ) from None
+
+
+def _content(path: Path) -> bytes:
+    """Bytes of an ordinary file of a size that a spec may have."""
+    try:
+        state = path.stat()
+        if stat.S_ISDIR(state.st_mode):
+            raise InputError(f"{path}: is a folder; give a file in it")
+        if not stat.S_ISREG(state.st_mode):
+            raise InputError(f"{path}: is no ordinary file (a pipe or a device); write it to a file first")
+        if state.st_size > LARGEST_FILE:
+            raise InputError(f"{path}: larger than {LARGEST_FILE:,} bytes; this is no spec or compound file")
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{str(path)!r}: no name of a file ({error})") from None
 
 
 def _json(content: str, path: Path) -> Any:

@@ -7,7 +7,6 @@ import os
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from pathlib import Path
-from typing import Final
 
 from pydantic import ValidationError
 
@@ -15,54 +14,9 @@ from conveyor.document import listing, read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings
 from conveyor.models.compound import RubberCompound
+from conveyor.shelf_files import ENVIRONMENT, SUFFIXES, built_in, files, folders
 
-ENVIRONMENT: Final = "CONVEYOR_SHELF"
-"""Environment variable with further folders, separated as in PATH."""
-_SUFFIXES = (".yaml", ".yml", ".json")
-
-
-def built_in() -> Path:
-    """Return the folder of the built-in compounds: in the installed package, else in the checkout.
-
-    Raises
-    ------
-    InputError
-        Neither exists: the installation is incomplete.
-    """
-    package = Path(__file__).parent
-    for folder in (package / "_materials", package.parent / "materials"):
-        if folder.is_dir():
-            return folder
-    raise InputError(f"no built-in shelf in {package / '_materials'}; install the package again")
-
-
-def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
-    """Return the folders that are searched: `extra`, those of CONVEYOR_SHELF, the built-in one.
-
-    Raises
-    ------
-    InputError
-        A folder does not exist.
-    """
-    listed = [Path(folder) for folder in extra]
-    listed += [Path(folder) for folder in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if folder]
-    for folder in listed:
-        if not folder.is_dir():
-            raise InputError(
-                f"shelf {folder}: no such folder (argument or environment variable {ENVIRONMENT})"
-            )
-    return [*listed, built_in()]
-
-
-def _files(extra: Iterable[str | Path]) -> dict[str, list[Path]]:
-    """Find the compound files by their name on the shelf: the file's name without its ending."""
-    found: dict[str, list[Path]] = {}
-    unique = {folder.resolve(): folder for folder in folders(extra)}
-    for folder in unique.values():
-        for path in sorted(folder.iterdir()):
-            if path.suffix.lower() in _SUFFIXES:
-                found.setdefault(path.stem.casefold(), []).append(path)
-    return found
+__all__ = ["ENVIRONMENT", "built_in", "compound", "folders", "names", "read_compound", "resolver"]
 
 
 def names(extra: Iterable[str | Path] = ()) -> list[str]:
@@ -73,7 +27,7 @@ def names(extra: Iterable[str | Path] = ()) -> list[str]:
     >>> "standard-cover" in names()
     True
     """
-    return sorted(_files(extra))
+    return sorted(files(extra))
 
 
 def compound(
@@ -104,22 +58,28 @@ def compound(
     text = str(name_or_path)
     if (
         isinstance(name_or_path, Path)
-        or Path(text).suffix.lower() in _SUFFIXES
+        or Path(text).suffix.lower() in SUFFIXES
         or "/" in text
         or os.sep in text
     ):
-        path = (base or Path()) / Path(text).expanduser()
-        return read_compound(path)
-    files = _files(extra)
-    paths = files.get(text.casefold(), [])
+        return read_compound((base or Path()) / _expanded(text))
+    known = files(extra)
+    paths = known.get(text.casefold(), [])
     if len(paths) > 1:
         listed = " and ".join(str(path) for path in paths)
         raise InputError(f'compound "{text}" is on the shelf twice: {listed}; rename one or give its path')
     if not paths:
-        near = difflib.get_close_matches(text.casefold(), files, n=1)
+        near = difflib.get_close_matches(text.casefold(), known, n=1)
         guess = f'; did you mean "{near[0]}"?' if near else ""
-        raise InputError(f'unknown compound "{text}"{guess}; on the shelf: {", ".join(sorted(files))}')
+        raise InputError(f'unknown compound "{text}"{guess}; on the shelf: {", ".join(sorted(known))}')
     return read_compound(paths[0])
+
+
+def _expanded(text: str) -> Path:
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:
+        raise InputError(f'compound "{text}": no home folder "{Path(text).parts[0]}"; give the path in full') from None
 
 
 def read_compound(path: Path) -> RubberCompound:
@@ -132,7 +92,7 @@ def read_compound(path: Path) -> RubberCompound:
     """
     try:
         state = path.stat()
-    except OSError:
+    except (OSError, ValueError):  # the latter: a null byte in the name
         read_document(path)
         raise
     return _read_once(path, state.st_mtime_ns, state.st_size)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from conveyor import shelf
+from conveyor import shelf, shelf_files
 from conveyor.errors import InputError
 from conveyor.units import si
 
@@ -115,7 +115,7 @@ def test_file_with_errors_lists_all_with_places(tmp_path: Path) -> None:
 def test_packaged_shelf_is_found_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = tmp_path / "conveyor"
     package.mkdir()
-    monkeypatch.setattr(shelf, "__file__", str(package / "shelf.py"))
+    monkeypatch.setattr(shelf_files, "__file__", str(package / "shelf_files.py"))
     with pytest.raises(InputError, match="no built-in shelf in"):
         shelf.built_in()
     (tmp_path / "materials").mkdir()

@@ -1,31 +1,77 @@
-"""The application, the options its commands share, and how errors become exit codes."""
+"""The application, the options its commands share, and how they read and write."""
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any
+from uuid import uuid4
 
 import typer
+import typer.core
 
-from conveyor.errors import ConveyorError, InputError
+from conveyor.errors import InputError
 
 # matrices here are small: more BLAS threads than one cost time, and a lot of it on a busy machine
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
+
+def examples(*commands: str) -> str:
+    """Examples as the last lines of a command's help, one a line."""
+    return "\b\nExamples:\n" + "\n".join(f"  {command}" for command in commands)
+
+
+class _InOrder(typer.core.TyperGroup):
+    """Commands in the order a newcomer needs them."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        return sorted(
+            super().list_commands(ctx), key=lambda name: ORDER.index(name) if name in ORDER else len(ORDER)
+        )
+
+
+ORDER = ("new", "power", "compare", "template", "fit", "shelf", "contact", "validate", "schema")
+
 app = typer.Typer(
     name="conveyor",
-    help="Belt-conveyor power from the viscoelastic contact of every idler roll.",
-    no_args_is_help=True,
+    cls=_InOrder,
     add_completion=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # plain help: rich alone would take a third of its time
     context_settings={"help_option_names": ["-h", "--help"]},
+    epilog=examples(
+        "conveyor new mine.yaml",
+        "conveyor power mine.yaml",
+        "conveyor power mine.yaml -o report.xlsx",
+        "conveyor --install-completion",
+    )
+    + "\n\nExit codes: 0 done, 1 the calculation has no answer, 2 wrong input, 130 stopped by Ctrl-C.",
 )
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        print(f"conveyor {version('conveyor')}")
+        raise typer.Exit
+
+
+@app.callback(help="Belt-conveyor power from the viscoelastic contact of every idler roll.")
+def _options(
+    _version: Annotated[
+        bool,
+        typer.Option("--version", help="Show the version and exit.", callback=_show_version, is_eager=True),
+    ] = False,
+) -> None:
+    """Options that belong to no command."""
+
 
 Spec = Annotated[Path, typer.Argument(help="Conveyor spec: .yaml, .json or .xlsx.", show_default=False)]
 Shelves = Annotated[
@@ -38,38 +84,51 @@ Drawing = "to this file (.png, .svg, .pdf)."
 _MOST_VALUES = 1000
 
 
-def main() -> None:
-    """Run the command line; errors become one message on stderr and an exit code, never a traceback."""
-    try:
-        app()
-    except InputError as error:
-        _fail(error, 2)
-    except ConveyorError as error:
-        _fail(error, 1)
-    except BrokenPipeError:
-        sys.stderr.close()
-        sys.exit(1)
-
-
-def _fail(error: ConveyorError, code: int) -> None:
-    print(f"conveyor: {error}" if code == 1 else str(error), file=sys.stderr)
-    sys.exit(code)
-
-
 def write_text(path: Path, text: str) -> None:
-    """Write a text under a temporary name, then rename.
+    """Write a text under a temporary name beside its own, then rename.
 
     Raises
     ------
     InputError
-        The path cannot be written.
+        The path cannot be written; nothing half-written is left, and an older file is untouched.
     """
-    partial = path.with_name(path.name + ".part")
+    writable(path)
+    partial = path.with_name(f".{uuid4().hex}.part")
     try:
         partial.write_text(text, encoding="utf-8")
         partial.replace(path)
     except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from None
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        with suppress(OSError):  # gone after the rename; a folder that went away has nothing to clean
+            partial.unlink(missing_ok=True)
+
+
+def writable(path: Path) -> None:
+    """Refuse a path that cannot be written before any time is spent on what would be in it.
+
+    Raises
+    ------
+    InputError
+        A folder, a device, a read-only file, or in a folder that does not exist.
+    """
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder; give the name of a file in it")
+    if not path.absolute().parent.is_dir():
+        raise InputError(f"{path}: its folder does not exist; create it or choose another")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is no ordinary file (a pipe or a device); give the name of a file")
+    if path.exists() and not os.access(path, os.W_OK):
+        raise InputError(f"{path}: is read-only; change that or choose another name")
+    if not os.access(path.absolute().parent, os.W_OK):
+        raise InputError(f"{path}: its folder is read-only; choose another")
+
+
+def print_json(data: object) -> None:
+    """Print one JSON object in UTF-8, whatever the terminal's encoding: RFC 8259, section 8.1."""
+    with suppress(AttributeError):  # a stream that a test put there
+        sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
+    print(json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False))
 
 
 @contextmanager

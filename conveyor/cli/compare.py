@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import sys
@@ -12,18 +11,46 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app, one_of, progress, values, write_text
+from conveyor.cli import notes
+from conveyor.cli.app import (
+    AsJson,
+    Quiet,
+    Shelves,
+    Spec,
+    app,
+    examples,
+    one_of,
+    print_json,
+    progress,
+    values,
+    writable,
+    write_text,
+)
+from conveyor.cli.completion import compound_names
 from conveyor.errors import InputError, NoSolutionError
 
 if TYPE_CHECKING:
     from conveyor.comparison import Comparison
 
 
-@app.command()
+@app.command(
+    short_help="Compare rubber compounds on a conveyor.",
+    epilog=examples(
+        "conveyor compare overland.yaml -c standard-cover -c low-rolling-resistance-cover",
+        "conveyor compare overland.yaml -c s100 -c mine.yaml --temperature -30:40:5",
+        "conveyor compare overland.yaml -c s100 -c s120 --speed 4,5,6 -o compounds.xlsx",
+    ),
+)
 def compare(
     spec: Spec,
     compounds: Annotated[
-        list[str], typer.Option("--compound", "-c", help="Shelf name or compound file; may be repeated.")
+        list[str],
+        typer.Option(
+            "--compound",
+            "-c",
+            help="Shelf name or compound file; may be repeated.",
+            autocompletion=compound_names,
+        ),
     ],
     temperatures: Annotated[
         str | None,
@@ -55,15 +82,14 @@ def compare(
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
-    """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed.
-
-    Example: conveyor compare examples/specs/overland.yaml -c standard-cover -c low-rolling-resistance-cover
-    --temperature -30:40:5 -o compounds.xlsx
-    """
+    """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     import conveyor
     from conveyor.comparison import compare_compounds
     from conveyor.report import comparing
 
+    for path in (output, csv, plot, tan_delta):
+        if path is not None:
+            writable(path)
     line = conveyor.load(spec, shelves=shelf or ())
     with progress("compounds", silent=quiet or as_json) as step:
         found = compare_compounds(
@@ -93,7 +119,7 @@ def compare(
 
         written.append(f"figure: {plots.save(plots.compared_loss_tangents(found), tan_delta)}")
     if as_json:
-        print(json.dumps(comparing.to_dict(found), indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(comparing.to_dict(found))
     elif not quiet:
         _print_comparison(found)
         print("\n".join(written))
@@ -125,8 +151,7 @@ def _print_comparison(found: Comparison) -> None:
         highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else _PIPED
     )
     console.print(table)
-    for remark in comparing.remarks(found):
-        console.print(f"[yellow]note:[/] {escape(remark)}")
+    notes.show(console, comparing.remarks(found))
 
 
 Row = Mapping[Hashable, Any]

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app
+from conveyor.cli import notes
+from conveyor.cli.app import AsJson, Quiet, Shelves, Spec, app, examples, print_json, writable
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.studies import Studies
 
 
-@app.command()
+@app.command(
+    short_help="Power, forces and tensions of a conveyor.",
+    epilog=examples(
+        "conveyor power overland.yaml",
+        "conveyor power overland.yaml -o overland.xlsx",
+        "conveyor power overland.yaml --json | jq .power_kW",
+        "conveyor power input.xlsx --shelf my-compounds",
+    ),
+)
 def power(
     spec: Spec,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Write the workbook (.xlsx).")] = None,
@@ -23,19 +31,17 @@ def power(
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
-    """Power, forces and tensions of a conveyor.
-
-    Example: conveyor power examples/specs/overland.yaml -o overland.xlsx
-    """
+    """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     import conveyor
     from conveyor.studies import studies
 
+    if output is not None:
+        writable(output)
     line = conveyor.load(spec, shelves=shelf or ())
     result, asked = conveyor.analyse(line), studies(line)
     written = None if output is None else result.to_excel(output, asked)
     if as_json:
-        found = result.to_dict() | asked.to_dict()
-        print(json.dumps(found, indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(result.to_dict() | asked.to_dict())
     elif not quiet:
         _print_power(result)
         _print_studies(asked)
@@ -85,8 +91,7 @@ def _print_power(result: Analysis) -> None:
         table.add_row("energy per year", f"{drive.energy_per_year / 1e3:,.0f} MWh/a", "", cost)
     console.print(table)
     console.print(f"relative error of the contact solutions: at most {result.error_estimate:.0e}")
-    for warning in result.warnings:
-        console.print(f"[yellow]note:[/] {escape(warning)}")
+    notes.show(console, result.warnings)
 
 
 def _print_studies(asked: Studies) -> None:

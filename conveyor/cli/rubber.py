@@ -7,12 +7,20 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Quiet, Shelves, app, one_of, write_text
+from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, writable, write_text
+from conveyor.cli.completion import compound_names
 
 ZERO_CELSIUS = 273.15
 
 
-@app.command()
+@app.command(
+    short_help="Fit a compound to laboratory data.",
+    epilog=examples(
+        "conveyor fit s120.dma.csv --shift s120.shift.csv -o s120.yaml",
+        'conveyor fit isotherms.csv --at "20 degC" --plot fit.png',
+        'conveyor fit frequency_sweep.xlsx --sheet E --modulus-unit MPa --at "23 degC"',
+    ),
+)
 def fit(
     data: Annotated[Path, typer.Argument(help="Master curve or isotherms: CSV, TXT or XLSX of any layout.")],
     output: Annotated[
@@ -55,12 +63,13 @@ def fit(
     kind: Annotated[str | None, typer.Option(help="What the file holds, where it leaves it open.")] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked.
-
-    Example: conveyor fit materials/s120.dma.csv --shift materials/s120.shift.csv -o s120.yaml
-    """
+    """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
     from conveyor import compound_file
     from conveyor.units import quantity, si
+
+    for path in (output, plot):
+        if path is not None:
+            writable(path)
 
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
@@ -90,15 +99,27 @@ def fit(
     if plot is not None:
         from conveyor.report import fitting, plots
 
-        print(f"figure: {plots.save(fitting.figure(found), plot)}")
+        drawn = plots.save(fitting.figure(found), plot)
+        if not quiet:
+            print(f"figure: {drawn}")
     if output is not None:
         write_text(output, compound_file.dump(found.compound, "Written by conveyor fit"))
-        print(f"compound file: {output}")
+        if not quiet:
+            print(f"compound file: {output}")
 
 
-@app.command()
+@app.command(
+    epilog=examples(
+        "conveyor shelf",
+        'conveyor shelf s100 --at "-10 degC" --frequency "30 Hz"',
+        "conveyor shelf s100 --plot s100.png",
+        "conveyor shelf --shelf my-compounds",
+    )
+)
 def shelf(
-    name: Annotated[str | None, typer.Argument(help="Show one compound.")] = None,
+    name: Annotated[
+        str | None, typer.Argument(help="Show one compound.", autocompletion=compound_names)
+    ] = None,
     at: Annotated[str, typer.Option(help="Temperature of the moduli shown.")] = "20 degC",
     frequency: Annotated[str, typer.Option(help="Frequency of the moduli shown.")] = "10 Hz",
     plot: Annotated[
@@ -107,10 +128,7 @@ def shelf(
     ] = None,
     shelves: Shelves = None,
 ) -> None:
-    """List the compounds on the shelf, or show one.
-
-    Example: conveyor shelf s100 --at "20 degC" --plot s100.png
-    """
+    """List the compounds on the shelf, or show one."""
     import math
 
     from rich.console import Console

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import AsJson, Shelves, app
+from conveyor.cli.app import AsJson, Quiet, Shelves, app, examples, print_json
 from conveyor.errors import InputError, NoSolutionError
 
 
-@app.command()
+@app.command(
+    epilog=examples(
+        "conveyor contact --support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1",
+        "conveyor contact --radius 0.1 --pressure 0.01 --weight 0.5 --time 1 --json",
+    )
+)
 def contact(
     radius: Annotated[float, typer.Option(help="R over the spacing, in (0, 0.5].")],
     pressure: Annotated[float | None, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")] = None,
@@ -30,10 +34,7 @@ def contact(
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-6,
     as_json: AsJson = False,
 ) -> None:
-    """Solve one dimensionless rolling contact.
-
-    Example: conveyor contact --support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1
-    """
+    """Solve one dimensionless rolling contact."""
     from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_penetration
 
     if (pressure is None) == (penetration is None):
@@ -55,7 +56,7 @@ def contact(
             "order": solution.stats.order,
             "way": solution.stats.way,
         }
-        print(json.dumps({**figures, **about}, indent=2))
+        print_json({**figures, **about})
         return
     for name, value in {"pressure": solution.problem.pressure, **figures}.items():
         print(f"{name:>15}  {value:.10g}")
@@ -63,33 +64,43 @@ def contact(
     print(f"{'status':>15}  {solution.message}")
 
 
-@app.command()
+@app.command(
+    short_help="Write an input workbook to fill in.",
+    epilog=examples(
+        "conveyor template input.xlsx",
+        "conveyor template input.xlsx --from overland.yaml",
+        "conveyor power input.xlsx",
+    ),
+)
 def template(
     output: Annotated[Path, typer.Argument(help="Workbook to write (.xlsx).", show_default=False)],
     spec: Annotated[Path | None, typer.Option("--from", help="Fill it in from this spec.")] = None,
+    quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
-    """Write an input workbook: fields, units, drop-downs, ranges, an example; `conveyor power` reads it.
-
-    Example: conveyor template input.xlsx
-    """
+    """Write an input workbook: fields, units, drop-downs, ranges, an example; `conveyor power` reads it."""
     import conveyor
     from conveyor.template.write import write_template
 
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    print(f"template: {write_template(output, line, shelves=shelf or ())}")
+    written = write_template(output, line, shelves=shelf or ())
+    if not quiet:
+        print(f"template: {written}")
 
 
-@app.command()
+@app.command(epilog=examples("conveyor schema > conveyor.schema.json"))
 def schema() -> None:
     """Print the JSON schema of a spec, for editors."""
     from conveyor.spec import schema as build
 
-    print(json.dumps(build(), indent=2, ensure_ascii=False))
+    print_json(build())
 
 
-@app.command()
-def validate() -> None:
+@app.command(
+    short_help="Run the built-in reference cases.",
+    epilog=examples("conveyor validate", "conveyor validate --quiet && echo good"),
+)
+def validate(quiet: Quiet = False) -> None:
     """Run the built-in reference cases and print what was expected and what came out."""
     from rich import box
     from rich.console import Console
@@ -111,8 +122,9 @@ def validate() -> None:
             f"{check.tolerance:.1e}",
             "ok" if check.passed else "[bold red]FAILED[/]",
         )
-    Console(highlight=False).print(table)
     failed = sum(not check.passed for check in checks)
-    print(f"{len(checks) - failed} of {len(checks)} agree")
+    if not quiet:
+        Console(highlight=False).print(table)
+        print(f"{len(checks) - failed} of {len(checks)} agree")
     if failed:
         raise NoSolutionError(f"{failed} reference cases do not agree: do not trust results on this machine")

@@ -1,0 +1,55 @@
+"""`conveyor new`: a commented spec to start from."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from conveyor.cli.app import Quiet, app, examples, write_text
+from conveyor.errors import InputError
+
+
+class Kind(StrEnum):
+    """Conveyors there is a starter of."""
+
+    OVERLAND = "overland"
+    IN_PLANT = "in-plant"
+    DOWNHILL = "downhill"
+
+
+class Units(StrEnum):
+    """Systems of units."""
+
+    SI = "SI"
+    US = "US"
+
+
+@app.command(
+    short_help="Write a commented spec to start from.",
+    epilog=examples(
+        "conveyor new mine.yaml",
+        "conveyor new mine.yaml --kind in-plant --units US",
+    ),
+)
+def new(
+    spec: Annotated[Path, typer.Argument(help="Spec to write (.yaml).", show_default=False)],
+    kind: Annotated[
+        Kind, typer.Option(help="Conveyor the example values belong to.", case_sensitive=False)
+    ] = Kind.OVERLAND,
+    units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
+    force: Annotated[bool, typer.Option("--force", "-f", help="Replace an older file.")] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write a spec to start from: every field that matters, with a comment; it runs as it stands."""
+    if spec.suffix.lower() not in {".yaml", ".yml"}:
+        raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
+    if spec.is_file() and not force:
+        raise InputError(f"{spec}: exists; choose another name, or replace it with --force")
+    from conveyor.starter import written
+
+    write_text(spec, written(kind.value, units.value, file=spec.name))
+    if not quiet:
+        print(f"spec: {spec}\nnext: conveyor power {spec}")

@@ -1,0 +1,112 @@
+"""What a run of the command line ends in: an exit code and, where something is wrong, one message on stderr."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import signal
+import sys
+import warnings
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Final, TextIO
+
+import typer
+
+from conveyor.cli.app import app
+from conveyor.errors import ConveyorError, InputError
+
+DONE: Final = 0
+NO_SOLUTION: Final = 1
+WRONG_INPUT: Final = 2
+INTERRUPTED: Final = 130
+"""128 + SIGINT, as shells give it."""
+
+_UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
+_SPECS: Final = (".yaml", ".yml", ".json", ".xlsx")
+_CONTROL: Final = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
+
+
+def main() -> None:
+    """Run the command line; errors become one message on stderr and an exit code, never a traceback."""
+    _set_up_streams()
+    try:
+        code = app(None if sys.argv[1:] else ["--help"], prog_name="conveyor", standalone_mode=False)
+        sys.stdout.flush()
+    except InputError as error:
+        _leave(str(error), WRONG_INPUT)
+    except ConveyorError as error:
+        _leave(f"conveyor: {error}", NO_SOLUTION)
+    except _UsageError as error:
+        _leave(usage(error), WRONG_INPUT)
+    except (KeyboardInterrupt, typer.Abort):
+        code = INTERRUPTED
+    except OSError as error:
+        _leave(f"conveyor: {error.filename or 'output'}: {error.strerror or error}", WRONG_INPUT)
+    if code == INTERRUPTED:
+        _leave("conveyor: stopped by Ctrl-C", INTERRUPTED)
+    sys.exit(code if isinstance(code, int) else DONE)
+
+
+def _set_up_streams() -> None:
+    """A reader that goes away ends us silently, as any filter; what a terminal cannot show is written as its code."""
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError):  # a stream that a test put there
+            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    warnings.showwarning = _note
+
+
+def _note(
+    message: Warning | str,
+    category: type[Warning],  # noqa: ARG001 the signature of warnings.showwarning
+    filename: str,  # noqa: ARG001
+    lineno: int,  # noqa: ARG001
+    file: TextIO | None = None,  # noqa: ARG001
+    line: str | None = None,  # noqa: ARG001
+) -> None:
+    print(f"note: {readable(str(message))}", file=sys.stderr)
+
+
+def _leave(message: str, code: int) -> None:
+    print(readable(message), file=sys.stderr)
+    with suppress(OSError):
+        sys.stdout.close()
+    sys.exit(code)
+
+
+def readable(message: str) -> str:
+    r"""Write control characters out: a hostile name may not move the cursor or colour the terminal.
+
+    Examples
+    --------
+    >>> readable("got \x1b[31mred")
+    'got \\x1b[31mred'
+    """
+    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), message)
+
+
+def usage(error: Any) -> str:
+    """One line on a command line that was not understood: what, what was meant, where to read on."""
+    context = error.ctx
+    said = str(error.message if getattr(error, "possibilities", None) else error.format_message()).rstrip(".")
+    guess = _meant(error, said)
+    path = "conveyor" if context is None else context.command_path
+    return f"{path}: {said[:1].lower()}{said[1:]}{guess} (see {path} --help)"
+
+
+def _meant(error: Any, said: str) -> str:
+    if error.ctx is None or "did you mean" in said.lower():
+        return ""
+    given = getattr(error, "option_name", None)
+    if given is not None:
+        known = [
+            name for parameter in error.ctx.command.params for name in parameter.opts if name.startswith("--")
+        ]
+        near = difflib.get_close_matches(str(given), [*known, "--help"], n=1)
+        return f"; did you mean {near[0]}?" if near else ""
+    quoted = re.fullmatch(r"No such command '(.*)'", said)
+    if quoted is not None and Path(quoted[1]).suffix.lower() in _SPECS:
+        return f"; to calculate it: conveyor power {quoted[1]}"
+    return ""

@@ -1,0 +1,7 @@
+"""A first spec to start from: every field that matters, what it means, and what happens without it."""
+
+from __future__ import annotations
+
+from conveyor.starter.write import KINDS, Kind, values, written
+
+__all__ = ["KINDS", "Kind", "values", "written"]
