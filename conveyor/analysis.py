@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.studies import Studies
+    from conveyor.units import System
 
 
 def analyse(conveyor: Conveyor) -> Analysis:
@@ -201,6 +202,24 @@ class Analysis:
         from conveyor.report.excel import write
 
         return write(self, Path(path), studies)
+
+    def to_html(self, path: str | Path, studies: Studies | None = None, *, system: System = "SI") -> Path:
+        """Write the HTML report, one static page, with the parts of `conveyor.studies` where they are given.
+
+        Raises
+        ------
+        InputError
+            The path cannot be written.
+        """
+        from conveyor.report.html import write
+
+        return write(self, Path(path), studies, system=system)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: key figures, failed checks, warnings."""
+        from conveyor.report.representations import of_analysis
+
+        return of_analysis(self)
 
 
 def _drives(found: Balance) -> list[dict[str, Any]]:

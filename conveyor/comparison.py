@@ -17,7 +17,7 @@ from conveyor import shelf
 from conveyor.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.units import Quantity, quantity, si
+from conveyor.units import Quantity, System, quantity, si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -94,6 +94,24 @@ class Comparison:
         from conveyor.report.excel import write_comparison
 
         return write_comparison(self, Path(path))
+
+    def to_html(self, path: str | Path, *, system: System = "SI") -> Path:
+        """Write the HTML report, one static page.
+
+        Raises
+        ------
+        InputError
+            The path cannot be written.
+        """
+        from conveyor.report.html import write_comparison
+
+        return write_comparison(self, Path(path), system=system)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the ranking and what to know of it."""
+        from conveyor.report.representations import of_comparison
+
+        return of_comparison(self)
 
 
 def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:

@@ -17,6 +17,10 @@ from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
 
+_FIGURES = (
+    "friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation", "energy_error",
+    "error_estimate",
+)  # fmt: skip
 _DEEP = "the penetration is {:.2f} R, far outside small strain"
 
 
@@ -117,6 +121,16 @@ class ContactSolution:
     def message(self) -> str:
         """Why the solve stopped, what to change, and remarks on validity."""
         return "; ".join((self.status.message, *self.advice))
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the figures, or why there are none."""
+        from conveyor.markup import listing
+
+        rows: list[tuple[str, object]] = [("status", self.message)]
+        if self._found is not None:
+            rows += [(name, f"{getattr(self, name):.8g}") for name in _FIGURES]
+            rows.append(("patches", "; ".join(f"{left:.6g} to {right:.6g}" for left, right in self.patches)))
+        return listing("ContactSolution, lengths over R", rows)
 
     @property
     def friction(self) -> float:

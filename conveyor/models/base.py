@@ -134,6 +134,12 @@ class Model(BaseModel):
         """Return plain data (text, numbers, lists) that validate to the same model again."""
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
+    def _repr_html_(self) -> str:
+        """For notebooks: every field that was given or has a default, as entered."""
+        from conveyor.markup import listing
+
+        return listing(type(self).__name__, self.as_data().items())
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as plain data: pint quantities do not survive another process's registry."""
         return type(self).model_validate, (self.as_data(),)

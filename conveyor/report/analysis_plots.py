@@ -120,9 +120,9 @@ def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
         ylabel="pressure [MPa]",
         title="Pressure under the rolls of the highest line load",
     )
+    axis.margins(y=0.4)  # room for the legend above the curves
     axis.set_ylim(bottom=0.0)
-    axis.margins(y=0.12)
-    axis.legend(fontsize=8, loc="lower center")
+    axis.legend(fontsize=8)
     return figure
 
 

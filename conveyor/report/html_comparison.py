@@ -85,7 +85,14 @@ def _power(comparison: Comparison, system: System) -> list[Part]:
                 made, "power-speed", "Motor power over belt speed at the coldest common temperature.", system
             )
         )
-    return [Part("power", "Power", joined(content))] if content else []
+    tangents = drawn(
+        plots.compared_loss_tangents(comparison),
+        "tangents",
+        "Loss tangents, dotted beyond the data; shaded: what the rolls excite.",
+        system,
+    )
+    power = [Part("power", "Power", joined(content))] if content else []
+    return [*power, Part("loss-tangents", "Loss tangents", tangents)]
 
 
 def _scenes(comparison: Comparison, system: System) -> Part:

@@ -79,7 +79,9 @@ def key_figures(analysis: Analysis, system: System) -> Part:
     found = checks(analysis, system)
     failed = [check for check in found if check.verdict == "FAIL"]
     count = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
-    counted = joined(part for word, n in count.items() for part in (verdict(word), f" {n} ", Html("&ensp;")))
+    counted = joined(
+        part for word, n in count.items() if n for part in (f"{n} ", verdict(word), Html("&ensp;"))
+    )
     warned = element("a", f"{len(analysis.warnings)} warnings", href="#warnings")
     content = [
         tiles(analysis.summary, KEY_FIGURES, system),

@@ -122,7 +122,7 @@ _OTHER_UNITS = {
 """Formats of units that the workbook's do not know."""
 _SPELLED = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 _WIDE = 8  # columns beyond which a table is set smaller on paper
-_SHORT = 18  # rows up to which a table is kept on one page
+_SHORT = 24  # rows up to which a table is kept on one page
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
 _NOTHING = "–"
 _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
@@ -279,7 +279,7 @@ def listed(figures: pd.Series, caption: str, *, system: System = "SI") -> Html:
                 "tr",
                 element("th", words, scope="row"),
                 element("td", _written(str(name), value), class_="v" if isinstance(value, str) else "n"),
-                element("td", unit),
+                element("td", unit, class_="unit"),
             )
         )
     head = element(
@@ -294,14 +294,14 @@ def listed(figures: pd.Series, caption: str, *, system: System = "SI") -> Html:
 
 def verdicts(found: Iterable[Check], caption: str) -> Html:
     """Return checks as a table; the verdict is a word and a mark, its colour says nothing more."""
-    heads = [element("th", name, scope="col") for name in ("check", "found", "asked for", "verdict")]
+    heads = [element("th", name, scope="col") for name in ("check", "verdict", "found", "asked for")]
     rows = [
         element(
             "tr",
             element("th", check.subject, scope="row"),
+            element("td", verdict(check.verdict)),
             element("td", check.found),
             element("td", check.asked),
-            element("td", verdict(check.verdict)),
         )
         for check in found
     ]

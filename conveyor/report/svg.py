@@ -28,6 +28,7 @@ _WIDTH = 6.9
 _HIGHEST = 4.6
 """Of every figure [in]."""
 _DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
+_HOUSE = {colour(k) for k in range(8)}
 _GUIDE = "#5F6670"
 _PLAIN = 3  # decades about 1 that are written out
 _LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
@@ -86,17 +87,15 @@ def _tell_apart(axis: Axes) -> None:
     curves = [line for line in lines if line.get_linestyle() == "-" and line.get_linewidth() < 2.5]
     for k, line in enumerate(curves):
         line.set_linestyle(_DASHES[k % len(_DASHES)])  # type: ignore[arg-type]
-        line.set_color(colour(k))
+        if line.get_color() not in _HOUSE:
+            line.set_color(colour(k))
         line.set_linewidth(1.6)
     for line in lines:
         if line.get_linestyle() == ":":
             line.set_color(_GUIDE)
     if handles and axis.get_legend() is not None:
         once = dict(zip(labels, handles, strict=True))
-        place = axis.get_legend()._loc  # noqa: SLF001 no other way to ask where a legend was put
-        axis.legend(
-            once.values(), once.keys(), loc=place, fontsize=9, frameon=True, framealpha=0.9, edgecolor="none"
-        )
+        axis.legend(once.values(), once.keys(), fontsize=9, frameon=True, framealpha=0.9, edgecolor="none")
 
 
 def _drawn(figure: Figure) -> bytes:
