@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import codecs
 import json
-import stat
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
+from conveyor.file_content import file_content
 
 LARGEST_FILE: Final = 500_000
 """Bytes; a spec of a thousand sections with two inline compounds has a fifth of it."""
@@ -126,7 +126,7 @@ def read_document(path: Path) -> Document:
 
 
 def _decoded(path: Path) -> str:
-    content = _content(path)
+    content = file_content(path, largest=LARGEST_FILE, expected="spec or compound file")
     for mark, encoding in _MARKS.items():
         if content.startswith(mark):
             raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
@@ -138,27 +138,6 @@ def _decoded(path: Path) -> str:
         raise InputError(
             f"{path}:{line}:{column} file: not UTF-8 text (byte 0x{content[error.start]:02x}); save it as UTF-8"
         ) from None
-
-
-def _content(path: Path) -> bytes:
-    """Bytes of an ordinary file of a size that a spec may have."""
-    try:
-        state = path.stat()
-        if stat.S_ISDIR(state.st_mode):
-            raise InputError(f"{path}: is a folder; give a file in it")
-        if not stat.S_ISREG(state.st_mode):
-            raise InputError(f"{path}: is no ordinary file (a pipe or a device); write it to a file first")
-        if state.st_size > LARGEST_FILE:
-            raise InputError(f"{path}: larger than {LARGEST_FILE:,} bytes; this is no spec or compound file")
-        return path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{str(path)!r}: no name of a file ({error})") from None
 
 
 def _json(content: str, path: Path) -> Any:

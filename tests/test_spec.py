@@ -193,7 +193,7 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
         (b"- a\n- b\n", r":1:1 file: expected a mapping of fields \(key: value\), got a list"),
         (b"\n\n  just text\n", ":3:3 file: expected a mapping of fields .* got a single value"),
         (b"a: 1\nname: M\xfcller\n", ":2:8 file: not UTF-8 text .byte 0xfc.; save it as UTF-8"),
-        (b"\xff\xfea\x00", ":1:1 file: not UTF-8 text"),
+        (b"\xff\xfea\x00", ":1:1 file: UTF-16 text, expected UTF-8; save it as UTF-8"),
         (b"a: 1\n" * 300_000, "larger than 500,000 bytes"),
         (b"a: " + b"[" * 1500, ":1:1 syntax: nested deeper than 50 levels"),
         (b"a: " + b"[" * 60 + b"]" * 60, ":1:5[0-9] file: nested deeper than 50 levels"),
@@ -226,7 +226,7 @@ def test_anchors_and_aliases_are_read(tmp_path: Path) -> None:
     [
         ("none.yaml", "none.yaml: no such file"),
         ("spec.toml", "ends in .yaml, .yml or .json"),
-        ("folder.yaml", "cannot be read"),
+        ("folder.yaml", "is a folder; give a file in it"),
     ],
 )
 def test_unreadable_path(tmp_path: Path, name: str, message: str) -> None:

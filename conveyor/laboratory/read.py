@@ -7,10 +7,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Final
 
 import numpy as np
 
 from conveyor.errors import InputError
+from conveyor.file_content import file_content
 from conveyor.laboratory.arrange import Arrangement, arrange
 from conveyor.laboratory.cells import Grid, refusal
 from conveyor.laboratory.columns import Question, Series, check_units, column_label, read_columns
@@ -24,6 +26,9 @@ from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import KINDS, DmaData, FloatArray, IntArray
 from conveyor.laboratory.trend import check_trend
 from conveyor.laboratory.workbook import MAGIC, workbook_grids
+
+LARGEST_FILE: Final = 50_000_000
+"""Bytes; a table of a million rows has about as many."""
 
 
 def read_dma(
@@ -122,12 +127,7 @@ def read_dma(
 
 def _grid(path: Path, sheet: str | None) -> Grid:
     """The text, or the one sheet with a table."""
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
     if not data.startswith(MAGIC):
         if sheet is not None:
             raise refusal(path.name, 1, 0, f"a text file has no sheet '{sheet}'; leave out sheet (--sheet)")

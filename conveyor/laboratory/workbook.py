@@ -7,13 +7,15 @@ import io
 import warnings
 import zipfile
 import zlib
-from typing import Any
+from typing import Any, Final
 
 from conveyor.laboratory.cells import Grid, Line, refusal
 from conveyor.laboratory.decimals import DATE_MARK, PERCENT_MARK
 
 MAGIC = b"PK\x03\x04"
 """First bytes of a zip archive, which an .xlsx file is."""
+LARGEST_CONTENT: Final = 100_000_000
+"""Bytes of all parts together; a sheet of a million rows unpacks to about as many."""
 
 
 _DAMAGE = (
@@ -58,6 +60,14 @@ def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
     """
     import openpyxl
 
+    if _unpacked(data) > LARGEST_CONTENT:
+        raise refusal(
+            name,
+            1,
+            0,
+            f"unpacks to more than {LARGEST_CONTENT:,} bytes; export the one table as CSV",
+            lettered=True,
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         try:
@@ -74,6 +84,15 @@ def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
                 "not a readable .xlsx workbook; save it again as .xlsx, or export CSV",
                 lettered=True,
             ) from None
+
+
+def _unpacked(data: bytes) -> int:
+    """Bytes of all parts as the archive states them; what states too few is cut there and refused as damaged."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return sum(part.file_size for part in archive.infolist())
+    except _DAMAGE:
+        return 0
 
 
 def _grid(sheet: Any, name: str) -> Grid:

@@ -19,6 +19,7 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
+from conveyor.file_content import file_content
 from conveyor.template.values import Value
 
 LARGEST_FILE: Final = 3_000_000
@@ -109,15 +110,7 @@ def read_workbook(path: Path) -> dict[str, Grid]:
 def _content(path: Path) -> bytes:
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: expected a workbook that ends in .xlsx, got "{path.name}"')
-    try:
-        size = path.stat().st_size
-        content = path.read_bytes() if size <= LARGEST_FILE or path.is_dir() else None
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    if content is None:
-        raise InputError(f"{path}: larger than {LARGEST_FILE:,} bytes; this is no input workbook")
+    content = file_content(path, largest=LARGEST_FILE, expected="input workbook")
     if content.startswith(_OLE):
         if _ENCRYPTED in content:
             raise InputError(f"{path}: protected by a password; save it without one")

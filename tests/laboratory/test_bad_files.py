@@ -189,5 +189,5 @@ def test_sheet_that_is_not_there() -> None:
 def test_no_such_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"pad\.csv: no such file"):
         read_dma(tmp_path / "pad.csv")
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="is a folder; give a file in it"):
         read_dma(tmp_path)

@@ -460,7 +460,7 @@ FILES: dict[str, tuple[Callable[[Path], object], str]] = {
     "other zip": (lambda p: zipfile.ZipFile(p, "w").close(), "not a workbook|damaged or incomplete"),
     "large": (lambda p: p.write_bytes(b"PK" + b"\0" * LARGEST_FILE), "larger than 3,000,000 bytes"),
     "gone": (lambda p: p.unlink(), "no such file"),
-    "folder": (lambda p: (p.unlink(), p.mkdir()), "cannot be read: Is a directory"),
+    "folder": (lambda p: (p.unlink(), p.mkdir()), "is a folder; give a file in it"),
 }
 
 

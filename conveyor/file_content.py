@@ -1,0 +1,49 @@
+"""The bytes of a file from outside: an ordinary file of a size it may have, or a sentence on why not."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+from conveyor.errors import InputError
+
+
+def file_content(path: Path, *, largest: int, expected: str) -> bytes:
+    """Read a file whole.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    largest : int
+        Most bytes it may have.
+    expected : str
+        What it should be, for the message on a larger one ("spec or compound file").
+
+    Raises
+    ------
+    InputError
+        No such file, a folder, a pipe or device, larger than allowed, or unreadable.
+    """
+    try:
+        state = path.stat()
+        refusal = _refusal(state, largest, expected)
+        content = path.read_bytes() if refusal is None else b""
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # a null byte in the name
+        raise InputError(f"{str(path)!r}: no name of a file ({error})") from None
+    if refusal is not None:
+        raise InputError(f"{path}: {refusal}")
+    return content
+
+
+def _refusal(state: os.stat_result, largest: int, expected: str) -> str | None:
+    if stat.S_ISDIR(state.st_mode):
+        return "is a folder; give a file in it"
+    if not stat.S_ISREG(state.st_mode):
+        return "is no ordinary file (a pipe or a device); write it to a file first"
+    return f"larger than {largest:,} bytes; this is no {expected}" if state.st_size > largest else None
