@@ -95,15 +95,19 @@ def grid(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
 def _shown(value: object) -> Html:
     """Plain data as markup: parts folded away, lists of records as tables, long lists cut."""
     if isinstance(value, Mapping):
-        return _folded(f"{len(value)} fields", listing("", value.items()))
+        return _folded(_counted(len(value), "field", "fields"), listing("", value.items()))
     if isinstance(value, list | tuple):
         if value and all(isinstance(item, Mapping) for item in value):
-            return _folded(f"{len(value)} entries", grid("", value))
+            return _folded(_counted(len(value), "entry", "entries"), grid("", value))
         more = f", ... {len(value)} in all" if len(value) > _ITEMS else ""
         return joined([Html(", ").join(map(_shown, value[:_ITEMS])), more])
     if isinstance(value, str) and not isinstance(value, Html) and len(value) > _LETTERS:
         return escaped(f"{value[:_LETTERS]}... ({len(value)} characters)")
     return escaped(value)
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count} {one if count == 1 else many}"
 
 
 def _folded(summary: str, content: Html) -> Html:

@@ -26,6 +26,7 @@ _PARTS = ("indentation", "idler_rotation", "flexure")
 _SUMS = ("main", "secondary", "special", "lift", "total")
 _BAR = 0.8  # of the distance of two rows
 _HATCH = ("", "////", "\\\\\\\\")
+_BAND, _BAND_LINES = (0.5, 0.5, 0.5, 0.15), (0.3, 0.3, 0.3, 0.45)
 _POINTS = 300
 _BESIDE = 1.25  # half widths drawn on either side of a contact
 _PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at the edges
@@ -141,10 +142,9 @@ def rubber_at_work(
         for axis in figure.axes:
             axis.axvspan(
                 *band,
-                facecolor="0.55",
-                alpha=0.22,
-                hatch=_HATCH[k + 1],
-                edgecolor="0.35",
+                facecolor=_BAND,
+                hatch=_HATCH[k + 1][:2],
+                edgecolor=_BAND_LINES,
                 linewidth=0,
                 label=f"{strand} rolls: nine tenths of their loss",
             )

@@ -61,5 +61,5 @@ def _cell(name: str, value: object) -> str:
 
 
 def _folded(name: str, lines: tuple[str, ...]) -> Html:
-    summary = element("summary", f"{len(lines)} {name}")
+    summary = element("summary", f"{name} ({len(lines)})")
     return element("details", summary, element("ul", *(element("li", line) for line in lines)))

@@ -1,0 +1,440 @@
+"""The HTML report: well formed, self-contained, accessible, escaped; its numbers are the analysis'."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.contact import ContactProblem, CreepSpectrum, solve
+from conveyor.errors import InputError
+from conveyor.markup import Html, element, escaped
+from conveyor.models import RubberCompound
+from conveyor.report import html
+from conveyor.report.checks import checks
+from conveyor.report.page import COLOURS, number
+from conveyor.studies import studies
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+VOID = {"br", "meta", "link", "img", "input", "hr", "col"}
+LARGEST = 600_000  # bytes of a report
+LARGEST_OF_A_NOTEBOOK = 100_000
+CONTRAST = 4.5  # WCAG 2.2, 1.4.3, normal text
+GRAPHIC_CONTRAST = 3.0  # WCAG 2.2, 1.4.11
+HOSTILE = "<script>alert('x')</script> \"&\" $\\frac{1}$ =1+1 \u202e"
+
+
+class Page(HTMLParser):
+    """A page taken apart: every tag must be closed by its own."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.open: list[str] = []
+        self.tags: list[tuple[str, dict[str, str]]] = []
+        self.faults: list[str] = []
+        self.texts: list[tuple[str, str]] = []
+        self.feed(text)
+        self.close()
+        self.faults += [f"{tag} is not closed" for tag in self.open]
+
+    def handle_starttag(self, tag, attributes):
+        names = [name for name, _ in attributes]
+        if len(set(names)) < len(names):
+            self.faults.append(f"{tag} has an attribute twice")
+        self.tags.append((tag, dict(attributes)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"</{tag}> at {self.getpos()}")
+
+    def handle_data(self, data):
+        self.texts.append((self.open[-1] if self.open else "", data))
+
+    def of(self, tag):
+        return [attributes for name, attributes in self.tags if name == tag]
+
+    @property
+    def prose(self):
+        return " ".join(data for tag, data in self.texts if tag != "style")
+
+
+@pytest.fixture(scope="module")
+def line():
+    plain = conveyor.load(SPECS / "in_plant_us.yaml")
+    return plain.replace(
+        cases=[
+            {"name": "full", "loading": "full", "temperatures": ["10 degC", "30 degC"]},
+            {"name": "half", "loading": "part load", "share": "50 %", "speeds": ["500 fpm", "600 fpm"]},
+        ],
+        uncertainty={"roll_drag": "30 %", "temperature": "5 K"},
+        operation={
+            "price": "0.1 USD/kWh",
+            "duty": [{"hours": "3000 h", "share": "100 %"}, {"hours": "500 h", "share": "0 %"}],
+        },
+    )
+
+
+@pytest.fixture(scope="module")
+def result(line):
+    return conveyor.analyse(line)
+
+
+@pytest.fixture(scope="module")
+def text(result, line):
+    return html.build(result, studies(line))
+
+
+@pytest.fixture(scope="module")
+def page(text):
+    return Page(text)
+
+
+@pytest.fixture(scope="module")
+def comparison(line):
+    return conveyor.compare_compounds(
+        line.replace(cases=[], uncertainty=None),
+        ["standard-cover", "low-rolling-resistance-cover"],
+        temperatures=["0 degC", "20 degC"],
+        speeds=["550 fpm", "600 fpm"],
+        extra_costs={"low-rolling-resistance-cover": 1000.0},
+    )
+
+
+@pytest.fixture(scope="module")
+def compared(comparison):
+    return html.build_comparison(comparison)
+
+
+@pytest.fixture(scope="module", params=["analysis", "comparison"])
+def either(request, text, compared):
+    return text if request.param == "analysis" else compared
+
+
+def test_every_tag_is_closed_and_every_identifier_unique(either):
+    found = Page(either)
+    assert found.faults == []
+    names = [attributes["id"] for _, attributes in found.tags if "id" in attributes]
+    assert len(names) == len(set(names))
+
+
+def test_the_parser_finds_faults():
+    assert Page("<p><b>x</p></b>").faults
+    assert Page("<p>x").faults == ["p is not closed"]
+
+
+def test_every_reference_is_inside_the_page(either):
+    found = Page(either)
+    names = {attributes["id"] for _, attributes in found.tags if "id" in attributes}
+    links = [value for _, attributes in found.tags for key, value in attributes.items() if key == "href"]
+    links += re.findall(r"url\(([^)]*)\)", either)
+    assert links
+    assert {link.removeprefix("#") for link in links} <= names
+    for key in ("aria-labelledby", "aria-describedby"):
+        assert {a[key] for _, a in found.tags if key in a} <= names
+
+
+def test_nothing_is_fetched_and_nothing_runs(either):
+    found = Page(either)
+    tags = {tag for tag, _ in found.tags}
+    assert not tags & {"script", "link", "img", "iframe", "object", "embed", "image"}
+    assert not [
+        key for _, attributes in found.tags for key in attributes if key == "src" or key.startswith("on")
+    ]
+    outside = re.findall(r"https?://[^\s\"'<]+", either)
+    assert set(outside) <= {"http://www.w3.org/2000/svg"}
+    assert "@import" not in either
+
+
+def test_small_enough(text, compared):
+    assert len(text.encode()) < LARGEST
+    assert len(compared.encode()) < LARGEST
+
+
+def test_headings_in_order(either):
+    levels = [int(tag[1]) for tag, _ in Page(either).tags if re.fullmatch(r"h[1-6]", tag)]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+def test_language_title_and_width_of_phones(either, line):
+    found = Page(either)
+    assert found.of("html")[0]["lang"] == "en"
+    assert line.name in next(data for tag, data in found.texts if tag == "title")
+    assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in found.of("meta")
+
+
+def test_every_header_says_what_it_heads_and_every_figure_what_it_shows(either):
+    found = Page(either)
+    assert {attributes.get("scope") for attributes in found.of("th")} == {"col", "row"}
+    assert len(found.of("caption")) == len(found.of("table"))
+    drawings = found.of("svg")
+    assert drawings
+    for attributes in drawings:
+        assert attributes["role"] == "img"
+        assert len(attributes["aria-label"]) > 20
+    scrolling = [a for a in found.of("div") if "scroll" in a.get("class", "")]
+    assert all(a["tabindex"] == "0" and a["role"] == "group" and a["aria-label"] for a in scrolling)
+    assert len(scrolling) == len(drawings) + len(found.of("table"))
+
+
+def test_columns_of_every_row(either):
+    """As many cells in a row as headers above it."""
+    for whole in re.findall(r"<table>.*?</table>", either, re.DOTALL):
+        rows = [Page(f"<table>{row}</table>") for row in re.findall(r"<tr>.*?</tr>", whole, re.DOTALL)]
+        counts = {len(row.of("th")) + len(row.of("td")) for row in rows}
+        assert len(counts) == 1
+
+
+def luminance(colour):
+    """Relative luminance of "#RRGGBB" (WCAG 2.2)."""
+    parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one, other):
+    dark, light = sorted((luminance(one), luminance(other)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def test_contrast_itself():
+    assert contrast("#000000", "#FFFFFF") == pytest.approx(21.0)
+    assert contrast("#777777", "#FFFFFF") == pytest.approx(
+        4.48, abs=0.005
+    )  # the well-known grey that just fails
+
+
+def test_contrast_of_every_text(text):
+    """Every colour of text on the ground its rule gives it, else on every ground that may lie below."""
+    style = re.search(r"<style>(.*?)</style>", text, re.DOTALL)[1]
+    assert dict(re.findall(r"--([\w-]+): (#\w+);", style)) == COLOURS
+    rules = re.findall(r"([^{}]+)\{([^{}]*)\}", style)
+    pairs = []
+    for selector, body in rules:
+        ink = re.search(r"(?<![-\w])color: var\(--([\w-]+)\)", body)
+        ground = re.search(r"background: var\(--([\w-]+)\)", body)
+        if ink is not None:
+            grounds = ["paper", "pale"] if ground is None else [ground[1]]
+            pairs += [(selector.strip(), ink[1], each) for each in grounds]
+    assert len(pairs) > 10
+    for selector, ink, ground in pairs:
+        assert contrast(COLOURS[ink], COLOURS[ground]) >= CONTRAST, (selector, ink, ground)
+
+
+def test_contrast_in_figures(either):
+    """Letters as text, lines that mean something as graphics."""
+    drawings = re.findall(r"<svg.*?</svg>", either, re.DOTALL)
+    seen = 0
+    for drawing in drawings:
+        for attributes in Page(drawing).of("text"):
+            fill = re.search(r"fill: (#\w{6})", attributes["style"])
+            assert contrast(fill[1] if fill else "#000000", "#FFFFFF") >= CONTRAST
+        curves = [a["style"] for a in Page(drawing).of("path") if "stroke-width: 1.6" in a.get("style", "")]
+        seen += len(curves)
+        for style in curves:
+            assert contrast(re.search(r"stroke: (#\w{6})", style)[1].upper(), "#FFFFFF") >= GRAPHIC_CONTRAST
+    assert seen >= 4
+
+
+def test_curves_differ_without_colour(text):
+    """Of the curves of the tension diagram no two have the same dashes."""
+    drawing = next(d for d in re.findall(r"<svg.*?</svg>", text, re.DOTALL) if "Tension round the loop" in d)
+    styles = {
+        style
+        for a in Page(drawing).of("path")
+        if "stroke: #" in (style := a.get("style", "")) and "stroke-width: 1.6" in style
+    }
+    dashes = [re.search(r"stroke-dasharray: [^;]*", style) for style in styles]
+    assert len(dashes) == 3
+    assert len({found[0] if found else "solid" for found in dashes}) == 3
+
+
+def test_verdicts_are_words(result, page):
+    words = [check.verdict for check in checks(result)]
+    table = page.prose.split("Found against")[1].split("Warnings")[0]
+    for word in ("pass", "FAIL", "not checked"):
+        assert table.count(f" {word} ") == words.count(word)
+
+
+def test_numbers_are_those_of_the_analysis(result, page):
+    for name, value in result.summary.items():
+        assert number(str(name), float(value)) in page.prose
+    for _, row in result.sections.iterrows():
+        assert number("total [N]", row["total [N]"]) in page.prose
+    for remark in (*result.warnings, *result.assumptions):
+        assert remark in page.prose
+
+
+def test_numbers_as_in_the_workbook():
+    assert number("tension [N]", -1234.56) == "-1,234.6"
+    assert number("tension [N]", -0.04) == "0.0"
+    assert number("radius [m]", float("inf")) == "∞"
+    assert number("share [-]", -0.1169) == "-11.7%"
+    assert number("motors", 2) == "2"
+
+
+def test_parts_follow_what_was_studied(result, text):
+    asked = {"load-cases", "duty", "uncertainty"}
+    assert asked <= set(re.findall(r'<h2 id="([\w-]+)"', text))
+    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result))
+    assert not asked & set(plain)
+    needed = ["key-figures", "checks", "warnings", "resistances", "route", "tensions", "rolls", "rubber"]
+    needed += ["start-stop", "belt", "assumptions", "inputs", "provenance"]
+    assert [name for name in plain if name in needed] == needed
+
+
+def test_us_units(result):
+    prose = Page(html.build(result, system="US")).prose
+    power = number(
+        "power [hp]", result.summary["motor power [kW]"] * 1e3 / 745.69987158227022
+    )  # 550 ft lbf/s
+    assert f"{power}   hp" in prose or f"{power} hp" in re.sub(r"\s+", " ", prose)
+    assert " [N] " not in prose.split("Inputs")[0]
+    assert "Drawn in SI units." in prose
+
+
+@pytest.fixture(scope="module")
+def hostile(line):
+    sections = [
+        section.replace(name=f"{HOSTILE.strip()}{i}") for i, section in enumerate(line.route.sections)
+    ]
+    named = line.replace(
+        name=HOSTILE.strip(),
+        notes=f"{HOSTILE}\n</style></body>\x07",
+        route=line.route.replace(sections=sections),
+        cases=[],
+        uncertainty=None,
+    )
+    return conveyor.analyse(named)
+
+
+def test_hostile_names_are_text(hostile):
+    made = html.build(hostile)
+    found = Page(made)
+    assert found.faults == []
+    assert "script" not in {tag for tag, _ in found.tags}
+    assert "alert('x')" in found.prose
+    assert "\u202e" not in made
+    assert "\x07" not in made
+    shown = Page(hostile._repr_html_())
+    assert shown.faults == []
+    assert "script" not in {tag for tag, _ in shown.tags}
+
+
+def test_hostile_name_in_a_figure_stays_text():
+    """matplotlib reads "$" as a formula and refuses half of them; a missing glyph is the browser's matter."""
+    from conveyor.report.plots import stacked
+    from conveyor.report.svg import inline
+
+    figure, (axis,) = stacked()
+    axis.plot([0, 1], [0, 1], label="a $\\frac{1$ <b> 皮带")
+    axis.set_title("$\\broken{$")
+    axis.legend()
+    drawn = inline(figure, "f", 'a "curve" <of> & more')
+    found = Page(drawn)
+    assert found.faults == []
+    assert "a $\\frac{1$ <b> 皮带" in found.prose
+    assert found.of("svg")[0]["aria-label"] == 'a "curve" <of> & more'
+
+
+def test_written_whole_or_not_at_all(result, tmp_path, monkeypatch):
+    path = tmp_path / "report.html"
+    assert result.to_html(path) == path
+    before = path.read_bytes()
+    assert before.startswith(b"<!DOCTYPE html>")
+
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", full)
+        with pytest.raises(InputError, match=r"cannot be written .No space left"):
+            result.to_html(path)
+    assert path.read_bytes() == before
+    assert [entry.name for entry in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_refused_paths(result, comparison, tmp_path):
+    with pytest.raises(InputError, match=r"ends in \.html"):
+        result.to_html(tmp_path / "report.pdf")
+    with pytest.raises(InputError, match="folder does not exist"):
+        comparison.to_html(tmp_path / "none" / "report.html")
+    (tmp_path / "a.html").mkdir()
+    with pytest.raises(InputError, match="is a folder"):
+        result.to_html(tmp_path / "a.html")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.html"]
+
+
+def test_comparison_holds_the_ranking(comparison, compared, tmp_path):
+    prose = Page(compared).prose
+    for _, row in comparison.ranking.iterrows():
+        assert row["compound"] in prose
+        assert number("power [kW]", row["mean motor power [kW]"]) in prose
+    path = comparison.to_html(tmp_path / "c.html", system="US")
+    assert "[hp]" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["overland_10km", "downhill_brakes", "shuttle"])
+def test_models_in_a_notebook(name):
+    shown = conveyor.load(SPECS / f"{name}.yaml")._repr_html_()
+    found = Page(shown)
+    assert found.faults == []
+    assert len(shown.encode()) < LARGEST_OF_A_NOTEBOOK
+    assert "1200 mm" in found.prose or "1000 mm" in found.prose or "800 mm" in found.prose
+
+
+def test_model_in_a_notebook_is_as_entered_and_escaped(line):
+    compound = line.carry_compound.replace(description=HOSTILE)
+    assert isinstance(compound, RubberCompound)
+    found = Page(compound._repr_html_())
+    assert found.faults == []
+    assert "script" not in {tag for tag, _ in found.tags}
+    assert "48 in" in Page(line.belt._repr_html_()).prose
+
+
+def test_results_in_a_notebook(result, comparison):
+    for shown in (result._repr_html_(), comparison._repr_html_()):
+        assert Page(shown).faults == []
+        assert len(shown.encode()) < LARGEST_OF_A_NOTEBOOK
+    assert number("motor power [kW]", result.summary["motor power [kW]"]) in result._repr_html_()
+    assert comparison.base in comparison._repr_html_()
+
+
+def test_contact_in_a_notebook():
+    creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
+    problem = ContactProblem(
+        support="free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep, poisson=0.5
+    )
+    solution = solve(problem, rtol=1e-4)
+    prose = Page(solution._repr_html_()).prose
+    assert f"{solution.friction:.8g}" in prose
+    assert "error_estimate" in prose
+
+
+def test_refused_contact_in_a_notebook_says_why():
+    creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
+    problem = ContactProblem(
+        support="free", radius=0.1, thickness=1.0, pressure=50.0, creep=creep, poisson=0.5
+    )
+    solution = solve(problem, throw=False)
+    prose = Page(solution._repr_html_()).prose
+    assert escaped(solution.status.message) in escaped(prose)
+    assert "friction" not in [data for tag, data in Page(solution._repr_html_()).texts if tag == "th"]
+
+
+def test_markup_is_escaped_once():
+    assert element("p", element("b", "<")) == "<p><b>&lt;</b></p>"
+    assert element("p", "x", title='a"b') == '<p title="a&quot;b">x</p>'
+    assert element("p", title=None) == "<p></p>"
+    assert escaped(Html("<br>")) == "<br>"
+    assert escaped("\ud800") == "\\ud800"
