@@ -1,0 +1,147 @@
+"""Checks: each verdict is the comparison of its two figures, and agrees with the warnings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import conveyor
+from conveyor.report.checks import band_words, checks
+from conveyor.report.unit_systems import converted, converted_figure, converted_rows
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+
+
+@pytest.fixture(scope="module")
+def line():
+    return conveyor.load(SPECS / "in_plant_us.yaml")
+
+
+def found(line, system="SI"):
+    return {check.subject: check for check in checks(conveyor.analyse(line), system)}
+
+
+@pytest.fixture(scope="module")
+def all_of(line):
+    return found(line)
+
+
+def failed(checks_of):
+    return [subject for subject, check in checks_of.items() if check.verdict == "FAIL"]
+
+
+def test_example_passes(all_of):
+    assert failed(all_of) == []
+    assert all_of["motor power, drive"].found == "103.8 kW"
+    assert all_of["motor power, drive"].verdict == "pass"
+    assert "Hz" in all_of["rubber data cover the excited band, carry"].asked
+
+
+def test_us_units(line):
+    of = found(line, "US")["motor power, drive"]
+    assert of.found == "139.2 hp"
+    assert of.asked == "at most 300 hp"
+
+
+@pytest.mark.parametrize(
+    ("part", "change", "subject", "warned"),
+    [
+        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor needs 103.8 kW"),
+        ("drive", {"start_factor": 1.01}, "starting force after standstill", "raise drive.start_factor"),
+        ("carcass", {"strength": "30 N/mm"}, "safety of the belt, steady", "safety of the belt"),
+        (
+            "take-up",
+            {"kind": "gravity", "tension": "15 kN"},
+            "tension of the take-up (sag, carry, incline, steady)",
+            "asks for 27",
+        ),
+    ],
+)
+def test_what_is_too_weak_fails_and_is_warned_of(line, part, change, subject, warned):
+    if part == "carcass":
+        changed = line.replace(belt=line.belt.replace(carcass=line.belt.carcass.replace(**change)))
+    elif part == "take-up":
+        changed = line.replace(route=line.route.replace(take_up=change))
+    else:
+        changed = line.replace(drive=line.drive.replace(**change))
+    result = conveyor.analyse(changed)
+    assert subject in [check.subject for check in checks(result) if check.verdict == "FAIL"]
+    assert any(warned in warning for warning in result.warnings)
+
+
+def test_small_pulley_fails(line):
+    pulleys = [pulley.replace(diameter="250 mm") for pulley in line.route.pulleys]
+    of = found(line.replace(route=line.route.replace(pulleys=pulleys)))
+    assert of["diameter, head pulley"].verdict == "FAIL"
+    assert of["diameter, head pulley"].found == "250 mm"
+
+
+def test_not_given_is_not_checked(line):
+    without = {name: value for name, value in line.drive.as_data().items() if name != "installed_power"}
+    carcass = {name: value for name, value in line.belt.carcass.as_data().items() if name != "strength"}
+    of = found(line.replace(drive=without, belt=line.belt.replace(carcass=carcass)))
+    assert of["motor power, drive"].verdict == "not checked"
+    assert of["safety of the belt, steady"].verdict == "not checked"
+    assert of["backstop that holds the loaded belt"].verdict == "not checked"
+
+
+def test_downhill_without_brake_does_not_stop():
+    of = found(conveyor.load(SPECS / "downhill.yaml"))
+    assert of["comes to rest without power"].verdict == "FAIL"
+    assert of["motor power, drive"].found.endswith("(generating)")
+    assert of["safety of the belt, steady"].verdict == "FAIL"
+
+
+def test_brakes_that_hold():
+    of = found(conveyor.load(SPECS / "downhill_brakes.yaml"))
+    assert failed(of) == []
+    assert of["brake that holds the loaded belt"].found == "190,000 N"
+    assert {
+        "convex curve, brow, carry: no strip slack",
+        "concave curve, hollow, carry: empty belt stays down",
+    } <= set(of)
+
+
+def test_bands_in_words():
+    assert band_words((0.5, 99.6)) == "0.5 to 99.6 Hz"
+    assert band_words((1e-12, 999999.0)) == "1×10⁻¹² to 999,999 Hz"
+
+
+def test_units_of_tables():
+    frame = pd.DataFrame(
+        {
+            "strand": ["carry"],
+            "force [N]": [4.4482216152605],
+            "at [degC]": [100.0],
+            "w [N/mm]": [1.0],
+            "f [Hz]": [5.0],
+            "ok": [True],
+        }
+    )
+    assert converted(frame, "SI") is frame
+    shown = converted(frame, "US")
+    assert list(shown.columns) == ["strand", "force [lbf]", "at [degF]", "w [lbf/in]", "f [Hz]", "ok"]
+    assert shown.iloc[0].tolist() == ["carry", 1.0, 212.0, pytest.approx(5.710147163), 5.0, True]
+    rows = pd.DataFrame({"quantity": ["length [m]", "f [-]"], "value": [0.3048, float("inf")]})
+    shown = converted_rows(rows, "quantity", "US")
+    assert shown["quantity"].tolist() == ["length [ft]", "f [-]"]
+    assert shown["value"].tolist() == [1.0, float("inf")]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "there", "expected"),
+    [
+        ("a [m/s²]", 0.3048, "a [ft/s²]", 1.0),
+        ("p [MPa]", 6.894757293168, "p [psi]", 1000.0),
+        ("v [m/s]", 0.00508, "v [fpm]", 1.0),
+        ("t [mm]", 25.4, "t [in]", 1.0),
+        ("m [kg/m]", 1.488163943570, "m [lb/ft]", 1.0),
+        ("Q [t/h]", 0.90718474, "Q [stph]", 1.0),
+        ("P [kW]", 0.74569987158, "P [hp]", 1.0),
+    ],
+)
+def test_factors(name, value, there, expected):
+    """Exact by the international yard and pound; nine digits are printed here."""
+    assert converted_figure(name, [value], "US") == (there, [pytest.approx(expected, rel=1e-9)])
