@@ -144,7 +144,7 @@ def _json(content: str, path: Path) -> Any:
     if not content.strip():
         return None
     try:
-        return json.loads(content)
+        return json.loads(content, parse_int=lambda digits: _number(digits, "int"))
     except json.JSONDecodeError as error:
         raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {error.msg}") from None
     except RecursionError:
@@ -242,7 +242,7 @@ class _Reader:
 
 
 def _number(content: str, kind: str) -> int | float | str:
-    """Read a plain number; what only looks like one (1_000) stays text, for the models to refuse."""
+    """Read a plain number; what only looks like one (1_000) or has thousands of digits stays text, for the models to refuse."""
     try:
         if "_" in content:
             return content

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import os
 import re
 import signal
 import sys
 import warnings
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Final, TextIO
+from typing import Any, Final, NoReturn, TextIO
 
 import typer
 
@@ -42,6 +43,7 @@ def main() -> None:
     except (KeyboardInterrupt, typer.Abort):
         code = INTERRUPTED
     except OSError as error:
+        _discard_output()
         _leave(f"conveyor: {error.filename or 'output'}: {error.strerror or error}", WRONG_INPUT)
     if code == INTERRUPTED:
         _leave("conveyor: stopped by Ctrl-C", INTERRUPTED)
@@ -69,11 +71,15 @@ def _note(
     print(f"note: {readable(str(message))}", file=sys.stderr)
 
 
-def _leave(message: str, code: int) -> None:
+def _leave(message: str, code: int) -> NoReturn:
     print(readable(message), file=sys.stderr)
-    with suppress(OSError):
-        sys.stdout.close()
     sys.exit(code)
+
+
+def _discard_output() -> None:
+    """Send what is still to be written nowhere: the interpreter would fail on it again as it ends."""
+    with suppress(OSError, ValueError), Path(os.devnull).open("wb") as nowhere:  # no file behind a test's stream
+        os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
 def readable(message: str) -> str:

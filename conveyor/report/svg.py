@@ -25,6 +25,7 @@ _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
 _NUMBER = re.compile(r"-?\d+\.\d{2,}")
 _WIDTH = 6.9
 """Of every figure [in]: its 9 pt letters stay legible on A4 and where a phone scrolls."""
+_PAD = 0.06  # [in] about the labels
 _HIGHEST = 4.6
 """Of every figure [in]."""
 _DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
@@ -33,7 +34,8 @@ _GUIDE = "#5F6670"
 _PLAIN = 3  # decades about 1 that are written out
 _LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
 _SETTINGS = {"svg.fonttype": "none", "svg.hashsalt": "conveyor", "path.simplify_threshold": 0.5}
-_one_at_a_time = Lock()  # matplotlib's settings are the whole process's
+_NO_GLYPH = "Glyph .* missing from font"  # the browser chooses the font: a glyph that ours lacks is no fault
+_one_at_a_time = Lock()  # matplotlib's settings and the warnings are the whole process's
 
 
 def inline(figure: Figure, name: str, label: str) -> Html:
@@ -48,8 +50,10 @@ def inline(figure: Figure, name: str, label: str) -> Html:
     label : str
         What it shows, for those who cannot see it.
     """
-    restyle(figure)
-    return Html(_cleaned(_drawn(figure), name, label))
+    with _one_at_a_time:
+        restyle(figure)
+        drawn = _drawn(figure)
+    return Html(_cleaned(drawn, name, label))
 
 
 def restyle(figure: Figure) -> None:
@@ -58,7 +62,6 @@ def restyle(figure: Figure) -> None:
 
     height = min(_HIGHEST, figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth()))
     figure.set_size_inches(_WIDTH, height)
-    figure.set_layout_engine("tight", pad=0.4)  # half the time of "constrained"
     for axis in figure.axes:
         axis.set_title("")
         axis.tick_params(labelsize=9)
@@ -73,6 +76,36 @@ def restyle(figure: Figure) -> None:
         legend = axis.get_legend()
         for text in (*axis.texts, *(legend.get_texts() if legend is not None else ())):
             text.set_parse_math(False)  # a user's "$" is a dollar
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
+        _fit(figure)
+
+
+def _fit(figure: Figure) -> None:
+    """Margins that hold the labels, measured once: matplotlib's own layouts measure twice and more."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure.set_layout_engine("none")
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    width, height = figure.bbox.size
+    needed = []
+    for axis in figure.axes:
+        inner, outer = axis.get_window_extent(renderer), axis.get_tightbbox(renderer)
+        if outer is not None:
+            needed.append(
+                (inner.x0 - outer.x0, outer.x1 - inner.x1, inner.y0 - outer.y0, outer.y1 - inner.y1)
+            )
+    left, right, below, above = (max(sides) + _PAD * figure.dpi for sides in zip(*needed, strict=True))
+    inside = height - below - above
+    rows = len(figure.axes)
+    gap = (below + above) / max(1.0, (inside - (rows - 1) * (below + above)) / rows)
+    figure.subplots_adjust(
+        left=left / width,
+        right=1.0 - right / width,
+        bottom=below / height,
+        top=1.0 - above / height,
+        hspace=gap,
+    )
 
 
 def _power_of_ten(value: float, _: object = None) -> str:
@@ -103,9 +136,8 @@ def _drawn(figure: Figure) -> bytes:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     content = BytesIO()  # savefig draws twice, the canvas once
-    with _one_at_a_time, mpl.rc_context(_SETTINGS), warnings.catch_warnings():  # type: ignore[arg-type]
-        # the browser chooses the font: a glyph that ours lacks is no fault
-        warnings.filterwarnings("ignore", "Glyph .* missing from font", UserWarning)
+    with mpl.rc_context(_SETTINGS), warnings.catch_warnings():  # type: ignore[arg-type]
+        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
         FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None})  # type: ignore[no-untyped-call]
     return content.getvalue()
 
