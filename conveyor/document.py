@@ -29,6 +29,8 @@ MOST_LINES: Final = 100
 _MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
           codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
 
+_FIRST: Final = 1000  # bytes: text without a null there has none
+
 Location = tuple[int | str, ...]
 _TAG = "tag:yaml.org,2002:"
 
@@ -86,7 +88,10 @@ class Document:
                 pair = next(((k, v) for k, v in node.value if k.value == str(part)), None)
                 if pair is not None:
                     node = pair[1]
-                    place = _place(pair[0] if of_key or not isinstance(node, ScalarNode) else node)
+                    of_value = (
+                        isinstance(node, ScalarNode) and node.value != ""
+                    )  # nothing is marked where it ends
+                    place = _place(node if of_value and not of_key else pair[0])
             elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.value):
                 node = node.value[part]
                 place = _place(node)
@@ -107,6 +112,8 @@ def read_document(path: Path) -> Document:
         Duplicate keys, tags and merge keys do not raise: they are in `Document.findings`.
     """
     if path.suffix.lower() not in {".yaml", ".yml", ".json"}:
+        if path.is_dir():
+            raise InputError(f"{path}: is a folder; give a file in it")
         raise InputError(f'{path}: expected a file that ends in .yaml, .yml or .json, got "{path.name}"')
     content = _decoded(path)
     is_json = path.suffix.lower() == ".json"
@@ -130,6 +137,10 @@ def _decoded(path: Path) -> str:
     for mark, encoding in _MARKS.items():
         if content.startswith(mark):
             raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
+    if b"\0" in content[:_FIRST]:
+        raise InputError(
+            f"{path}:1:1 file: holds null bytes: UTF-16 without its mark, or no text; save it as UTF-8"
+        )
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -151,6 +162,15 @@ def _json(content: str, path: Path) -> Any:
         raise InputError(f"{path}:1:1 syntax: nested deeper than {DEEPEST} levels") from None
 
 
+_ADVICE: Final = {
+    "'\\t'": "; indent with spaces, not tabs",
+    "mapping values are not allowed": "; look here and in the line before: indentation, the blank after each colon, "
+    'quotes around a text with ": " in it',
+    "could not find expected ':'": "; write key: value, on one line",
+    "single document": '; remove the line "---" and what follows',
+}
+
+
 def _composed(content: str, path: Path) -> Node | None:
     try:
         node: Node | None = YAML(typ="rt", pure=True).compose(content)
@@ -158,7 +178,7 @@ def _composed(content: str, path: Path) -> Node | None:
         unclosed = "stream" in str(error.problem)
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
-        advice = "; indent with spaces, not tabs" if "'\\t'" in str(error.problem) else ""
+        advice = next((more for part, more in _ADVICE.items() if part in str(error.problem)), "")
         what = " ".join(part for part in (error.context, error.problem) if part)
         raise InputError(f"{path}:{line}:{column} syntax: {what}{advice}") from None
     except YAMLError as error:
@@ -242,7 +262,7 @@ class _Reader:
 
 
 def _number(content: str, kind: str) -> int | float | str:
-    """Read a plain number; what only looks like one (1_000) or has thousands of digits stays text, for the models to refuse."""
+    """Read a plain number; what only looks like one (1_000), or is too long, stays text for the models to refuse."""
     try:
         if "_" in content:
             return content

@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 
 from conveyor.document import Document, Finding
 from conveyor.kinds import KINDS
+from conveyor.misreadings import on_one_line
 from conveyor.models.base import Location, field_path, real_errors
 from conveyor.units import Measure
 
@@ -109,7 +110,7 @@ def shown(value: Any) -> str:
     if value is None:
         return "nothing"
     text = (
-        f'"{value}"'
+        f'"{on_one_line(value)}"'
         if isinstance(value, str)
         else str(value).lower()
         if isinstance(value, bool)
@@ -126,7 +127,7 @@ def _unknown_key(model: type[BaseModel], location: Location) -> str:
     ]
     near = difflib.get_close_matches(str(location[-1]), allowed, n=1)
     guess = f'; did you mean "{near[0]}"?' if near else ""
-    return f'unknown key "{location[-1]}"{guess}; keys allowed: {", ".join(allowed)}'
+    return f"unknown key {shown(str(location[-1]))}{guess}; keys allowed: {', '.join(allowed)}"
 
 
 def _expected(model: type[BaseModel], location: Location) -> str:

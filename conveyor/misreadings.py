@@ -68,8 +68,21 @@ def _shown(value: object) -> str:
         return "nothing"
     if isinstance(value, dict | list | tuple):
         return "a mapping" if isinstance(value, dict) else "a list"
-    shown = f'"{value}"' if isinstance(value, str) else repr(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    shown = f'"{on_one_line(value)}"' if isinstance(value, str) else repr(value)
     return shown if len(shown) <= LONGEST else shown[:LONGEST] + "..."
+
+
+def on_one_line(text: str) -> str:
+    r"""Write line breaks and tabs as their codes: a message is one line.
+
+    Examples
+    --------
+    >>> on_one_line("1\n2")
+    '1\\n2'
+    """
+    return text.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t")
 
 
 def _why_not_text(given: str, kind: Kind | None, key: str | None) -> str:

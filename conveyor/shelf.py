@@ -79,7 +79,9 @@ def _expanded(text: str) -> Path:
     try:
         return Path(text).expanduser()
     except RuntimeError:
-        raise InputError(f'compound "{text}": no home folder "{Path(text).parts[0]}"; give the path in full') from None
+        raise InputError(
+            f'compound "{text}": no home folder "{Path(text).parts[0]}"; give the path in full'
+        ) from None
 
 
 def read_compound(path: Path) -> RubberCompound:
@@ -114,8 +116,15 @@ def _read_once(path: Path, _changed: int, _size: int) -> RubberCompound:
 def resolver(
     *, extra: Iterable[str | Path] = (), base: Path | None = None
 ) -> Callable[[str], RubberCompound]:
-    """Return the function that models use to look compounds up while a spec is read."""
+    """Return the function that models use to look compounds up while a spec is read.
+
+    Raises
+    ------
+    InputError
+        A folder does not exist.
+    """
     listed = tuple(extra)
+    folders(listed)
 
     def resolve(name: str) -> RubberCompound:
         return compound(name, extra=listed, base=base)

@@ -7,7 +7,7 @@ import io
 import json
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from pydantic import ValidationError
 
@@ -17,6 +17,8 @@ from conveyor.errors import InputError
 from conveyor.explain import findings, message
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path, real_errors
+
+_TABLES: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}
 
 
 def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
@@ -46,6 +48,8 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
 
         filled = read_template(where)
         return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
+    if where.suffix.lower() in _TABLES:
+        raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
     document = read_document(where)
     context = {"compound": shelf.resolver(extra=shelves, base=where.parent)}
     found = list(document.findings)

@@ -131,6 +131,8 @@ def shelf(
     """List the compounds on the shelf, or show one."""
     import math
 
+    if plot is not None:
+        writable(plot)
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table

@@ -78,7 +78,10 @@ def _leave(message: str, code: int) -> NoReturn:
 
 def _discard_output() -> None:
     """Send what is still to be written nowhere: the interpreter would fail on it again as it ends."""
-    with suppress(OSError, ValueError), Path(os.devnull).open("wb") as nowhere:  # no file behind a test's stream
+    with (
+        suppress(OSError, ValueError),
+        Path(os.devnull).open("wb") as nowhere,
+    ):  # no file behind a test's stream
         os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 

@@ -66,6 +66,13 @@ class Sheets:
     def content(self, plan: Plan) -> Content:
         """Read every sheet of a plan."""
         content = Content(plan)
+        wanted = [sheet.name for sheet in (*plan.forms, *plan.tables)]
+        if not set(wanted) & set(self.grids):
+            self.problems.append(
+                f'{self.path}: none of the template\'s sheets is in it, such as "{wanted[0]}"; '
+                "write a template with: conveyor template input.xlsx"
+            )
+            return content
         for form in plan.forms:
             grid = self._sheet(form.name, required=form.required)
             content.places[form.name] = address(form.name, 1, 1)

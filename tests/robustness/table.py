@@ -16,7 +16,8 @@ from pathlib import Path
 import pytest
 
 from conveyor.cli import main
-from tests.robustness.cases import CASES, Case
+from tests.robustness.arrange import Case
+from tests.robustness.cases import CASES
 
 TABLE = Path(__file__).with_name("table.md")
 _HEADING = """\
