@@ -9,6 +9,7 @@ from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.idlers import Idlers, IdlerSet
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
+from conveyor.models.report import Report
 from conveyor.models.rolls import Roll
 from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
 from conveyor.models.rubber_data import (
@@ -55,6 +56,7 @@ __all__ = [
     "Prony",
     "PronyTerm",
     "Pulley",
+    "Report",
     "Roll",
     "Route",
     "RubberCompound",

@@ -15,6 +15,7 @@ from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
 from conveyor.models.methods import Cema, Flexure
 from conveyor.models.operation import EarthTemperature, Operation
+from conveyor.models.report import Report
 from conveyor.models.route import Route
 from conveyor.models.uncertainty import Uncertainty
 from conveyor.resistance import FLEXURE_SHARE, FRICTION_FACTOR
@@ -84,6 +85,8 @@ class Conveyor(Model):
     """Load cases to calculate beside the conveyor as given."""
     uncertainty: Uncertainty | None = None
     """Ranges of what is not known exactly."""
+    report: Report = Report()
+    """What reports carry on their cover, and their units."""
     notes: str | None = None
 
     @model_validator(mode="after")

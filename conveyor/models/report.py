@@ -1,0 +1,34 @@
+"""How reports of a conveyor are headed and written; no effect on figures."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from conveyor.models.base import Model, Name
+from conveyor.units import System
+
+Paper = Literal["A4", "Letter"]
+
+
+class Report(Model):
+    """What stands on the cover of reports, and how they are written; no effect on figures."""
+
+    project: Name | None = None
+    """Project or plant the conveyor belongs to."""
+    number: Name | None = None
+    """Number of the document."""
+    client: Name | None = None
+    """For whom it is calculated."""
+    engineer: Name | None = None
+    """Who calculated it."""
+    revision: Name | None = None
+    """Revision of the document."""
+    units: System = "SI"
+    """System of units of the tables in reports."""
+    paper: Paper | None = None
+    """Paper that workbooks are set up for."""
+
+    @property
+    def sheet(self) -> Paper:
+        """Paper to print on: Letter with US units, else A4, unless stated."""
+        return self.paper or ("Letter" if self.units == "US" else "A4")
