@@ -85,6 +85,7 @@ def _fit(figure: Figure) -> None:
     """Margins that hold the labels, measured once: matplotlib's own layouts measure twice and more."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+    figure.set_layout_engine("tight")  # what "none" then leaves behind allows margins to be set
     figure.set_layout_engine("none")
     renderer = FigureCanvasAgg(figure).get_renderer()
     width, height = figure.bbox.size
