@@ -203,13 +203,24 @@ class Analysis:
 
         return write(self, Path(path), studies)
 
-    def to_html(self, path: str | Path, studies: Studies | None = None, *, system: System = "SI") -> Path:
+    def to_html(
+        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
+    ) -> Path:
         """Write the HTML report, one static page, with the parts of `conveyor.studies` where they are given.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the page, ending in ``.html``; an older page there is replaced.
+        studies : Studies, optional
+            Load cases, duty and uncertainty.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
 
         Raises
         ------
         InputError
-            The path cannot be written.
+            The path cannot be written, or the system is neither SI nor US.
         """
         from conveyor.report.html import write
 

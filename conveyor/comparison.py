@@ -95,13 +95,20 @@ class Comparison:
 
         return write_comparison(self, Path(path))
 
-    def to_html(self, path: str | Path, *, system: System = "SI") -> Path:
+    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the page, ending in ``.html``; an older page there is replaced.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
 
         Raises
         ------
         InputError
-            The path cannot be written.
+            The path cannot be written, or the system is neither SI nor US.
         """
         from conveyor.report.html import write_comparison
 

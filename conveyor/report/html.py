@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING
 from uuid import uuid4
 
 from conveyor.errors import InputError
-from conveyor.markup import Html
+from conveyor.markup import Html, joined
+from conveyor.models.report import Paper
 from conveyor.report import html_sections as sections
 from conveyor.report.html_comparison import parts_of, top_of
 from conveyor.report.html_studies import studied
-from conveyor.report.page import Part, page
+from conveyor.report.page import Part, facts, page
+from conveyor.report.unit_systems import chosen
 from conveyor.spec import fingerprint
 from conveyor.units import System
 
@@ -28,7 +30,9 @@ if TYPE_CHECKING:
 _ENDINGS = (".html", ".htm")
 
 
-def write(analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System = "SI") -> Path:
+def write(
+    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
+) -> Path:
     """Write the HTML report of an analysis: under a temporary name beside it first, then renamed.
 
     Parameters
@@ -39,8 +43,8 @@ def write(analysis: Analysis, path: Path, studies: Studies | None = None, *, sys
         Name of the page, ending in ``.html``; an older page there is replaced.
     studies : Studies, optional
         Load cases, duty and uncertainty.
-    system : {"SI", "US"}
-        Units of the tables; figures are in SI units.
+    system : {"SI", "US"}, optional
+        Units of the tables, those of the spec's report without it; figures are in SI units.
 
     Returns
     -------
@@ -51,12 +55,12 @@ def write(analysis: Analysis, path: Path, studies: Studies | None = None, *, sys
     ------
     InputError
         The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
-        and an older page is untouched.
+        and an older page is untouched. Or the system is neither SI nor US.
     """
     return _saved(path, lambda: build(analysis, studies, system=system))
 
 
-def write_comparison(comparison: Comparison, path: Path, *, system: System = "SI") -> Path:
+def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
     """Write the HTML report of a comparison of compounds; as `write`.
 
     Raises
@@ -67,8 +71,10 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System = "SI
     return _saved(path, lambda: build_comparison(comparison, system=system))
 
 
-def build(analysis: Analysis, studies: Studies | None = None, *, system: System = "SI") -> Html:
+def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Html:
     """Report of an analysis and of the studies its spec asks for, as text."""
+    conveyor = analysis.conveyor
+    system = chosen(conveyor, system)
     parts: list[Part] = [
         sections.key_figures(analysis, system),
         sections.checked(analysis, system),
@@ -86,22 +92,40 @@ def build(analysis: Analysis, studies: Studies | None = None, *, system: System 
         sections.entered(analysis),
         sections.provenance(analysis, system),
     ]
-    conveyor = analysis.conveyor
     return page(
-        conveyor.name, "Belt conveyor calculation", sections.top(analysis, system), parts, stamp(conveyor)
+        conveyor.name,
+        "Belt conveyor calculation",
+        joined([titled(conveyor), sections.top(analysis, system)]),
+        parts,
+        stamp(conveyor),
+        paper=_paper(conveyor, system),
     )
 
 
-def build_comparison(comparison: Comparison, *, system: System = "SI") -> Html:
+def build_comparison(comparison: Comparison, *, system: System | None = None) -> Html:
     """Report of a comparison, as text."""
     conveyor = comparison.conveyor
+    system = chosen(conveyor, system)
     return page(
         conveyor.name,
         "Comparison of belt covers",
-        top_of(comparison, system),
+        joined([titled(conveyor), top_of(comparison, system)]),
         parts_of(comparison, system),
         stamp(conveyor),
+        paper=_paper(conveyor, system),
     )
+
+
+def titled(conveyor: Conveyor) -> Html:
+    """What the spec's report says of the document, and its date."""
+    report = conveyor.report
+    said = {name: getattr(report, name) for name in ("project", "number", "client", "engineer", "revision")}
+    given = [(name, value) for name, value in said.items() if value is not None]
+    return facts([*given, ("date", date.today().isoformat())], "facts document")
+
+
+def _paper(conveyor: Conveyor, system: System) -> Paper:
+    return conveyor.report.paper or ("Letter" if system == "US" else "A4")
 
 
 def stamp(conveyor: Conveyor) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 import pandas as pd
 
 from conveyor.markup import Html, element, joined
+from conveyor.models.report import Paper
 from conveyor.report.cells import number_format
 from conveyor.report.checks import Check
 from conveyor.report.unit_systems import converted, converted_rows
@@ -93,7 +94,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .tiles dd { font-size: 1.2rem; }
   .wide tbody th:first-child { position: sticky; left: 0; background: var(--paper); }
 }
-@page { size: A4; margin: 16mm 14mm 18mm; @bottom-right { content: counter(page) " / " counter(pages);
+@page { margin: 16mm 14mm 18mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
 @media print {
   html { font-size: 9.5pt; line-height: 1.35; }
@@ -344,7 +345,7 @@ def bullets(lines: Sequence[str], kind: str | None = None) -> Html:
     return element("ul", *(element("li", line) for line in lines), class_=kind)
 
 
-def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str) -> Html:
+def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, paper: Paper = "A4") -> Html:
     """Return the whole document.
 
     Parameters
@@ -357,6 +358,8 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str) -> 
         Each under its heading, in their order.
     foot : str
         What made it.
+    paper : {"A4", "Letter"}
+        To print on.
     """
     colours = ":root { " + " ".join(f"--{name}: {value};" for name, value in COLOURS.items()) + " }"
     head = element(
@@ -365,7 +368,7 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str) -> 
         element("meta", name="viewport", content="width=device-width, initial-scale=1"),
         element("meta", name="generator", content=foot),
         element("title", f"{title} – {kind}"),
-        element("style", Html(colours + _STYLE)),
+        element("style", Html(colours + _STYLE + f"@page {{ size: {paper}; }}\n")),
     )
     contents = element(
         "ol", *(element("li", element("a", part.heading, href=f"#{part.name}")) for part in parts)

@@ -8,6 +8,8 @@ from typing import Any, Final
 
 import pandas as pd
 
+from conveyor.errors import InputError
+from conveyor.models import Conveyor
 from conveyor.units import System, from_si, quantity, unit_label
 
 _UNIT = re.compile(r"^(.*) \[([^\]]*)\]$")
@@ -29,6 +31,21 @@ _KINDS: Final = {
 _SPELLED: Final = {"ft/s^2": "ft/s²"}
 _DECIMALS = 9  # beyond them is the rounding of a conversion
 _PER_N_MM: Final = "N/mm"
+
+
+def chosen(conveyor: Conveyor, system: System | None) -> System:
+    """Return the system a report is written in: the one asked for, else that of the spec's report.
+
+    Raises
+    ------
+    InputError
+        Neither SI nor US.
+    """
+    if system is None:
+        return conveyor.report.units
+    if system not in {"SI", "US"}:
+        raise InputError(f'system = "{system}": SI or US, or none for that of the spec (report.units)')
+    return system
 
 
 def converted(frame: pd.DataFrame, system: System) -> pd.DataFrame:
