@@ -19,7 +19,7 @@ from conveyor.line import StretchResult
 from conveyor.loop_data import loop_data
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.power import motor_power
-from conveyor.scenes import Scene, runs
+from conveyor.scenes import Progress, Scene, runs
 from conveyor.settled import Settled
 from conveyor.units import display, si
 from conveyor.variants import with_case, with_temperature
@@ -192,6 +192,7 @@ def analyse_cases(
     *,
     friction_band: tuple[float, float] | None = None,
     rtol: float | None = None,
+    progress: Progress | None = None,
 ) -> CaseStudy:
     """Calculate load cases, all contacts side by side.
 
@@ -206,6 +207,8 @@ def analyse_cases(
         drive.least_friction (0.6 by default, general knowledge: f 0.012 over 0.020) and 1: the computed resistances.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
+    progress : callable, optional
+        Called with what is done and the whole.
 
     Returns
     -------
@@ -233,7 +236,7 @@ def analyse_cases(
     if not 0.0 < band[0] <= 1.0 <= band[1] < math.inf:
         raise InputError(f"friction_band = {band}: 0 < low <= 1 <= high is needed")
     made, refused = _variants(conveyor, chosen)
-    found = runs([Scene(variant) for _, variant in made], rtol)
+    found = runs([Scene(variant) for _, variant in made], rtol, progress)
     results = []
     for (case, variant), done in zip(made, found, strict=True):
         if isinstance(done, Run):

@@ -12,7 +12,7 @@ from conveyor.energy_laws import Duty, DutyStep, duty_cost, duty_emission, duty_
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.power import JOULE_PER_KWH
-from conveyor.scenes import Scene, runs
+from conveyor.scenes import Progress, Scene, runs
 from conveyor.units import quantity, si, text
 from conveyor.variants import with_case, with_temperature
 
@@ -113,7 +113,9 @@ class DutyStudy:
         return case_tables.year(self)
 
 
-def analyse_duty(conveyor: Conveyor, *, rtol: float | None = None) -> DutyStudy:
+def analyse_duty(
+    conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
+) -> DutyStudy:
     """Calculate every bar of a conveyor's duty and sum up the year.
 
     Parameters
@@ -122,6 +124,8 @@ def analyse_duty(conveyor: Conveyor, *, rtol: float | None = None) -> DutyStudy:
         With operation; without a duty there, all its hours are at the flow and temperature of the spec.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
+    progress : callable, optional
+        Called with what is done and the whole.
 
     Returns
     -------
@@ -147,7 +151,7 @@ def analyse_duty(conveyor: Conveyor, *, rtol: float | None = None) -> DutyStudy:
     entries = operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
     variants = [_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
     rows = []
-    done = runs([Scene(variant) for variant in variants], rtol)
+    done = runs([Scene(variant) for variant in variants], rtol, progress)
     for i, (entry, variant, found) in enumerate(zip(entries, variants, done, strict=True)):
         if not isinstance(found, Run):
             raise NoSolutionError(f"operation.duty[{i}] ({_described(entry)}): {found}")

@@ -6,7 +6,7 @@ that share a contact its load curve. On vertical curves tensions and roll loads 
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
@@ -20,6 +20,8 @@ from conveyor.stretches import Strand
 from conveyor.units import Quantity, si
 
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with what is done and the whole; what is done never falls."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +43,9 @@ class Scene:
     drag: float = 1.0
 
 
-def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAnswer]:
+def runs(
+    scenes: Sequence[Scene], rtol: float | None = None, progress: Progress | None = None
+) -> list[Run | NoAnswer]:
     """Calculate every scene as `curved.run` would; all contacts of all scenes side by side.
 
     Parameters
@@ -50,6 +54,8 @@ def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAns
         The variants.
     rtol : float, optional
         Relative tolerance of the contacts; that of each spec without it [-].
+    progress : callable, optional
+        Called as scenes are loaded, and when they are solved; a scene counts half for each.
 
     Returns
     -------
@@ -57,6 +63,7 @@ def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAns
         In their order the runs, or why a scene has none.
     """
     found: dict[int, Run | NoAnswer] = {}
+    advanced = _Advance(len(scenes), progress)
     covers = _covers(scenes, found)
     shared = _Tracks(rtol), _Worked()
     going: dict[int, tuple[Settling, Masses]] = {}
@@ -64,7 +71,7 @@ def runs(scenes: Sequence[Scene], rtol: float | None = None) -> list[Run | NoAns
         steps = settling(scenes[i].conveyor)
         going[i] = steps, next(steps)
     while going:
-        going = _step(scenes, covers, shared, going, found)
+        going = _step(scenes, covers, shared, going, found, advanced=advanced)
     return [found[i] for i in range(len(scenes))]
 
 
@@ -74,6 +81,8 @@ def _step(
     shared: tuple[_Tracks, _Worked],
     going: Mapping[int, tuple[Settling, Masses]],
     found: dict[int, Run | NoAnswer],
+    *,
+    advanced: _Advance,
 ) -> dict[int, tuple[Settling, Masses]]:
     """Load the rolls of every scene anew, solve them together; those that are settled go into `found`."""
     tracks, worked = shared
@@ -84,6 +93,7 @@ def _step(
             jobs[i] = track, worked.of(track, covers[i])
         except (NoSolutionError, RangeError, InputError) as error:
             found[i] = error
+        advanced(len(found), len(jobs))
     walked = indented([track for track, _ in jobs.values()], [cover for _, cover in jobs.values()])
     left = {}
     for i, results in zip(jobs, walked, strict=True):
@@ -97,7 +107,20 @@ def _step(
             found[i] = end.value
         except NoSolutionError as error:
             found[i] = error
+    advanced(len(found), 0)
     return left
+
+
+class _Advance:
+    """Tells how far a batch is; a scene that must be loaded once more takes nothing back."""
+
+    def __init__(self, scenes: int, progress: Progress | None) -> None:
+        self._whole, self._most, self._progress = 2 * scenes, 0, progress
+
+    def __call__(self, solved: int, loaded: int) -> None:
+        self._most = max(self._most, 2 * solved + loaded)
+        if self._progress is not None:
+            self._progress(self._most, self._whole)
 
 
 class _Worked:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
+from typing import Any, TypeAlias
 
 from conveyor.cases import CaseStudy, analyse_cases
 from conveyor.duty import DutyStudy, analyse_duty
 from conveyor.models import Conveyor
 from conveyor.uncertainty import UncertaintyStudy, study
+
+Progress: TypeAlias = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,21 +47,30 @@ class Studies:
         return found
 
 
-def studies(conveyor: Conveyor) -> Studies:
+def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> Studies:
     """Calculate what the spec asks for.
 
     Parameters
     ----------
     conveyor : Conveyor
         With `cases`, `operation.duty` or `uncertainty`, or none of them.
+    progress : callable, optional
+        Called with the study's name, what is done of it and its whole.
 
     Raises
     ------
     NoSolutionError, RangeError, InputError
         A variant of the duty or of the ranges has no answer; cases without one are listed in the study.
     """
+
+    def told(name: str) -> Callable[[int, int], None] | None:
+        return None if progress is None else partial(progress, name)
+
+    of_year = conveyor.operation is not None and conveyor.operation.duty
     return Studies(
-        cases=analyse_cases(conveyor) if conveyor.cases else None,
-        duty=analyse_duty(conveyor) if conveyor.operation is not None and conveyor.operation.duty else None,
-        uncertainty=study(conveyor) if conveyor.uncertainty is not None else None,
+        cases=analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None,
+        duty=analyse_duty(conveyor, progress=told("duty of a year")) if of_year else None,
+        uncertainty=None
+        if conveyor.uncertainty is None
+        else study(conveyor, progress=told("ranges of the inputs")),
     )

@@ -23,7 +23,7 @@ from conveyor.curved import Run
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.rubber import PronySeries
-from conveyor.scenes import NoAnswer, Scene, runs
+from conveyor.scenes import NoAnswer, Progress, Scene, runs
 from conveyor.stretches import Strand
 from conveyor.units import Quantity, display, from_si, si, text
 from conveyor.variants import scaled, with_temperature
@@ -128,6 +128,7 @@ def study(
     rtol: float | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
+    progress: Progress | None = None,
 ) -> UncertaintyStudy:
     """Calculate a conveyor at both ends of every uncertain input.
 
@@ -143,6 +144,8 @@ def study(
         Points of the hypercube, at least 2.
     seed : int
         Of the hypercube.
+    progress : callable, optional
+        Called with what is done and the whole.
 
     Returns
     -------
@@ -173,7 +176,7 @@ def study(
         why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
         raise InputError(f"{why}: nothing to vary")
     scenes = [Scene(conveyor), *(scene for variation in variations for scene in variation.scenes)]
-    powers = [_power(scene, found) for scene, found in zip(scenes, runs(scenes, rtol), strict=True)]
+    powers = [_power(scene, found) for scene, found in zip(scenes, runs(scenes, rtol, progress), strict=True)]
     motor, at = powers[0], 1
     effects = []
     for variation in variations:
