@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import codecs
 import json
+import re
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from ruamel.yaml import YAML
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
@@ -29,6 +31,7 @@ MOST_LINES: Final = 100
 _MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
           codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
 
+_TOO_DEEP: Final = f"nested deeper than {DEEPEST} levels"
 _FIRST: Final = 1000  # bytes: text without a null there has none
 
 Location = tuple[int | str, ...]
@@ -88,14 +91,16 @@ class Document:
                 pair = next(((k, v) for k, v in node.value if k.value == str(part)), None)
                 if pair is not None:
                     node = pair[1]
-                    of_value = (
-                        isinstance(node, ScalarNode) and node.value != ""
-                    )  # nothing is marked where it ends
-                    place = _place(node if of_value and not of_key else pair[0])
+                    place = _place(node if _is_written(node) and not of_key else pair[0])
             elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.value):
                 node = node.value[part]
                 place = _place(node)
         return place
+
+
+def _is_written(node: Node) -> bool:
+    """Whether one value stands behind a key; YAML marks nothing, and a block, where the next line begins."""
+    return isinstance(node, ScalarNode) and (node.value != "" or node.style is not None)
 
 
 def _place(node: Node) -> Place:
@@ -159,7 +164,7 @@ def _json(content: str, path: Path) -> Any:
     except json.JSONDecodeError as error:
         raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {error.msg}") from None
     except RecursionError:
-        raise InputError(f"{path}:1:1 syntax: nested deeper than {DEEPEST} levels") from None
+        raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
 
 
 _ADVICE: Final = {
@@ -173,13 +178,24 @@ _ADVICE: Final = {
 
 def _composed(content: str, path: Path) -> Node | None:
     try:
-        node: Node | None = YAML(typ="rt", pure=True).compose(content)
+        parser = YAML(typ="rt", pure=True)
+        parser.max_depth = DEEPEST + 1  # its effort grows with the square of the depth
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", ReusedAnchorWarning)
+            node: Node | None = parser.compose(content)
+    except ReusedAnchorWarning as twice:
+        line, column = map(int, re.findall(r"line (\d+), column (\d+)", str(twice))[-1])
+        raise InputError(
+            f"{path}:{line}:{column} syntax: the anchor (&) is given twice; give each its own name"
+        ) from None
     except MarkedYAMLError as error:
         unclosed = "stream" in str(error.problem)
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
         advice = next((more for part, more in _ADVICE.items() if part in str(error.problem)), "")
         what = " ".join(part for part in (error.context, error.problem) if part)
+        if "maximum depth" in what:
+            what = _TOO_DEEP
         raise InputError(f"{path}:{line}:{column} syntax: {what}{advice}") from None
     except YAMLError as error:
         position = getattr(error, "position", 0)
@@ -188,7 +204,7 @@ def _composed(content: str, path: Path) -> Node | None:
         reason = getattr(error, "reason", str(error))
         raise InputError(f"{path}:{line}:{column} syntax: {reason}") from None
     except RecursionError:
-        raise InputError(f"{path}:1:1 syntax: nested deeper than {DEEPEST} levels") from None
+        raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
     return node
 
 
@@ -209,9 +225,7 @@ class _Reader:
                 f"{self.path}:{place.line}:{place.column} file: more than {MOST_NODES:,} values, aliases expanded"
             )
         if len(location) > DEEPEST:
-            raise InputError(
-                f"{self.path}:{place.line}:{place.column} file: nested deeper than {DEEPEST} levels"
-            )
+            raise InputError(f"{self.path}:{place.line}:{place.column} file: {_TOO_DEEP}")
         if isinstance(node, MappingNode) and node.tag == _TAG + "map":
             return dict(self._pairs(node, location))
         if isinstance(node, SequenceNode) and node.tag == _TAG + "seq":

@@ -195,8 +195,8 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
         (b"a: 1\nname: M\xfcller\n", ":2:8 file: not UTF-8 text .byte 0xfc.; save it as UTF-8"),
         (b"\xff\xfea\x00", ":1:1 file: UTF-16 text, expected UTF-8; save it as UTF-8"),
         (b"a: 1\n" * 300_000, "larger than 500,000 bytes"),
-        (b"a: " + b"[" * 1500, ":1:1 syntax: nested deeper than 50 levels"),
-        (b"a: " + b"[" * 60 + b"]" * 60, ":1:5[0-9] file: nested deeper than 50 levels"),
+        (b"a: " + b"[" * 1500, ":1:54 syntax: nested deeper than 50 levels"),
+        (b"a: " + b"[" * 60 + b"]" * 60, ":1:5[0-9] syntax: nested deeper than 50 levels"),
         (b"a: &a [*a]\n", "nested deeper than 50 levels"),
     ],
 )

@@ -65,8 +65,8 @@ class Sheets:
 
     def content(self, plan: Plan) -> Content:
         """Read every sheet of a plan."""
-        content = Content(plan)
-        wanted = [sheet.name for sheet in (*plan.forms, *plan.tables)]
+        wanted = [*(form.name for form in plan.forms), *(sheet.name for sheet in plan.tables)]
+        content = Content(plan, places={name: address(name, 1, 1) for name in wanted})
         if not set(wanted) & set(self.grids):
             self.problems.append(
                 f'{self.path}: none of the template\'s sheets is in it, such as "{wanted[0]}"; '
@@ -75,12 +75,10 @@ class Sheets:
             return content
         for form in plan.forms:
             grid = self._sheet(form.name, required=form.required)
-            content.places[form.name] = address(form.name, 1, 1)
             if grid is not None:
                 self._form(grid, form, content)
         for sheet in plan.tables:
             grid = self._sheet(sheet.name, required=sheet.table.required)
-            content.places[sheet.name] = address(sheet.name, 1, 1)
             content.items[sheet.name] = [] if grid is None else self._table(grid, sheet, content)
         for sheet in plan.tables:
             if sheet.parent is not None:

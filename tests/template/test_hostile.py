@@ -480,7 +480,8 @@ def test_only_xlsx_is_read(tmp_path: Path) -> None:
 def test_a_workbook_of_something_else_is_refused(tmp_path: Path) -> None:
     Workbook().save(tmp_path / "other.xlsx")
     with pytest.raises(
-        InputError, match='sheet "Conveyor" is missing; sheets found: "Sheet"; write a new template'
+        InputError,
+        match='none of the template\'s sheets is in it, such as "Conveyor"; write a template with: conveyor template',
     ):
         read_template(tmp_path / "other.xlsx")
 
