@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ from conveyor.starting import Motions, motions
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.drawing import AnalysisPlots
     from conveyor.studies import Studies
     from conveyor.units import System
 
@@ -117,6 +118,21 @@ class Analysis:
     def belt_duty(self) -> BeltDuty:
         """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
         return belt_duty(self.conveyor, self.balance)
+
+    def in_units(self, system: System | None) -> Analysis:
+        """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
+
+        Examples
+        --------
+        >>> import conveyor
+        >>> result = conveyor.analyse(conveyor.load("examples/specs/overland.yaml"))
+        >>> result.in_units("US").conveyor.report.units
+        'US'
+        """
+        if system is None or system == self.conveyor.report.units:
+            return self
+        conveyor = self.conveyor.replace(report=self.conveyor.report.replace(units=system))
+        return replace(self, conveyor=conveyor, warnings=warnings(conveyor, self.stretches, self.balance))
 
     @property
     def error_estimate(self) -> float:
@@ -225,6 +241,13 @@ class Analysis:
         from conveyor.report.html import write
 
         return write(self, Path(path), studies, system=system)
+
+    @property
+    def plots(self) -> AnalysisPlots:
+        """Figures: resistances, tensions, profile, pressure, rubber, power over temperature and speed."""
+        from conveyor.drawing import AnalysisPlots
+
+        return AnalysisPlots(self)
 
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""

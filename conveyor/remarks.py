@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.balance import Balance
+from conveyor.figures import figure
 from conveyor.indentation import IndentationCurve
 from conveyor.line import RollResult, StretchResult, excited_band
 from conveyor.loop_remarks import loop_warnings
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.roll_remarks import roll_assumptions, roll_warnings
 from conveyor.stretches import Strand
-from conveyor.units import Quantity, display, si, text
+from conveyor.units import Quantity, si, text
 
 DEEP = 0.2  # Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h
 
@@ -152,11 +153,13 @@ def _left_out(conveyor: Conveyor) -> Iterator[str]:
 
 
 def _loop(conveyor: Conveyor, found: Balance) -> Iterator[str]:
+    units = conveyor.report.units
     installed = None if conveyor.drive.further_drives else conveyor.drive.installed_power
     if installed is not None and abs(found.power.motor) > si(installed):
-        yield f"the motor needs {display(found.power.motor, 'power')}, installed are {text(installed)}"
+        yield f"the motor needs {figure(found.power.motor, 'power', units)}, installed are {text(installed)}"
     strength = conveyor.belt.carcass.strength
     if strength is not None:
         safety = si(strength) * si(conveyor.belt.width) / found.tensions.largest
         if safety < 1.0:
-            yield f"the belt's strength is exceeded: safety {safety:.2f} at {display(found.tensions.largest, 'force')}"
+            largest = figure(found.tensions.largest, "force", units)
+            yield f"the belt's strength is exceeded: safety {safety:.2f} at {largest}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from conveyor.figures import figure
 from conveyor.libraries import widest_spacings
 from conveyor.line import StretchResult
 from conveyor.models import Conveyor, IdlerSet, Roll
@@ -13,7 +14,7 @@ from conveyor.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_F
 from conveyor.roll_drags import bearing_viscosity
 from conveyor.roll_lives import roll_life
 from conveyor.stretches import Strand
-from conveyor.units import display, quantity, si, text
+from conveyor.units import quantity, si, text
 
 ASKED_LIFE = 30e3
 """[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
@@ -125,7 +126,7 @@ def roll_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> tup
 
 
 def _drag_warnings(conveyor: Conveyor) -> Iterator[str]:
-    air = si(conveyor.ambient.temperature)
+    air, units = si(conveyor.ambient.temperature), conveyor.report.units
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         for name, roll in _rolls(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
@@ -137,7 +138,7 @@ def _drag_warnings(conveyor: Conveyor) -> Iterator[str]:
                 )
                 if drag.assumed:
                     yield (
-                        f"idlers.{strand}: roll drag not given, {display(drag.force, 'force')} a roll assumed "
+                        f"idlers.{strand}: roll drag not given, {figure(drag.force, 'force', units)} a roll assumed "
                         f"({drag.source}; an upper limit, give {field}.drag)"
                     )
 
@@ -225,7 +226,7 @@ def _life_warnings(results: tuple[StretchResult, ...]) -> Iterator[str]:
 
 
 def _set_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
-    widest = widest_spacings()
+    widest, units = widest_spacings(), conveyor.report.units
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         if si(idlers.tilt_angle) > 0.0:
             yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
@@ -234,8 +235,8 @@ def _set_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Ite
         spacing = max(r.stretch.spacing for r in results if r.stretch.strand == strand)
         if spacing > widest[strand]:
             yield (
-                f"idlers.{strand}: sets {display(spacing, 'length')} apart, the widest in use on overland conveyors "
-                f"are {display(widest[strand], 'length')}"
+                f"idlers.{strand}: sets {figure(spacing, 'length', units)} apart, the widest in use on overland "
+                f"conveyors are {figure(widest[strand], 'length', units)}"
             )
 
 

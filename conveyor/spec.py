@@ -114,9 +114,10 @@ def fingerprint(conveyor: Conveyor) -> str:
     """Return the SHA-256 of a conveyor's data, compounds and defaults included, for reports.
 
     Two specs that differ in comments, order or layout have the same fingerprint; any changed value or unit
-    changes it.
+    changes it, but not what `report` holds, which no figure depends on.
     """
-    canonical = json.dumps(conveyor.as_data(), sort_keys=True, separators=(",", ":"), allow_nan=False)
+    data = {key: value for key, value in conveyor.as_data().items() if key != "report"}
+    canonical = json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(canonical.encode()).hexdigest()
 
 

@@ -301,7 +301,7 @@ def test_brakes_hold_and_stop_a_downhill_conveyor():
     assert stopped.deceleration == pytest.approx(0.2, rel=1e-3)
     weak = line(**CASES["downhill"] | {"drive": {"brake_force": "10 kN"}})
     told = list(loop_warnings(weak, forced(weak), balance(weak, forced(weak))))
-    assert any(w == "brakes of 10000 N do not stop the conveyor" for w in told)
+    assert any(w == "brakes of 10,000 N do not stop the conveyor" for w in told)
 
 
 def test_bulk_slides_where_friction_ends():

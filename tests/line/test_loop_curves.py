@@ -140,9 +140,7 @@ def test_safety_and_diameters():
         "snub": ("C", 456.75, True),
     }  # fmt: skip
     told = list(loop_warnings(made, results, found))
-    assert any(
-        w.startswith('pulley "head" is 0.63 m in diameter, the carcass asks for 0.725 m') for w in told
-    )
+    assert any(w.startswith('pulley "head" is 630 mm in diameter, the carcass asks for 725 mm') for w in told)
     assert any(w.startswith("the splice asks for a belt of") for w in told) == (duty.strength_needed > 630e3)
 
 

@@ -1,0 +1,45 @@
+"""Remarks and fingerprint when a report is written in another system of units."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import conveyor
+from conveyor.spec import fingerprint
+
+_NEWTON, _POUND = (
+    re.compile(r"needs a backstop of ([\d,]+) N "),
+    re.compile(r"needs a backstop of ([\d,]+) lbf "),
+)
+POUND = 4.4482216152605  # [N], international pound times standard gravity
+
+
+@pytest.fixture(scope="module")
+def result() -> conveyor.Analysis:
+    return conveyor.analyse(conveyor.load("examples/specs/overland.yaml"))
+
+
+def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:
+    (found,) = [float(match[1].replace(",", "")) for match in map(pattern.search, warnings) if match]
+    return found
+
+
+def test_remarks_follow_the_units(result: conveyor.Analysis) -> None:
+    us = result.in_units("US")
+    newtons, pounds = _found(_NEWTON, result.warnings), _found(_POUND, us.warnings)
+    assert pounds * POUND == pytest.approx(newtons, abs=0.5 + 0.5 * POUND)  # both are printed to one unit
+    assert not any(re.search(r"\d N\b", warning) for warning in us.warnings)
+
+
+def test_units_change_no_figure_and_no_fingerprint(result: conveyor.Analysis) -> None:
+    us = result.in_units("US")
+    assert us.to_dict() | {"warnings": []} == result.to_dict() | {"warnings": []}
+    assert fingerprint(us.conveyor) == fingerprint(result.conveyor)
+    assert us.conveyor != result.conveyor
+
+
+def test_same_units_are_the_same_analysis(result: conveyor.Analysis) -> None:
+    assert result.in_units("SI") is result
+    assert result.in_units(None) is result
