@@ -41,6 +41,7 @@ class Cover(Model):
     """A cover that rolls run on: its rubber decides the indentation resistance."""
 
     thickness: CoverThickness
+    """As new, or as worn as it is to be calculated."""
     compound: CompoundReference
     """Rubber: a shelf name, the path of a compound file, or the compound itself."""
 
@@ -54,6 +55,7 @@ class TopCover(Model):
     """The carrying-side cover; the return rolls run on it unless the belt is turned over."""
 
     thickness: CoverThickness
+    """As new, or as worn as it is to be calculated."""
     compound: CompoundReference | None = None
     """Rubber; without it the bottom cover's is taken for the return rolls."""
 
@@ -69,6 +71,7 @@ class Carcass(Model):
     kind: Literal["steel cord", "EP", "polyamide", "aramid", "cotton"]
     """Material: decides pulley diameters and the resistance of wrapping a pulley."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
+    """Of plies or cords between the covers."""
     mass: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="200 kg/m^2")] | None = None
     """Mass per area of the carcass alone; needed where the belt's mass is not given."""
     strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")] | None = None
@@ -89,7 +92,9 @@ class Belt(Listed):
     library: ClassVar = "belts"
 
     width: Annotated[Length, Bounds(ge="100 mm", le="5 m")]
+    """Width of the belt."""
     speed: Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+    """Speed of the belt in steady running."""
     top_cover: TopCover
     bottom_cover: Cover
     carcass: Carcass

@@ -21,6 +21,7 @@ class LoadCase(Model):
     """A loading of the conveyor, at every one of its speeds and temperatures."""
 
     name: Name
+    """Each its own."""
     loading: Loading = "as given"
     """Sections that bear bulk: as given (part load too), all, none, only those that rise, only those that fall."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None

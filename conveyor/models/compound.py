@@ -43,9 +43,11 @@ class RubberCompound(Model):
     """A rubber compound as the shelf holds it."""
 
     name: Name
+    """Name on the shelf and in reports."""
     kind: Literal["measured", "illustrative"]
     """Measured (with its source) or illustrative (constructed: not for design)."""
     description: str = ""
+    """What it is, in a sentence."""
     source: Source
     poisson_ratio: Annotated[Number, Field(ge=0, le=0.5)]
     """Poisson ratio, taken as constant."""

@@ -60,6 +60,7 @@ class Calculation(Model):
     cema: Cema | None = None
     """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
+    """Acceleration of gravity at the site."""
 
     @model_validator(mode="after")
     def _one_flexure(self) -> Self:
@@ -73,6 +74,7 @@ class Conveyor(Model):
     """A belt conveyor as its designers list it."""
 
     name: Name
+    """What the conveyor is called in reports."""
     belt: Belt
     idlers: Idlers
     material: BulkMaterial
@@ -88,6 +90,7 @@ class Conveyor(Model):
     report: Report = Report()
     """What reports carry on their cover, and their units."""
     notes: str | None = None
+    """Anything worth keeping; printed in reports, no effect on figures."""
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:

@@ -47,6 +47,7 @@ class FurtherDrive(DrivePulley):
     """A drive pulley beside the first."""
 
     name: Name
+    """What it is called in reports."""
 
 
 def _train_instead(schema: dict[str, Any]) -> None:

@@ -16,6 +16,7 @@ class BulkMaterial(Listed):
     library: ClassVar = "materials"
 
     name: Name
+    """What it is called in reports."""
     density: Annotated[Density, Bounds(gt="0 kg/m^3", le="20000 kg/m^3")]
     """Bulk density."""
     flow: Annotated[MassFlow, Bounds(ge="0 t/h", le="200000 t/h")]

@@ -66,7 +66,9 @@ class BearingDrag(Model):
     second_viscosity: OilViscosity
     """The same at the second temperature."""
     first_temperature: OilTemperature = quantity("40 degC")
+    """Temperature of the first viscosity."""
     second_temperature: OilTemperature = quantity("100 degC")
+    """Temperature of the second viscosity."""
     seal_moment: Annotated[Moment, Bounds(ge="0 N*m", le="10 N*m")]
     """Friction moment of the seals of one end."""
     warming: Annotated[TemperatureDifference, Bounds(ge="0 K", le="100 K")] = quantity(
@@ -112,6 +114,7 @@ class Roll(Listed):
     library: ClassVar = "rolls"
 
     diameter: Annotated[Length, Bounds(ge="20 mm", le="1 m")]
+    """Of the shell, outside."""
     length: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
     """Length of the shell."""
     rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]

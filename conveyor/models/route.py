@@ -55,6 +55,7 @@ class Section(Model):
     """A straight part of the route, both strands; its lift or its slope, up in running direction positive."""
 
     name: Name
+    """Each its own; feeding, drives and pulleys may name it."""
     length: Annotated[Length, Bounds(gt="0 m", le="100 km")]
     """Length along the belt."""
     lift: Annotated[Length, Bounds(ge="-5 km", le="5 km")] | None = None
@@ -139,11 +140,13 @@ class Cleaner(Model):
     """A scraper on the belt, or several alike."""
 
     count: Annotated[int, Field(ge=1, le=100, strict=True)] = 1
+    """How many alike."""
     width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     """Length of the blade across the belt."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="200 mm")]
     """Thickness of the blade that touches the belt."""
     pressure: Annotated[Pressure, Bounds(ge="0 Pa", le="1 MPa")] = quantity(f"{CLEANER_PRESSURE.value:g} Pa")
+    """Of the blade on the belt."""
     friction: Friction = CLEANER_FRICTION.value
     """Friction of blade on belt μ3."""
 
@@ -152,15 +155,19 @@ class Pulley(Model):
     """A pulley that bends the belt and turns in bearings."""
 
     name: Name
+    """Each its own."""
     position: Literal["head", "tail", "take-up", "carry", "return"]
     """Which belt tension acts: head, tail, take-up, or behind a section of a strand in its running direction."""
     section: Name | None = None
     """The section, for position "carry" or "return"."""
     diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")]
+    """Of the shell with its lagging."""
     shaft_diameter: Annotated[Length, Bounds(gt="0 m", le="2 m")]
     """Diameter of the shaft in its bearings."""
     mass: Annotated[Mass, Bounds(ge="0 kg", le="100 t")]
+    """Of pulley and shaft; its weight loads the bearings."""
     wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="360 deg")] = quantity("180 deg")
+    """Angle over which the belt lies on it."""
 
     @model_validator(mode="after")
     def _shaft_inside(self) -> Self:

@@ -216,7 +216,9 @@ class SweptStrain(Model):
     """Moduli against strain amplitude at one temperature and frequency."""
 
     temperature: AbsoluteTemperature
+    """Temperature of the sweep."""
     frequency: PositiveFrequency
+    """Frequency of the sweep."""
     strain: Annotated[tuple[Positive, ...], Field(min_length=4, max_length=1000)]
     """Single strain amplitudes, ascending, in per cent."""
     unit: Literal["Pa", "kPa", "MPa", "GPa"]
@@ -250,6 +252,7 @@ class StrainDependence(Model):
     source: str = ""
     """Where the sweeps come from."""
     sweeps: Annotated[tuple[SweptStrain, ...], Field(min_length=1, max_length=50)]
+    """One entry for each temperature and frequency."""
 
     def factors(self) -> AmplitudeFactors:
         """Return the factors on E' and E'' in SI.
@@ -268,7 +271,12 @@ class FitStatistics(Model):
     """How well the series meets the data, as relative errors."""
 
     storage_rms: RelativeError
+    """Root mean square of E' over all rows."""
     loss_rms: RelativeError
+    """Root mean square of E'' over all rows."""
     storage_worst: RelativeError
+    """Largest of E'."""
     loss_worst: RelativeError
+    """Largest of E''."""
     method: str
+    """How it was fitted."""
