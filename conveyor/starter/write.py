@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
@@ -14,7 +15,7 @@ from ruamel.yaml import YAML
 from conveyor.kinds import KINDS as QUANTITIES
 from conveyor.models import Conveyor
 from conveyor.template.layout import Group, Leaf, Part, Table, layout
-from conveyor.units import System
+from conveyor.units import System, quantity, text
 
 Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
@@ -24,7 +25,7 @@ _OPTIONAL: Final = "?"
 _WIDTH: Final = 112
 _COMMENT_COLUMN: Final = 40
 _HEADING: Final = """\
-# {name}: a first spec. Replace the values by yours, then:
+# {name} to begin with. Replace the values by yours, then:
 #   conveyor power {file}
 #   conveyor power {file} -o report.xlsx
 # Lines that begin with "# key:" are fields that may be left out: remove "# " to use them.
@@ -41,8 +42,8 @@ _SHOWN_KINDS: Final = (
 @cache
 def _read(name: str) -> dict[str, Any]:
     """Read a file of this folder."""
-    text = files("conveyor.starter").joinpath(name).read_text(encoding="utf-8")
-    read: dict[str, Any] = YAML(typ="safe", pure=True).load(text)
+    content = files("conveyor.starter").joinpath(name).read_text(encoding="utf-8")
+    read: dict[str, Any] = YAML(typ="safe", pure=True).load(content)
     return read
 
 
@@ -105,7 +106,7 @@ def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str
     'name: My overland conveyor              # What the conveyor is called in reports.'
     """
     lines = _Writer(units).group(layout(Conveyor), _read(f"{kind}.yaml"), ())
-    heading = _HEADING.format(name=f"A conveyor, {kind}", file=file, units=_units())
+    heading = _HEADING.format(name=f"A conveyor ({kind})", file=file, units=_units())
     return "\n".join([heading, *lines]).rstrip() + "\n"
 
 
@@ -140,13 +141,12 @@ class _Writer:
 
     def _part(self, part: Part, data: Any, path: tuple[str, ...]) -> Iterator[str]:
         indent = "  " * (len(path) - 1)
-        if isinstance(part, Leaf):
-            yield from _beside(
-                f"{indent}{part.key}: {_scalar(_in(data, self._units))}", self._comment(part, path)
-            )
-            return
-        if len(path) == 1:
+        if len(path) == 1 and part.key != "name":
             yield ""
+        if isinstance(part, Leaf):
+            value = _in(data, self._units)
+            yield from _beside(f"{indent}{part.key}: {_scalar(value)}", self._comment(part, path, value))
+            return
         yield from _beside(f"{indent}{part.key}:", self._comment(part, path))
         if isinstance(part, Group):
             yield from self.group(part, data, path)
@@ -161,34 +161,69 @@ class _Writer:
         widest = max(len(part.key) for part in fields)
         for part in fields:
             opening = f"{indent}# {part.key.ljust(widest)}  "
-            yield from _wrapped(
-                opening, f"{indent}# {' ' * widest}  ", self._comment(part, (*path, part.key))
-            )
+            value = _in(next(row[part.key] for row in data if part.key in row), self._units)
+            comment = self._comment(part, (*path, part.key), value)
+            yield from _wrapped(opening, f"{indent}# {' ' * widest}  ", comment)
         for row in data:
             cells = ", ".join(f"{key}: {_scalar(_in(value, self._units))}" for key, value in row.items())
             yield f"{indent}- {{{cells}}}"
 
-    def _comment(self, part: Part, path: tuple[str, ...]) -> str:
-        """Say what a field means, its range, and what is taken without it."""
+    def _comment(self, part: Part, path: tuple[str, ...], value: Any = None) -> str:
+        """Say what a field means, its range in the unit of its value, and what is taken without it."""
         doc = self._words.get(".".join(path), part.doc)
         said = [doc if doc.endswith(".") or not doc else doc + "."]
         if isinstance(part, Leaf):
             if part.choices:
                 said.append(f"One of: {', '.join(map(str, part.choices))}.")
             elif part.allowed and part.kind != "text":
-                said.append(f"{part.allowed[0].upper()}{part.allowed[1:]}.")
+                allowed = _BOUND.sub(lambda found: _limit(found, value), part.allowed)
+                said.append(f"{allowed[0].upper()}{allowed[1:]}.")
         if not part.required:
-            said.append(_without(part, doc))
+            said.append(_without(part, doc, value))
         return " ".join(filter(None, said))
 
 
-def _without(part: Part, doc: str) -> str:
+_BOUND: Final = re.compile(r"([<>≤≥]) ([^ ,]+ [^ ,]+)")
+_DIGITS: Final = 3
+
+
+def _limit(found: re.Match[str], value: Any) -> str:
+    """Write a limit in the unit of a value, to three digits rounded inwards: what is said is allowed."""
+    limit = _like(found[2], value)
+    if limit is None or limit[1] == found[2].split(" ")[1]:
+        return found[0]
+    number, unit = limit
+    digits = _DIGITS - 1 - (math.floor(math.log10(abs(number))) if number else 0)
+    towards = math.ceil if found[1] in ">≥" else math.floor
+    near = round(number, digits)  # of 19999.999999999996 the 20000 that is meant
+    inward = (
+        near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
+    )
+    return f"{found[1]} {_plain_number(inward)} {unit}"
+
+
+def _like(given: str, value: Any) -> tuple[float, str] | None:
+    """Return the number and the unit of a quantity, in the unit of another where both are quantities."""
+    value = value[0] if isinstance(value, list) and value else value
+    if not isinstance(value, str) or len(value.split(" ")) != 2:
+        return None
+    like = quantity(value)
+    unit = text(like).split(" ")[1]
+    return float(quantity(given).to(like.units).magnitude), unit
+
+
+def _plain_number(number: float) -> str:
+    return f"{number:.0f}" if abs(number) >= 10.0**_DIGITS else f"{number:.4g}"
+
+
+def _without(part: Part, doc: str, value: Any) -> str:
     """Say what happens when a field is left out."""
     default = part.default if isinstance(part, Leaf) else None
     if isinstance(default, float) and isinstance(part, Leaf) and "%" in part.units:
         default = f"{100.0 * default:g} %"
     if default is not None and default != []:
-        return f"Without it: {_scalar(default)}."
+        like = _like(default, value) if isinstance(part, Leaf) and part.kind == "quantity" else None
+        return f"Without it: {_scalar(default) if like is None else f'{like[0]:.4g} {like[1]}'}."
     told = any(word in doc for word in ("ithout", "else ", "needed where", "instead of", "where it differs"))
     return "" if told else "May be left out."
 
@@ -216,11 +251,11 @@ def _beside(left: str, comment: str) -> list[str]:
     return _wrapped(opening, " " * (len(opening) - 2) + "# ", comment)
 
 
-_LIMIT: Final = re.compile(r"([<>≤≥]) (\S+)(?: (?=\S*[^\W\d])([^\s,.]+))?")
+_LIMIT: Final = re.compile(r"([<>≤≥]) (\S+)(?: (?=\S*[^\W\d]|%)([^\s,.]+))?")
 
 
-def _wrapped(first: str, further: str, text: str) -> list[str]:
-    held = _LIMIT.sub(lambda m: "\u00a0".join(part for part in m.groups() if part), text)
+def _wrapped(first: str, further: str, told: str) -> list[str]:
+    held = _LIMIT.sub(lambda m: "\u00a0".join(part for part in m.groups() if part), told)
     lines = textwrap.wrap(
         held,
         _WIDTH,

@@ -9,6 +9,8 @@ import pytest
 
 import conveyor
 from conveyor import spec, starter
+from conveyor.errors import InputError
+from conveyor.report.checks import checks
 from conveyor.units import System
 
 KINDS = [(kind, units) for kind in starter.KINDS for units in ("SI", "US")]
@@ -37,15 +39,41 @@ def _body(text: str) -> str:
     return text[text.index("\nname:") + 1 :]
 
 
+@pytest.mark.parametrize("optional", [False, True])
 @pytest.mark.parametrize(("kind", "units"), KINDS)
-def test_starters_have_an_answer_of_the_right_sign(kind: starter.Kind, units: System) -> None:
-    line = spec.from_data(starter.values(kind, units))
+def test_starters_fail_no_check_and_have_an_answer_of_the_right_sign(
+    kind: starter.Kind, units: System, optional: bool
+) -> None:
+    line = spec.from_data(starter.values(kind, units, optional=optional))
     found = conveyor.analyse(line)
     motor = found.balance.power.motor
     assert (motor < 0.0) == (kind == "downhill")
     installed = line.drive.installed_power
     assert installed is not None
     assert abs(motor) < installed.to("W").magnitude
+    assert [check.subject for check in checks(found) if check.verdict == "FAIL"] == []
+
+
+@pytest.mark.parametrize("kind", starter.KINDS)
+def test_a_starter_in_us_units_has_us_units_in_values_and_limits(kind: starter.Kind) -> None:
+    body = _body(starter.written(kind, "US")).replace("(ST1600: 1600 N/mm)", "")
+    metric = re.findall(r"[0-9] (?:mm|cm|m|km|kg|t|N|kN|W|kW|Pa|kPa|m/s|t/h|degC|K|kg/m\^[23])\b", body)
+    assert metric == []
+    assert "  units: US " in body
+
+
+def test_limits_are_in_the_unit_of_the_value_and_what_they_say_is_allowed() -> None:
+    """Rounded inwards: a belt of exactly each limit is accepted."""
+    text = starter.written("overland", "US")
+    found = re.search(r"  width: 48 in +# .* ≥ (\S+ in), ≤ (\S+ in)\.", text)
+    assert found is not None
+    for limit in found.groups():
+        data = starter.values("overland", "US")
+        data["belt"]["width"] = limit
+        with pytest.raises(InputError) as refused:  # rolls and bulk do not fit such a belt
+            spec.from_data(data)
+        assert "belt.width: got" not in str(refused.value)
+    assert "≤ 8784 h" in text  # in the limit's own unit it stays as it is, unrounded
 
 
 def test_the_systems_of_units_describe_about_the_same_conveyor() -> None:
