@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
+from uuid import uuid4
 
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.report.comparing import celsius
-from conveyor.units import si, text
+from conveyor.report.axes import scale
+from conveyor.units import System, display, si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
+    from matplotlib.legend import Legend
 
+    from conveyor.compared import Coverage, Scene
     from conveyor.comparison import Comparison
-    from conveyor.models import RubberCompound
+    from conveyor.models import Conveyor, RubberCompound
 
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
@@ -34,6 +40,7 @@ def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]
     axes = [figure.add_subplot(rows, 1, k + 1) for k in range(rows)]
     for axis in axes:
         axis.grid(visible=True, color="0.9")
+        axis.set_axisbelow(True)
         axis.spines[["top", "right"]].set_visible(False)
     return figure, axes
 
@@ -43,71 +50,166 @@ def colour(k: int) -> str:
     return _COLOURS[k % len(_COLOURS)]
 
 
+def grouped(axis: Axis) -> None:
+    """Write the numbers of an axis with their thousands grouped: 12,000."""
+    from matplotlib.ticker import FuncFormatter
+
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
+
+
+def titled(figure: Figure, title: str, note: str = "") -> None:
+    """Give a figure its title, with a note below it; a "$" is a dollar, not the start of a formula."""
+    axis = figure.axes[0]
+    axis.set_title(title, parse_math=False, pad=20.0 if note else None)
+    if note:
+        axis.annotate(
+            note,
+            (0.5, 1.02),
+            xycoords="axes fraction",
+            fontsize=9,
+            color="0.3",
+            ha="center",
+            parse_math=False,
+        )
+
+
+def plain(legend: Legend) -> None:
+    """Take the texts of a legend as they are: a user's "$" is a dollar, not the start of a formula."""
+    for text in legend.get_texts():
+        text.set_parse_math(False)
+
+
 def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure; the ending of the name chooses the format (.png, .svg, .pdf).
 
     Raises
     ------
     InputError
-        An unknown ending, or a path that cannot be written.
+        An unknown ending, or a path that cannot be written; nothing half-written is left, and an older file
+        is untouched.
     """
     where = Path(path)
     known = figure.canvas.get_supported_filetypes()
     if where.suffix.lower().removeprefix(".") not in known:
         raise InputError(f'{where}: a figure\'s name ends in .png, .svg or .pdf, got "{where.suffix}"')
-    partial = where.with_name(f".{where.stem}.part{where.suffix}")
+    partial = where.with_name(f".{uuid4().hex}.part")
     try:
-        figure.savefig(partial, dpi=150)
+        content = BytesIO()
+        figure.savefig(content, format=where.suffix.lower().removeprefix("."), dpi=150)
+        partial.write_bytes(content.getbuffer())
         partial.replace(where)
     except OSError as error:
         raise InputError(f"{where}: cannot be written ({error.strerror or error})") from None
+    finally:
+        with suppress(OSError):  # no such file after the rename; a folder that went away has nothing to clean
+            partial.unlink(missing_ok=True)
     return where
 
 
-def power_against_temperature(comparison: Comparison, speed: float | None = None) -> Figure:
-    """Motor power of every compound over temperature at one speed [m/s], the slowest without; bands shaded."""
-    figure, (axis,) = stacked()
-    chosen = min(scene.speed for scene in comparison.scenes) if speed is None else speed
-    for k, compound in enumerate(comparison.compounds):
-        found = sorted(
-            (s for s in comparison.scenes if s.compound == compound.name and s.speed == chosen),
-            key=lambda scene: scene.temperature,
-        )
-        at = [celsius(scene.temperature) for scene in found]
-        axis.plot(at, [s.motor / 1e3 for s in found], color=colour(k), marker=".", label=compound.name)
-        low = [s.motor_low / 1e3 for s in found if s.motor_low is not None]
-        high = [s.motor_high / 1e3 for s in found if s.motor_high is not None]
-        if found and len(low) == len(found):
-            axis.fill_between(at, low, high, color=colour(k), alpha=0.15, linewidth=0)
-    axis.set(
-        xlabel="belt temperature [°C]",
-        ylabel="motor power [kW]",
-        title=f"{comparison.conveyor.name}, {chosen:g} m/s",
-    )
-    axis.legend(fontsize=8)
+class Scenes(Protocol):
+    """What is drawn over temperature and speed: a `conveyor.Comparison`, or one compound alone."""
+
+    @property
+    def conveyor(self) -> Conveyor:
+        """The spec that was varied."""
+
+    @property
+    def compounds(self) -> tuple[RubberCompound, ...]:
+        """One curve each."""
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        """What was answered."""
+
+    @property
+    def coverage(self) -> tuple[Coverage, ...]:
+        """Where the data cover what the rolls ask for."""
+
+
+def power_against_temperature(
+    comparison: Scenes, speed: float | None = None, *, system: System = "SI"
+) -> Figure:
+    """Motor power of every compound over temperature at one speed [m/s], the slowest without.
+
+    Bands of the fit's replicas are shaded; rings are where the rolls ask for frequencies beyond the rubber's data.
+
+    Raises
+    ------
+    InputError
+        No scene has an answer at that speed.
+    """
+    velocity = scale("speed", system)
+    chosen = min((scene.speed for scene in comparison.scenes), default=0.0) if speed is None else speed
+    found = [scene for scene in comparison.scenes if scene.speed == chosen]
+    if not found:
+        raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.unit}: nothing to draw")
+    figure = _power(comparison, found, "temperature", system)
+    titled(figure, f"{comparison.conveyor.name}, {display(chosen, 'speed', system)}")
     return figure
 
 
-def power_against_speed(comparison: Comparison, temperature: float | None = None) -> Figure:
-    """Motor power of every compound over belt speed at one temperature [K], the coldest answered by all without."""
-    figure, (axis,) = stacked()
+def power_against_speed(
+    comparison: Scenes, temperature: float | None = None, *, system: System = "SI"
+) -> Figure:
+    """Motor power of every compound over belt speed at one temperature [K], the coldest answered by all without.
+
+    Rings are where the rolls ask for frequencies beyond the rubber's data at any of the speeds.
+
+    Raises
+    ------
+    InputError
+        No scene has an answer at that temperature, or none that all compounds share.
+    """
+    warmth = scale("temperature", system)
     answered = [
         {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
     ]
-    chosen = min(set.intersection(*answered)) if temperature is None else temperature
+    common = set.intersection(*answered)
+    if temperature is None and not common:
+        raise InputError("no temperature that every compound has an answer for: nothing to draw")
+    chosen = min(common) if temperature is None else temperature
+    found = [scene for scene in comparison.scenes if scene.temperature == chosen]
+    if not found:
+        raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.unit}: nothing to draw")
+    figure = _power(comparison, found, "speed", system)
+    titled(figure, f"{comparison.conveyor.name}, {warmth(chosen):g} {warmth.unit}")
+    return figure
+
+
+def _power(comparison: Scenes, found: Sequence[Scene], over: str, system: System) -> Figure:
+    """Lines of scenes over temperature or speed."""
+    figure, (axis,) = stacked(1, 4.0)
+    power, along = scale("power", system), scale(over, system)
+    beyond = {(row.compound, row.temperature) for row in comparison.coverage if not row.covered}
+    ringed: list[tuple[float, float]] = []
     for k, compound in enumerate(comparison.compounds):
-        found = sorted(
-            (s for s in comparison.scenes if s.compound == compound.name and s.temperature == chosen),
-            key=lambda scene: scene.speed,
+        mine = sorted(
+            (scene for scene in found if scene.compound == compound.name),
+            key=lambda scene: float(getattr(scene, over)),
         )
-        speeds = [s.speed for s in found]
-        axis.plot(speeds, [s.motor / 1e3 for s in found], color=colour(k), marker=".", label=compound.name)
-    axis.set(
-        xlabel="belt speed [m/s]",
-        ylabel="motor power [kW]",
-        title=f"{comparison.conveyor.name}, {celsius(chosen):g} °C",
-    )
-    axis.legend(fontsize=8)
+        at, motor = along([getattr(scene, over) for scene in mine]), power([scene.motor for scene in mine])
+        axis.plot(at, motor, color=colour(k), marker=".", label=compound.name)
+        low = [s.motor_low for s in mine if s.motor_low is not None]
+        high = [s.motor_high for s in mine if s.motor_high is not None]
+        if mine and len(low) == len(mine):
+            axis.fill_between(at, power(low), power(high), color=colour(k), alpha=0.15, linewidth=0)
+        ringed += [
+            (float(x), float(y))
+            for scene, x, y in zip(mine, at, motor, strict=True)
+            if (compound.name, scene.temperature) in beyond
+        ]
+    if ringed:
+        axis.plot(
+            *zip(*ringed, strict=True),
+            "o",
+            color="0.3",
+            markersize=9,
+            fillstyle="none",
+            label="beyond the data",
+        )
+    axis.set(xlabel=f"belt {over} [{along.unit}]", ylabel=f"motor power [{power.unit}]")
+    plain(axis.legend(fontsize=8))
+    grouped(axis.yaxis)
     return figure
 
 
@@ -115,6 +217,8 @@ def loss_tangents(
     compounds: Sequence[RubberCompound],
     temperature: float,
     excited: Mapping[str, tuple[float, float]] | None = None,
+    *,
+    system: System = "SI",
 ) -> Figure:
     """Master curves of tan δ at one temperature [K], solid where the data hold them, and the band a conveyor excites.
 
@@ -126,8 +230,11 @@ def loss_tangents(
         To which the curves are shifted [K].
     excited : mapping of str to tuple, optional
         Bands of frequency by what excites them [Hz].
+    system : {"SI", "US"}
+        Of the temperature in the label.
     """
     figure, (axis,) = stacked()
+    warmth = scale("temperature", system)
     for k, compound in enumerate(compounds):
         series = compound.series(temperature)
         data = compound.frequencies(temperature)
@@ -140,16 +247,18 @@ def loss_tangents(
         axis.axvspan(low, high, color="0.55", alpha=0.18 if k == 0 else 0.10, linewidth=0, label=name)
     axis.set(
         xscale="log",
-        xlabel=f"frequency at {celsius(temperature):g} °C [Hz]",
+        xlabel=f"frequency at {warmth(temperature):g} {warmth.unit} [Hz]",
         ylabel="tan δ [-]",
         title="Loss tangent (dotted: beyond the data)",
     )
     axis.set_ylim(bottom=0.0)
-    axis.legend(fontsize=8)
+    plain(axis.legend(fontsize=8))
     return figure
 
 
-def compared_loss_tangents(comparison: Comparison, temperature: float | None = None) -> Figure:
+def compared_loss_tangents(
+    comparison: Comparison, temperature: float | None = None, *, system: System = "SI"
+) -> Figure:
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 
     Without a temperature the one nearest the spec's that every compound has an answer for.
@@ -170,31 +279,37 @@ def compared_loss_tangents(comparison: Comparison, temperature: float | None = N
     chosen = min(common, key=lambda t: abs(t - own))
     rows = [row.excited for row in comparison.coverage if row.temperature == chosen]
     band = min(low for low, _ in rows), max(high for _, high in rows)
-    return loss_tangents(comparison.compounds, chosen, {"nine tenths of the rolls' loss": band})
+    return loss_tangents(
+        comparison.compounds, chosen, {"nine tenths of the rolls' loss": band}, system=system
+    )
 
 
-def master_curve(compound: RubberCompound, temperature: float | None = None) -> Figure:
+def master_curve(
+    compound: RubberCompound, temperature: float | None = None, *, system: System = "SI"
+) -> Figure:
     """E', E'' and tan δ of one compound at a temperature [K], its reference temperature without."""
     figure, (above, below) = stacked(2, 7.0)
+    modulus, warmth = scale("pressure", system), scale("temperature", system)
     at = si(compound.reference_temperature) if temperature is None else temperature
     series, data = compound.series(at), compound.frequencies(at)
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
-    above.plot(f, series.storage(omega) / 1e6, color=colour(0), label="E'")
-    above.plot(f, series.loss(omega) / 1e6, color=colour(1), label="E''")
+    above.plot(f, modulus(series.storage(omega)), color=colour(0), label="E'")
+    above.plot(f, modulus(series.loss(omega)), color=colour(1), label="E''")
     below.plot(f, series.tan_delta(omega), color=colour(2), label="tan δ")
     replicas = compound.replicas(at)
     if replicas:
         for axis, figures, k in (
-            (above, [r.storage(omega) / 1e6 for r in replicas], 0),
-            (above, [r.loss(omega) / 1e6 for r in replicas], 1),
+            (above, modulus([r.storage(omega) for r in replicas]), 0),
+            (above, modulus([r.loss(omega) for r in replicas]), 1),
             (below, [r.tan_delta(omega) for r in replicas], 2),
         ):
             bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0)
             axis.fill_between(f, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
-    above.set(xscale="log", yscale="log", ylabel="modulus [MPa]", title=f"{compound.name} ({compound.kind})")
-    where = text(compound.reference_temperature) if temperature is None else f"{celsius(at):g} °C"
+    above.set(xscale="log", yscale="log", ylabel=f"modulus [{modulus.unit}]")
+    titled(figure, f"{compound.name} ({compound.kind})")
+    where = f"{warmth(at):g} {warmth.unit}"
     below.set(xscale="log", xlabel=f"frequency at {where} [Hz]", ylabel="tan δ [-]")
     below.set_ylim(bottom=0.0)
     above.legend(fontsize=8)
