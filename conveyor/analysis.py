@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.drawing import AnalysisPlots
+    from conveyor.report.files import FileKind
     from conveyor.studies import Studies
     from conveyor.units import System
 
@@ -145,7 +146,7 @@ class Analysis:
         return {
             "name": self.conveyor.name,
             "forces_N": {**asdict(forces), "total": forces.total},
-            "power_kW": {"belt": power.belt / 1e3, "motor": power.motor / 1e3},
+            "power_kW": {"belt": power.belt / 1e3, "motor": power.motor / 1e3, "mains": power.mains / 1e3},
             "friction_factor": self.balance.friction_factor,
             "tensions_N": asdict(self.balance.tensions),
             "drives": _drives(self.balance),
@@ -207,17 +208,59 @@ class Analysis:
             "warnings": list(self.warnings),
         }
 
-    def to_excel(self, path: str | Path, studies: Studies | None = None) -> Path:
+    def to_excel(
+        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
+    ) -> Path:
         """Write the workbook, with the sheets of `conveyor.studies` where they are given.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. A table too long for a
+            sheet goes to a CSV file beside it.
+        studies : Studies, optional
+            Load cases, duty and uncertainty.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
 
         Raises
         ------
         InputError
-            The path cannot be written.
+            The path cannot be written, or the system is neither SI nor US.
         """
         from conveyor.report.excel import write
 
-        return write(self, Path(path), studies)
+        return write(self, Path(path), studies, system=system)
+
+    def to_tables(
+        self,
+        folder: str | Path,
+        studies: Studies | None = None,
+        *,
+        system: System | None = None,
+        kind: FileKind = "csv",
+    ) -> tuple[Path, ...]:
+        """Write every table of the workbook as a file of its own; names as in docs/workbook.md.
+
+        Parameters
+        ----------
+        folder : str or Path
+            A folder that exists; older files of the same names are replaced.
+        studies : Studies, optional
+            Load cases, duty and uncertainty.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
+        kind : {"csv", "parquet"}
+            Parquet needs the package pyarrow.
+
+        Raises
+        ------
+        InputError
+            No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
+        """
+        from conveyor.report.files import write
+
+        return write(self, Path(folder), studies, system=system, kind=kind)
 
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None

@@ -15,7 +15,7 @@ from conveyor.line import StretchResult
 from conveyor.loop import Loop, State
 from conveyor.loop_data import LoopData, loop_data
 from conveyor.models import Conveyor
-from conveyor.power import annual_cost, annual_energy_kwh, belt_power, specific_energy
+from conveyor.power import annual_cost, annual_energy_kwh, belt_power, motor_power, specific_energy
 from conveyor.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
@@ -90,10 +90,11 @@ class Tensions:
 
 @dataclass(frozen=True)
 class Power:
-    """Power [W] and energy; per year and cost only where operation and price are given."""
+    """Power [W] at belt, motor shafts and mains; energy from the mains, per year and cost where they are asked for."""
 
     belt: float
     motor: float
+    mains: float
     energy_per_tonne_km: float | None
     energy_per_year: float | None
     cost_per_year: float | None
@@ -238,15 +239,17 @@ def _forces(sums: dict[str, float], singles: tuple[SingleForce, ...]) -> Forces:
 def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
     belt = belt_power(force, belt_speed=data.speed)
     motor = data.motor(force)
+    mains = motor_power(motor, efficiency=conveyor.drive.mains_efficiency)
     flow, operation = data.flow, conveyor.operation
     price = None if operation is None else operation.price
     year = (
-        None if operation is None else annual_energy_kwh(motor, operating_time=si(operation.hours_per_year))
+        None if operation is None else annual_energy_kwh(mains, operating_time=si(operation.hours_per_year))
     )
-    specific = specific_energy(motor, mass_flow=flow, length=data.length) if flow > 0.0 else None
+    specific = specific_energy(mains, mass_flow=flow, length=data.length) if flow > 0.0 else None
     return Power(
         belt=belt,
         motor=motor,
+        mains=mains,
         energy_per_tonne_km=specific,
         energy_per_year=year,
         cost_per_year=None

@@ -33,7 +33,16 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "Bearings of the driven pulley are in the drive's efficiency; tension changes the load of the rolls on "
         "vertical curves only.",
         f"Covers are at {text(conveyor.ambient.belt)} throughout.",
+        *_energy(conveyor),
     )
+
+
+def _energy(conveyor: Conveyor) -> Iterator[str]:
+    if conveyor.operation is not None and not any(part.side == "mains" for part in conveyor.drive.train):
+        yield (
+            "Energy and cost are those of the motors' shafts: drive.train has no part between mains and motor shaft, "
+            "such as the motor itself or a converter."
+        )
 
 
 def warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> tuple[str, ...]:

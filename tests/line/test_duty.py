@@ -35,14 +35,36 @@ def operated(given: Conveyor, *duty: dict[str, object], **more: object) -> Conve
     return given.replace(operation={"duty": list(duty), **more})
 
 
-def test_without_a_duty_the_year_is_that_of_the_analysis(line):
+TRAIN = [
+    {"name": "motor", "efficiency": "95 %", "side": "mains"},
+    {"name": "converter", "efficiency": "98 %", "side": "mains"},
+]
+
+
+@pytest.mark.parametrize("train", [[], TRAIN])
+def test_without_a_duty_the_year_is_that_of_the_analysis(line, train):
+    line = line.replace(drive={**line.drive.as_data(), "train": train})
     power = conveyor.analyse(line).balance.power
+    assert power.mains == pytest.approx(power.motor / (0.95 * 0.98 if train else 1.0), rel=1e-14)
+    assert power.energy_per_year == pytest.approx(
+        power.mains * si(line.operation.hours_per_year) / 3.6e6, rel=1e-14
+    )
     study = analyse_duty(line)
     assert study.year.net_kwh == pytest.approx(power.energy_per_year, rel=1e-14)
     assert study.cost == pytest.approx(power.cost_per_year, rel=1e-14)
     assert study.energy_per_tonne_km == pytest.approx(power.energy_per_tonne_km, rel=1e-13)
     assert study.emission is None
     assert study.currency == "EUR"
+
+
+def test_what_is_fed_back_loses_in_the_converter_too(downhill):
+    made = downhill.replace(
+        drive={**downhill.drive.as_data(), "train": TRAIN}, operation={"hours_per_year": "4000 h"}
+    )
+    power = conveyor.analyse(made).balance.power
+    assert power.motor < 0.0
+    assert power.mains == pytest.approx(power.motor * 0.95 * 0.98, rel=1e-14)
+    assert power.energy_per_year == pytest.approx(analyse_duty(made).year.net_kwh, rel=1e-14)
 
 
 def test_a_bar_cut_in_two_changes_nothing(line):
