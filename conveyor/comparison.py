@@ -22,6 +22,9 @@ from conveyor.units import Quantity, System, quantity, si
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.drawing import ComparisonPlots
+    from conveyor.report.files import FileKind
+
 __all__ = [
     "Comparison",
     "Coverage",
@@ -83,17 +86,48 @@ class Comparison:
 
         return comparing.ranking(self)
 
-    def to_excel(self, path: str | Path) -> Path:
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the workbook.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Scenes too many for a
+            sheet go to a CSV file beside it.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
 
         Raises
         ------
         InputError
-            The path cannot be written.
+            The path cannot be written, or the system is neither SI nor US.
         """
         from conveyor.report.excel import write_comparison
 
-        return write_comparison(self, Path(path))
+        return write_comparison(self, Path(path), system=system)
+
+    def to_tables(
+        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
+    ) -> tuple[Path, ...]:
+        """Write every table of the workbook as a file of its own; names as in docs/workbook.md.
+
+        Parameters
+        ----------
+        folder : str or Path
+            A folder that exists; older files of the same names are replaced.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
+        kind : {"csv", "parquet"}
+            Parquet needs the package pyarrow.
+
+        Raises
+        ------
+        InputError
+            No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
+        """
+        from conveyor.report.files import write_comparison
+
+        return write_comparison(self, Path(folder), system=system, kind=kind)
 
     def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page.
@@ -113,6 +147,13 @@ class Comparison:
         from conveyor.report.html import write_comparison
 
         return write_comparison(self, Path(path), system=system)
+
+    @property
+    def plots(self) -> ComparisonPlots:
+        """Figures: power over temperature and speed, loss tangents."""
+        from conveyor.drawing import ComparisonPlots
+
+        return ComparisonPlots(self)
 
     def _repr_html_(self) -> str:
         """For notebooks: the ranking and what to know of it."""

@@ -17,11 +17,13 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.errors import InputError
 from conveyor.report import comparing_sheets, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
+from conveyor.report.unit_systems import chosen
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.comparison import Comparison
     from conveyor.studies import Studies
+    from conveyor.units import System
 
 SHEETS = {
     "Summary": sheets.summary,
@@ -46,7 +48,9 @@ COMPARISON_SHEETS = {
 }
 
 
-def write(analysis: Analysis, path: Path, studies: Studies | None = None) -> Path:
+def write(
+    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
+) -> Path:
     """Write the workbook of an analysis: under a temporary name beside it first, then renamed.
 
     Parameters
@@ -69,10 +73,10 @@ def write(analysis: Analysis, path: Path, studies: Studies | None = None) -> Pat
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    return _saved(path, lambda: build(analysis, studies))
+    return _saved(path, lambda: build(analysis, studies, system=system))
 
 
-def write_comparison(comparison: Comparison, path: Path) -> Path:
+def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
     """Write the workbook of a comparison of compounds; as `write`.
 
     Raises
@@ -80,7 +84,7 @@ def write_comparison(comparison: Comparison, path: Path) -> Path:
     InputError
         As `write`.
     """
-    return _saved(path, lambda: build_comparison(comparison))
+    return _saved(path, lambda: build_comparison(comparison, system=system))
 
 
 def _saved(path: Path, made: Callable[[], Workbook]) -> Path:
@@ -105,8 +109,9 @@ def _saved(path: Path, made: Callable[[], Workbook]) -> Path:
     return path
 
 
-def build(analysis: Analysis, studies: Studies | None = None) -> Workbook:
+def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Workbook:
     """Workbook of an analysis and of the studies its spec asks for, not yet saved."""
+    analysis = analysis.in_units(chosen(analysis.conveyor, system))
     fills: dict[str, Callable[[Worksheet], None]] = {
         title: partial(fill, analysis=analysis) for title, fill in SHEETS.items()
     }
@@ -132,7 +137,8 @@ def _book(name: str, fills: Mapping[str, Callable[[Worksheet], None]]) -> Workbo
     return book
 
 
-def build_comparison(comparison: Comparison) -> Workbook:
+def build_comparison(comparison: Comparison, *, system: System | None = None) -> Workbook:
     """Workbook of a comparison, not yet saved."""
+    chosen(comparison.conveyor, system)
     fills = {title: partial(fill, comparison=comparison) for title, fill in COMPARISON_SHEETS.items()}
     return _book(comparison.conveyor.name, fills)
