@@ -7,8 +7,10 @@ import math
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from enum import StrEnum
 from pathlib import Path
+from time import perf_counter
 from typing import Annotated, Any
 from uuid import uuid4
 
@@ -73,15 +75,40 @@ def _options(
     """Options that belong to no command."""
 
 
+class Units(StrEnum):
+    """Systems of units."""
+
+    SI = "SI"
+    US = "US"
+
+
+class ImageKind(StrEnum):
+    """Formats of figures."""
+
+    PNG = "png"
+    SVG = "svg"
+    PDF = "pdf"
+
+
 Spec = Annotated[Path, typer.Argument(help="Conveyor spec: .yaml, .json or .xlsx.", show_default=False)]
 Shelves = Annotated[
     list[Path] | None, typer.Option("--shelf", help="Further folder of compound files; may be repeated.")
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
+UnitsOption = Annotated[
+    Units | None,
+    typer.Option(
+        "--units",
+        help="Units of what is shown and written; else report.units of the spec. JSON stays SI.",
+        case_sensitive=False,
+        show_default=False,
+    ),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
 _MOST_VALUES = 1000
+_PATIENCE = 1.0  # seconds before a bar appears
 
 
 def write_text(path: Path, text: str) -> None:
@@ -132,18 +159,33 @@ def print_json(data: object) -> None:
 
 
 @contextmanager
-def progress(what: str, *, silent: bool) -> Iterator[Callable[[int, int], None] | None]:
+def progress(*, silent: bool) -> Iterator[Callable[[str, int, int], None] | None]:
     """A bar with the time left on stderr, for what takes longer than a second; none where output is piped."""
     if silent or not sys.stderr.isatty():
         yield None
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    begun = perf_counter()
+    with ExitStack() as stack:
+        bars: dict[str, Any] = {}
 
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+        def told(what: str, done: int, whole: int) -> None:
+            if not bars and perf_counter() - begun < _PATIENCE:
+                return
+            if not bars:
+                bars[""] = stack.enter_context(_bar())
+            if what not in bars:
+                bars[what] = bars[""].add_task(what, total=whole)
+            bars[""].update(bars[what], completed=done, total=whole)
+
+        yield told
+
+
+def _bar() -> Any:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)
 
 
 def values(given: str, option: str, unit: str) -> list[str]:

@@ -1,4 +1,7 @@
-"""Figures of one analysis and of its studies: matplotlib figures returned, never shown or saved."""
+"""Figures of one analysis and of its studies: matplotlib figures returned, never shown or saved.
+
+Axes are in SI units (kN, kW, MPa), or in US units (lbf, hp, psi).
+"""
 
 from __future__ import annotations
 
@@ -10,8 +13,9 @@ from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
 from conveyor.line import RollResult, StretchResult, excited_band
-from conveyor.report.comparing import celsius
-from conveyor.report.plots import colour, master_curve, stacked
+from conveyor.report.axes import scale
+from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
+from conveyor.units import System, display
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,8 +37,9 @@ _PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at 
 _TORNADO = 12  # inputs drawn, those that matter most
 
 
-def resistance_breakdown(found: Balance) -> Figure:
-    """Every kind of resistance [kN], the classical estimates beside their sums; numbers at the bars."""
+def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
+    """Every kind of resistance [kN, lbf], the classical estimates beside their sums; numbers at the bars."""
+    force = scale("force", system)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
         (f"classical, f = {found.classical.friction_factor:g}", found.classical)
@@ -43,10 +48,10 @@ def resistance_breakdown(found: Balance) -> Figure:
         estimates.append(("CEMA classic, given Ky", found.cema))
     names = [*_PARTS, *_SUMS]
     width = _BAR / (1 + len(estimates))
-    forces = [1e-3 * getattr(found.forces, name) for name in names]
+    forces = force([getattr(found.forces, name) for name in names])
     columns = [("this calculation", list(range(len(names))), forces)]
     sums = list(range(len(_PARTS), len(names)))
-    columns += [(label, sums, [1e-3 * getattr(made, name) for name in _SUMS]) for label, made in estimates]
+    columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
     for k, (label, rows, values) in enumerate(columns):
         at = [row + (width * k if row in sums else 0.0) for row in rows]
         bars = axis.barh(
@@ -58,7 +63,7 @@ def resistance_breakdown(found: Balance) -> Figure:
             edgecolor=colour(k),
             hatch=_HATCH[k],
         )
-        axis.bar_label(bars, fmt="{:,.1f}", padding=3, fontsize=9)
+        axis.bar_label(bars, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
     middle = 0.5 * width * len(estimates)
     axis.set_yticks(
         [row + (middle if row in sums else 0.0) for row in range(len(names))],
@@ -69,7 +74,8 @@ def resistance_breakdown(found: Balance) -> Figure:
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
-    axis.set(xlabel="force [kN]", title="Resistances")
+    axis.set(xlabel=f"force [{force.unit}]", title="Resistances")
+    grouped(axis.xaxis)
     axis.legend(fontsize=8)
     return figure
 
@@ -85,8 +91,10 @@ def governing_roll(results: tuple[StretchResult, ...], strand: Strand) -> tuple[
     return max(found, key=lambda pair: pair[1].load.peak_line_load)
 
 
-def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
-    """Contact pressure [MPa] under the highest line load of each strand, over the distance from the roll's axis [mm].
+def pressure_under_rolls(results: tuple[StretchResult, ...], *, system: System = "SI") -> Figure:
+    """Contact pressure under the highest line load of each strand, over the distance from the roll's axis.
+
+    In MPa over mm, or psi over inches.
 
     Positive distances are on the side the belt comes from. The load is that of the contact at the inner end of a wing,
     or along a middle roll.
@@ -97,6 +105,7 @@ def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
         A contact that was interpolated between others has no answer of its own.
     """
     figure, (axis,) = stacked(1, 3.6)
+    stress, way, line = (scale(kind, system) for kind in ("pressure", "thickness", "line force"))
     strands: tuple[Strand, ...] = ("carry", "return")
     for k, strand in enumerate(strands):
         _, roll = governing_roll(results, strand)
@@ -109,16 +118,17 @@ def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
         edges = solution.patches.ravel()  # the curve meets zero at the edges, whatever the grid
         x = np.sort(np.concatenate([x, edges]))
         axis.plot(
-            1e3 * contact.radius * x,
-            1e-6 * pascal * solution.pressure(x),
+            way(contact.radius * x),
+            stress(pascal * solution.pressure(x)),
             color=colour(k),
-            label=f"{strand}: {load:,.0f} N/m, roll {2e3 * contact.radius:.0f} mm, "
-            f"cover {1e3 * contact.cover_thickness:g} mm",
+            label=f"{strand}: {_figures(float(line(load)))} {line.unit}, "
+            f"roll {way(2.0 * contact.radius):.4g} {way.unit}, "
+            f"cover {way(contact.cover_thickness):.3g} {way.unit}",
         )
     axis.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
     axis.set(
-        xlabel="distance from the roll's axis, positive where the belt arrives [mm]",
-        ylabel="pressure [MPa]",
+        xlabel=f"distance from the roll's axis, positive where the belt arrives [{way.unit}]",
+        ylabel=f"pressure [{stress.unit}]",
         title="Pressure under the rolls of the highest line load",
     )
     axis.margins(y=0.4)  # room for the legend above the curves
@@ -127,14 +137,20 @@ def pressure_under_rolls(results: tuple[StretchResult, ...]) -> Figure:
     return figure
 
 
+def _figures(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.4g}"
+
+
 def rubber_at_work(
     compound: RubberCompound,
     temperature: float,
     results: tuple[StretchResult, ...],
     strands: tuple[Strand, ...],
+    *,
+    system: System = "SI",
 ) -> Figure:
     """Master curve of a compound at a temperature [K], with the band each strand's rolls excite [Hz] shaded."""
-    figure = master_curve(compound, temperature)
+    figure = master_curve(compound, temperature, system=system)
     for k, strand in enumerate(strands):
         band = excited_band(results, strand)
         if band is None:
@@ -153,8 +169,10 @@ def rubber_at_work(
     return figure
 
 
-def case_power_against_temperature(study: CaseStudy, speed: float | None = None) -> Figure:
-    """Motor power [kW] of every load case over temperature at one speed [m/s], the conveyor's highest without.
+def case_power_against_temperature(
+    study: CaseStudy, speed: float | None = None, *, system: System = "SI"
+) -> Figure:
+    """Motor power [kW, hp] of every load case over temperature at one speed [m/s], the conveyor's highest without.
 
     Raises
     ------
@@ -162,13 +180,15 @@ def case_power_against_temperature(study: CaseStudy, speed: float | None = None)
         No case was answered, or none at that speed.
     """
     chosen, found = _at(study, "speed", speed, "m/s")
-    figure = _power_lines(study, found, "temperature")
-    figure.axes[0].set(xlabel="belt temperature [°C]", title=f"{study.conveyor.name}, {chosen:g} m/s")
+    figure = _power_lines(found, "temperature", system)
+    titled(figure, f"{study.conveyor.name}, {display(chosen, 'speed', system)}", _shaded(study))
     return figure
 
 
-def case_power_against_speed(study: CaseStudy, temperature: float | None = None) -> Figure:
-    """Motor power [kW] of every load case over belt speed at one temperature [K], the one of most speeds without.
+def case_power_against_speed(
+    study: CaseStudy, temperature: float | None = None, *, system: System = "SI"
+) -> Figure:
+    """Motor power [kW, hp] of every load case over belt speed at one temperature [K], the one of most speeds without.
 
     Raises
     ------
@@ -176,8 +196,9 @@ def case_power_against_speed(study: CaseStudy, temperature: float | None = None)
         No case was answered, or none at that temperature.
     """
     chosen, found = _at(study, "temperature", temperature, "K")
-    figure = _power_lines(study, found, "speed")
-    figure.axes[0].set(xlabel="belt speed [m/s]", title=f"{study.conveyor.name}, {celsius(chosen):g} °C")
+    figure = _power_lines(found, "speed", system)
+    at = scale("temperature", system)
+    titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.unit}", _shaded(study))
     return figure
 
 
@@ -193,30 +214,31 @@ def _at(study: CaseStudy, name: str, value: float | None, unit: str) -> tuple[fl
     return chosen, found
 
 
-def _power_lines(study: CaseStudy, found: list[CaseResult], over: str) -> Figure:
+def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
-    for k, case in enumerate(dict.fromkeys(result.case for result in found)):
+    power, along = scale("power", system), scale(over, system)
+    names = [result.case for result in found]
+    lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
+    for k, case in enumerate(lines or dict.fromkeys(names)):
         rows = sorted((r for r in found if r.case == case), key=lambda r: float(getattr(r, over)))
-        at = [celsius(r.temperature) if over == "temperature" else r.speed for r in rows]
-        axis.plot(at, [r.motor / 1e3 for r in rows], color=colour(k), marker="o", markersize=4, label=case)
-        low, high = ([getattr(r, f"motor_{end}") / 1e3 for r in rows] for end in ("low", "high"))
+        at = along([getattr(r, over) for r in rows])
+        axis.plot(at, power([r.motor for r in rows]), color=colour(k), marker="o", markersize=4, label=case)
+        low, high = (power([getattr(r, f"motor_{end}") for r in rows]) for end in ("low", "high"))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
-    low_end, high_end = study.friction_band
-    axis.set_ylabel("motor power [kW]")
-    axis.annotate(
-        f"shaded: friction {low_end:g} to {high_end:g} of the computed one",
-        (0.0, 1.02),
-        xycoords="axes fraction",
-        fontsize=9,
-        color="0.3",
-    )
-    axis.legend(fontsize=8)
+    axis.set(xlabel=f"belt {over} [{along.unit}]", ylabel=f"motor power [{power.unit}]")
+    plain(axis.legend(fontsize=8))
+    grouped(axis.yaxis)
     return figure
 
 
-def tornado(study: UncertaintyStudy) -> Figure:
-    """Change of the motor power [kW] at both ends of every input's range, the one that matters most on top."""
-    effects = study.effects[:_TORNADO]
+def _shaded(study: CaseStudy) -> str:
+    low, high = study.friction_band
+    return f"shaded: friction {low:g} to {high:g} of the computed one"
+
+
+def tornado(study: UncertaintyStudy, *, system: System = "SI") -> Figure:
+    """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
+    effects, power = study.effects[:_TORNADO], scale("power", system)
     figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))
     rows = range(len(effects))
     for label, k, ends in (
@@ -225,17 +247,18 @@ def tornado(study: UncertaintyStudy) -> Figure:
     ):
         axis.barh(
             rows,
-            [(end - study.motor) / 1e3 for end in ends],
+            power([end - study.motor for end in ends]),
             label=label,
             color=colour(0) if k == 0 else "white",
             edgecolor=colour(k),
             hatch=_HATCH[k],
             height=0.6,
         )
-    axis.set_yticks(list(rows), [effect.name for effect in effects])
+    axis.set_yticks(list(rows), [effect.name for effect in effects], parse_math=False)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.grid(visible=False, axis="y")
-    axis.set(xlabel="change of the motor power [kW]", title=study.conveyor.name)
+    axis.set_xlabel(f"change of the motor power [{power.unit}]")
+    titled(figure, study.conveyor.name)
     axis.legend(fontsize=8)
     return figure

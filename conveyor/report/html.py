@@ -73,8 +73,9 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System | Non
 
 def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Html:
     """Report of an analysis and of the studies its spec asks for, as text."""
+    system = chosen(analysis.conveyor, system)
+    analysis = analysis.in_units(system)
     conveyor = analysis.conveyor
-    system = chosen(conveyor, system)
     parts: list[Part] = [
         sections.key_figures(analysis, system),
         sections.checked(analysis, system),

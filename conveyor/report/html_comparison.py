@@ -74,22 +74,20 @@ def _ranking(comparison: Comparison, system: System) -> Part:
 def _power(comparison: Comparison, system: System) -> list[Part]:
     content = []
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        made = plots.power_against_temperature(comparison)
+        made = plots.power_against_temperature(comparison, system=system)
         slowest = min(scene.speed for scene in comparison.scenes)
-        caption = f"Motor power over the belt's temperature at {slowest:g} m/s; shaded: replicas of measured rubber."
-        content.append(drawn(made, "power-temperature", caption, system))
+        at = display(slowest, "speed", system)
+        caption = f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber."
+        content.append(drawn(made, "power-temperature", caption))
     if len({scene.speed for scene in comparison.scenes}) > 1:
-        made = plots.power_against_speed(comparison)
+        made = plots.power_against_speed(comparison, system=system)
         content.append(
-            drawn(
-                made, "power-speed", "Motor power over belt speed at the coldest common temperature.", system
-            )
+            drawn(made, "power-speed", "Motor power over belt speed at the coldest common temperature.")
         )
     tangents = drawn(
-        plots.compared_loss_tangents(comparison),
+        plots.compared_loss_tangents(comparison, system=system),
         "tangents",
         "Loss tangents, dotted beyond the data; shaded: what the rolls excite.",
-        system,
     )
     power = [Part("power", "Power", joined(content))] if content else []
     return [*power, Part("loss-tangents", "Loss tangents", tangents)]

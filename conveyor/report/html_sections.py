@@ -43,13 +43,11 @@ _ROLL_FIGURES = (
     "section", "strand", "roll", "force [N]", "highest line load [N/m]", "half width [mm]", "penetration [mm]",
     "peak pressure [MPa]", "indentation [N]", "rim drag [N]",
 )  # fmt: skip
-_SI_FIGURE = " Drawn in SI units."
 
 
-def drawn(made: Figure, name: str, caption: str, system: System = "SI") -> Html:
-    """Return a figure with its caption; it says so where the tables are in other units."""
-    said = caption + (_SI_FIGURE if system != "SI" else "")
-    return figure(inline(made, name, said), said)
+def drawn(made: Figure, name: str, caption: str) -> Html:
+    """Return a figure with its caption."""
+    return figure(inline(made, name, caption), caption)
 
 
 def top(analysis: Analysis, system: System) -> Html:
@@ -122,10 +120,9 @@ def resistances(analysis: Analysis, system: System) -> Part:
     foot = ["effective tension", None, total, 1.0 if total else None, None]
     content = (
         drawn(
-            analysis_plots.resistance_breakdown(found),
+            analysis_plots.resistance_breakdown(found, system=system),
             "breakdown",
             "Resistances of this calculation; beside their sums the classical estimates with given friction.",
-            system,
         ),
         table(beside, "Beside the classical estimates", system=system, by_row="quantity"),
         element("p", remark, class_="note"),
@@ -142,10 +139,9 @@ def route(analysis: Analysis, system: System) -> Part:
     sums = ["all sections", None, *(float(forces[name].sum()) for name in _SECTION_FORCES[2:])]
     content = (
         drawn(
-            loop_plots.route_profile(analysis.conveyor),
+            loop_plots.route_profile(analysis.conveyor, system=system),
             "profile",
             "Profile of the route from the tail: triangles are feeding points, rings are drives.",
-            system,
         ),
         table(
             frame[[*_SECTION_LAYOUT, *lives]], "Sections of both strands, in running direction", system=system
@@ -160,10 +156,9 @@ def tensions(analysis: Analysis, system: System) -> Part:
     found = analysis.balance
     content = (
         drawn(
-            loop_plots.tension_diagram(found, analysis.motions),
+            loop_plots.tension_diagram(found, analysis.motions, system=system),
             "tensions",
             "Tension round the loop in every state, from the head along the return strand and back.",
-            system,
         ),
         table(_tensions(analysis), "Tensions where the sections begin and end", system=system),
         table(loop_tables.drives(found), "Drives in every state", system=system, named=2),
@@ -197,10 +192,9 @@ def rolls(analysis: Analysis, system: System) -> Part:
     columns = [*_ROLL_FIGURES, *lives]
     content = (
         drawn(
-            analysis_plots.pressure_under_rolls(analysis.stretches),
+            analysis_plots.pressure_under_rolls(analysis.stretches, system=system),
             "pressure",
             "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
-            system,
         ),
         table(highest[columns], "Roll of the highest line load of every section and strand", system=system),
         element(
@@ -227,7 +221,7 @@ def rubber(analysis: Analysis, system: System) -> Part:
             f"Master curve of {compound.name} at {_plain(display(temperature, 'temperature', system))}; "
             f"shaded: the band in which the {' and '.join(at)} rolls lose nine tenths of their energy."
         )
-        made = analysis_plots.rubber_at_work(compound, temperature, analysis.stretches, at)
+        made = analysis_plots.rubber_at_work(compound, temperature, analysis.stretches, at, system=system)
         content += [
             element("h3", f"{compound.name} ({compound.kind})"),
             drawn(made, f"rubber-{k}", caption),

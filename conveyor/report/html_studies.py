@@ -48,13 +48,11 @@ def cases(study: CaseStudy, system: System) -> Html:
         ),
     ]
     if len({result.temperature for result in study.results}) > 1:
-        made = analysis_plots.case_power_against_temperature(study)
-        content.append(
-            drawn(made, "case-temperature", "Motor power of the load cases over temperature.", system)
-        )
+        made = analysis_plots.case_power_against_temperature(study, system=system)
+        content.append(drawn(made, "case-temperature", "Motor power of the load cases over temperature."))
     if len({result.speed for result in study.results}) > 1:
-        made = analysis_plots.case_power_against_speed(study)
-        content.append(drawn(made, "case-speed", "Motor power of the load cases over belt speed.", system))
+        made = analysis_plots.case_power_against_speed(study, system=system)
+        content.append(drawn(made, "case-speed", "Motor power of the load cases over belt speed."))
     if study.results:
         frame = case_tables.cases(study)[list(_CASE_FIGURES)]
         content.append(table(frame, "Load cases", system=system))
@@ -107,10 +105,9 @@ def uncertainty(study: UncertaintyStudy, system: System) -> Html:
     content = [
         table(case_tables.band(study), "Motor power with the band that holds nine tenths", system=system),
         drawn(
-            analysis_plots.tornado(study),
+            analysis_plots.tornado(study, system=system),
             "tornado",
             "Change of the motor power at both ends of every input's range.",
-            system,
         ),
         table(matters[columns], "Which input matters", system=system),
     ]

@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from conveyor.report.axes import scale
 from conveyor.report.loop_tables import profile
+from conveyor.report.plots import colour, grouped, plain, stacked, titled
+from conveyor.units import System
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,25 +19,16 @@ if TYPE_CHECKING:
     from conveyor.models import Conveyor
     from conveyor.starting import Motions
 
-_SIZE = (9.0, 4.8)
+_HEIGHT = 4.4
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
-def _figure() -> tuple[Figure, Axes]:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=_SIZE, layout="constrained")
-    axis = figure.add_subplot()
-    axis.grid(visible=True, color="0.9")
-    axis.spines[["top", "right"]].set_visible(False)
-    return figure, axis
-
-
-def route_profile(conveyor: Conveyor) -> Figure:
+def route_profile(conveyor: Conveyor, *, system: System = "SI") -> Figure:
     """Height over horizontal distance from the tail; feeding points, drives and vertical curves marked."""
-    figure, axis = _figure()
+    figure, (axis,) = stacked(1, _HEIGHT)
     table = profile(conveyor)
-    x, z = table["horizontal [m]"].to_numpy(), table["height [m]"].to_numpy()
+    length = scale("length", system)
+    x, z = length(table["horizontal [m]"]), length(table["height [m]"])
     axis.plot(x, z, color="#1F4E79", marker=".", zorder=2)
     names = [section.name for section in conveyor.route.sections]
     for point in conveyor.route.feeding_points:
@@ -53,31 +47,40 @@ def route_profile(conveyor: Conveyor) -> Figure:
             )
     if np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel="horizontal distance [m]", ylabel="height over the tail [m]", title=conveyor.name)
+    axis.set(xlabel=f"horizontal distance [{length.unit}]", ylabel=f"height over the tail [{length.unit}]")
+    titled(figure, conveyor.name)
+    grouped(axis.xaxis)
     _legend_once(axis)
     return figure
 
 
-def tension_diagram(found: Balance, moving: Motions | None = None) -> Figure:
+def tension_diagram(found: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
     """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
-    figure, axis = _figure()
+    figure, (axis,) = stacked(1, _HEIGHT)
     settled = found.settled
     geometry = settled.loop.geometry
-    way = np.repeat(geometry.way, 2)[1:-1]
+    force, length = scale("force", system), scale("length", system)
+    way = length(np.repeat(geometry.way, 2)[1:-1])
     states = settled.states | ({} if moving is None else moving.states)
-    for state in states.values():
+    for k, state in enumerate(states.values()):
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
-        axis.plot(x, 1e-3 * y, label=state.name)
-    axis.plot(way, 1e-3 * np.repeat(geometry.least, 2), color="0.6", linestyle=":", label="least for sag")
-    tail = geometry.way[len(geometry.length) // 2]
+        axis.plot(x, force(y), color=colour(k), label=state.name)
+    axis.plot(way, force(np.repeat(geometry.least, 2)), color="0.6", linestyle=":", label="least for sag")
+    tail = float(length(geometry.way[len(geometry.length) // 2]))
     axis.axvline(tail, color="0.8", zorder=0)
     axis.annotate(
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
     )
-    axis.set(xlabel="distance from the head along the belt, return strand first [m]", ylabel="tension [kN]")
-    axis.legend(fontsize=8)
+    axis.set(
+        xlabel=f"distance from the head along the belt, return strand first [{length.unit}]",
+        ylabel=f"tension [{force.unit}]",
+    )
+    for scaled in (axis.xaxis, axis.yaxis):
+        grouped(scaled)
+    titled(figure, "Tension round the loop")
+    plain(axis.legend(fontsize=8))
     return figure
 
 

@@ -63,7 +63,7 @@ def restyle(figure: Figure) -> None:
     height = min(_HIGHEST, figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth()))
     figure.set_size_inches(_WIDTH, height)
     for axis in figure.axes:
-        axis.set_title("")
+        axis.set_title("", pad=None)
         axis.tick_params(labelsize=9)
         axis.set_axisbelow(True)
         for words in (axis.xaxis.label, axis.yaxis.label):
@@ -87,7 +87,7 @@ def _fit(figure: Figure) -> None:
 
     figure.set_layout_engine("tight")  # what "none" then leaves behind allows margins to be set
     figure.set_layout_engine("none")
-    renderer = FigureCanvasAgg(figure).get_renderer()
+    renderer = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
     width, height = figure.bbox.size
     needed = []
     for axis in figure.axes:
