@@ -1,0 +1,293 @@
+"""The file formats field by field, written from the models: what docs/spec.md and `conveyor schema --markdown` hold."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import Any, Final
+
+from pydantic import BaseModel
+from ruamel.yaml import YAML
+
+from conveyor.kinds import KINDS
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.starter.write import KINDS as STARTERS
+from conveyor.starter.write import values
+from conveyor.template.layout import Group, Leaf, Part, Table, layout
+
+Example = str | float | bool | Sequence[Any]
+
+_NOTHING: Final[tuple[Any, ...]] = (None, "", [])
+_ALIKE: Final = (
+    ("idlers.return.", "idlers.carry."),
+    (".middle_roll.", ".roll."),
+    ("route.further_feeding[].", "route.feeding."),
+)
+_SAME_LENGTH: Final = re.compile(r"at least (\d+) values, at most \1 values")
+_HEADINGS: Final = (
+    "| field | what | for example | allowed | without it |",
+    "|---|---|---|---|---|",
+)
+
+
+def markdown() -> str:
+    """Write the reference of the file formats: units, every field of a spec, every field of a compound file.
+
+    Returns
+    -------
+    str
+        Markdown: a section for each block in the order of the models, a table of its fields, a heading to
+        link to.
+
+    Examples
+    --------
+    >>> [line for line in markdown().splitlines() if line.startswith("| `width`")][0]
+    '| `width` | Width of the belt. | `1200 mm` | ≥ 100 mm, ≤ 5 m | **required** |'
+    """
+    return "\n".join((*_intro("spec"), *_units(), *_spec(), *_intro("compound"), *_compound())) + "\n"
+
+
+def fields(model: type[BaseModel]) -> dict[str, Leaf]:
+    """Return every field of a file format that holds a value, by its path; ``[]`` stands for an entry of a list.
+
+    Parameters
+    ----------
+    model : type of BaseModel
+        `Conveyor` for a spec, `RubberCompound` for a compound file.
+
+    Examples
+    --------
+    >>> from conveyor.models import Conveyor
+    >>> fields(Conveyor)["route.sections[].length"].allowed
+    '> 0 m, ≤ 100 km'
+    """
+    return dict(_fields(layout(model), ""))
+
+
+def example(model: type[BaseModel], path: str) -> Example | None:
+    """Return a value of a field as a file holds it; None where words say it better (names of other files).
+
+    Examples
+    --------
+    >>> from conveyor.models import Conveyor
+    >>> example(Conveyor, "drive.wrap_angle")
+    '210 deg'
+    """
+    leaf = fields(model)[path]
+    kinds = STARTERS if model is Conveyor else ()
+    shown = (_at(_starter(kind), _first_alike(path)) for kind in kinds)
+    listed = _examples()["spec" if model is Conveyor else "compound"].get(_first_alike(path))
+    written = _written(leaf.default, leaf) if leaf.default not in _NOTHING else next(iter(leaf.choices), None)
+    return next((found for found in (*shown, listed, written) if found is not None), None)
+
+
+def _first_alike(path: str) -> str:
+    """Return the same field of the first block of its kind."""
+    for other, first in _ALIKE:
+        path = path.replace(other, first)
+    return path
+
+
+@cache
+def _examples() -> dict[str, dict[str, Example]]:
+    """Read the values of fields that no starter spec shows."""
+    text = files("conveyor._reference").joinpath("examples.yaml").read_text(encoding="utf-8")
+    read: dict[str, dict[str, Example]] = YAML(typ="safe", pure=True).load(text)
+    return read
+
+
+@cache
+def _starter(kind: Any) -> dict[str, Any]:
+    return values(kind, optional=True)
+
+
+def _at(data: Any, path: str) -> Any:
+    """Find a value in plain data; of a list the first entry that has it."""
+    if not path:
+        return data if not isinstance(data, Mapping) else None
+    head, _, rest = path.partition(".")
+    if not isinstance(data, Mapping) or head.removesuffix("[]") not in data:
+        return None
+    inner = data[head.removesuffix("[]")]
+    if head.endswith("[]"):
+        return next((found for item in inner if (found := _at(item, rest)) is not None), None)
+    return _at(inner, rest)
+
+
+def _fields(part: Part, path: str) -> Iterator[tuple[str, Leaf]]:
+    if isinstance(part, Leaf):
+        yield path, part
+        return
+    for inner in _inside(part):
+        yield from _fields(inner, _joined(path + "[]" * isinstance(part, Table), inner.key))
+
+
+def _inside(part: Group | Table) -> tuple[Part, ...]:
+    return part.parts if isinstance(part, Group) else part.item.parts
+
+
+def _joined(path: str, key: str) -> str:
+    return f"{path}.{key}" if path else key
+
+
+def anchor(heading: str) -> str:
+    """Return the anchor that a heading gets on the usual pages: lower case, hyphens, no other signs.
+
+    Examples
+    --------
+    >>> anchor("route.sections[]"), anchor("The spec")
+    ('routesections', 'the-spec')
+    """
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def _intro(name: str) -> list[str]:
+    """Read what stands before the fields of a format."""
+    text = files("conveyor._reference").joinpath(f"{name}.md").read_text(encoding="utf-8")
+    return [text.rstrip(), ""]
+
+
+def _units() -> Iterator[str]:
+    """List the kinds of quantity with their units."""
+    yield "## Units"
+    yield ""
+    yield "`^2` may also be written `²` or `2`; `°C`, `°F` and `°` as well as `degC`, `degF` and `deg`."
+    yield ""
+    yield "| quantity | for example | units |"
+    yield "|---|---|---|"
+    said = set()
+    for kind in KINDS.values():
+        units = " ".join(f"`{unit}`" for unit in dict.fromkeys(kind.units.values()) if unit)
+        if kind.noun not in said:
+            yield f"| {kind.noun} | `{kind.example}` | {units} |"
+        said.add(kind.noun)
+    yield ""
+
+
+def _spec() -> Iterator[str]:
+    yield from _Writer(Conveyor, depth=2).section(layout(Conveyor), "", "The spec")
+
+
+def _compound() -> Iterator[str]:
+    yield from _Writer(RubberCompound, depth=2).section(layout(RubberCompound), "", "The compound")
+
+
+class _Writer:
+    """Sections of a file format; blocks with the same fields are written once."""
+
+    def __init__(self, model: type[BaseModel], depth: int) -> None:
+        self._model = model
+        self._depth = depth
+        self._known: list[tuple[tuple[Part, ...], str]] = []
+
+    def section(self, part: Group | Table, path: str, heading: str) -> Iterator[str]:
+        """Write a block, then the blocks in it."""
+        level = self._depth + min(2, path.count(".") + 1) if path else self._depth
+        yield f"{'#' * level} {heading}"
+        yield ""
+        doc = _sentence(part.doc)
+        if isinstance(part, Table):
+            length = part.allowed.replace("rows", "entries").replace("row", "entry")
+            doc = f"{doc} A list{f', {length}' if length else ''}."
+        yield f"{doc}{'' if part.required else ' May be left out.'}"
+        yield ""
+        inside = _inside(part)
+        same = next((title for parts, title in self._known if parts == inside), None)
+        if same is not None:
+            yield f"Its fields are those of [{same}](#{anchor(same)})."
+            yield ""
+            return
+        self._known.append((inside, heading))
+        yield from _HEADINGS
+        blocks = []
+        for inner in inside:
+            inner_path = _joined(path, inner.key) + "[]" * isinstance(inner, Table)
+            if isinstance(inner, Leaf):
+                yield self._row(inner, inner_path)
+            else:
+                blocks.append((inner, inner_path))
+                yield self._link(inner, inner_path)
+        yield ""
+        for inner, inner_path in blocks:
+            yield from self.section(inner, inner_path, self._title(inner_path))
+
+    def _title(self, path: str) -> str:
+        return path if self._model is Conveyor else f"compound: {path}"
+
+    def _link(self, part: Group | Table, path: str) -> str:
+        what = "list" if isinstance(part, Table) else "block"
+        title = self._title(path)
+        linked = f"{what} [{title}](#{anchor(title)})"
+        return _cells(f"`{part.key}`", _sentence(part.doc), linked, "", _without_block(part))
+
+    def _row(self, leaf: Leaf, path: str) -> str:
+        return _cells(
+            f"`{leaf.key}`", _sentence(leaf.doc), self._shown(leaf, path), _allowed(leaf), _without(leaf)
+        )
+
+    def _shown(self, leaf: Leaf, path: str) -> str:
+        if leaf.kind == "reference":
+            return "`standard-cover`"
+        found = example(self._model, path)
+        return "" if found is None else f"`{_yaml(found)}`"
+
+
+def _cells(*texts: str) -> str:
+    return "| " + " | ".join(text.replace("|", "\\|") for text in texts) + " |"
+
+
+def _sentence(doc: str) -> str:
+    plain = doc.strip()
+    return plain if not plain or plain.endswith((".", ")")) else plain + "."
+
+
+def _allowed(leaf: Leaf) -> str:
+    if leaf.kind == "switch":
+        return "`true`, `false`"
+    words = ", ".join(f"`{choice}`" for choice in leaf.choices)
+    if not words:
+        said = "" if leaf.kind == "text" and leaf.allowed.startswith("such as") else leaf.allowed
+        return _SAME_LENGTH.sub(r"\1 values", said)
+    if leaf.kind == "quantity":
+        return f"{leaf.allowed.split(' or ', maxsplit=1)[0]} or {words}"
+    return ", ".join(filter(None, (words, leaf.allowed)))
+
+
+def _without(leaf: Leaf) -> str:
+    if leaf.required:
+        return "**required**"
+    if leaf.default in _NOTHING:
+        return ""
+    return f"`{_yaml(_written(leaf.default, leaf))}`"
+
+
+def _without_block(part: Group | Table) -> str:
+    if part.required:
+        return "**required**"
+    values = [leaf.default for leaf in _inside(part) if isinstance(leaf, Leaf) and not leaf.required]
+    set_already = isinstance(part, Group) and any(value not in (*_NOTHING, False) for value in values)
+    return "its defaults" if set_already and len(values) == len(_inside(part)) else "none of it"
+
+
+def _written(value: Any, leaf: Leaf) -> Any:
+    """Write a default as people do: shares in per cent, exponents without padding."""
+    if isinstance(value, float) and "%" in leaf.units:
+        return f"{100.0 * value:g} %"
+    return value
+
+
+def _yaml(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return re.sub(r"e([+-])0", r"e\1", f"{value:g}").replace("e+", "e")
+    return f"[{', '.join(map(_yaml, value))}]" if isinstance(value, list | tuple) else str(value)
+
+
+if __name__ == "__main__":
+    import sys
+
+    sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
+    sys.stdout.write(markdown())
