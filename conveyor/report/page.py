@@ -91,6 +91,9 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   h1 { font-size: 1.5rem; }
   .drawing svg { min-width: 33rem; }
   .tiles { grid-template-columns: 1fr 1fr; }
+  table { font-size: .82rem; }
+  th, td { padding: .25rem .4rem; }
+  .unit { white-space: normal; }
   .tiles dd { font-size: 1.2rem; }
   .wide tbody th:first-child { position: sticky; left: 0; background: var(--paper); }
 }
@@ -123,7 +126,7 @@ _OTHER_UNITS = {
 """Formats of units that the workbook's do not know."""
 _SPELLED = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 _WIDE = 8  # columns beyond which a table is set smaller on paper
-_SHORT = 24  # rows up to which a table is kept on one page
+_SHORT = 12  # rows up to which a table is kept on one page
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
 _NOTHING = "–"
 _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
