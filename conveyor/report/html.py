@@ -95,7 +95,7 @@ def build(analysis: Analysis, studies: Studies | None = None, *, system: System 
     ]
     return page(
         conveyor.name,
-        "Belt conveyor calculation",
+        f"Belt conveyor calculation, {date.today().isoformat()}",
         joined([titled(conveyor), sections.top(analysis, system)]),
         parts,
         stamp(conveyor),
@@ -109,7 +109,7 @@ def build_comparison(comparison: Comparison, *, system: System | None = None) ->
     system = chosen(conveyor, system)
     return page(
         conveyor.name,
-        "Comparison of belt covers",
+        f"Comparison of belt covers, {date.today().isoformat()}",
         joined([titled(conveyor), top_of(comparison, system)]),
         parts_of(comparison, system),
         stamp(conveyor),
@@ -118,11 +118,11 @@ def build_comparison(comparison: Comparison, *, system: System | None = None) ->
 
 
 def titled(conveyor: Conveyor) -> Html:
-    """What the spec's report says of the document, and its date."""
+    """What the spec's report says of the document."""
     report = conveyor.report
     said = {name: getattr(report, name) for name in ("project", "number", "client", "engineer", "revision")}
     given = [(name, value) for name, value in said.items() if value is not None]
-    return facts([*given, ("date", date.today().isoformat())], "facts document")
+    return facts(given, "facts document") if given else Html("")
 
 
 def _paper(conveyor: Conveyor, system: System) -> Paper:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+import pandas as pd
+
 from conveyor.markup import Html, element, joined
 from conveyor.report import comparing, plots
-from conveyor.report.html_sections import drawn
+from conveyor.report.html_sections import bands, drawn
 from conveyor.report.page import Part, bullets, facts, table
 from conveyor.units import System, display
 
@@ -102,7 +104,10 @@ def _scenes(comparison: Comparison, system: System) -> Part:
 
 
 def _coverage(comparison: Comparison, system: System) -> Part:
-    frame = comparing.coverage(comparison)
+    found = comparing.coverage(comparison)
+    frame = pd.concat(
+        [found[["compound", "temperature [degC]"]], bands(found), found[["covered"]]], axis="columns"
+    )
     note = element(
         "p", "NO in the last column: the rolls ask for frequencies beyond the data.", class_="note"
     )

@@ -214,7 +214,7 @@ def rubber(analysis: Analysis, system: System) -> Part:
         compound = conveyor.carry_compound if strand == "carry" else conveyor.return_compound
         worked[compound.name] = (compound, (*worked.get(compound.name, (compound, ()))[1], strand))
     content: list[Html] = [
-        table(_asked(analysis), "What the rolls ask of the rubber, and what its data hold")
+        table(_asked(analysis), "What the rolls ask of the rubber, and what its data hold", system=system)
     ]
     for k, (compound, at) in enumerate(worked.values(), start=1):
         caption = (
@@ -226,34 +226,40 @@ def rubber(analysis: Analysis, system: System) -> Part:
             element("h3", f"{compound.name} ({compound.kind})"),
             drawn(made, f"rubber-{k}", caption),
             table(
-                pd.DataFrame(_known(compound), columns=["fact", "value"]), f"What is known of {compound.name}"
+                pd.DataFrame(_known(compound, system), columns=["fact", "value"]),
+                f"What is known of {compound.name}",
             ),
         ]
     return Part("rubber", "Rubber", joined(content))
 
 
-def _asked(analysis: Analysis) -> pd.DataFrame:
-    frame = analysis.rubber
-    bands = {
+def bands(frame: pd.DataFrame) -> pd.DataFrame:
+    """Bands of frequency in words, of a table that has what the rolls excite and what the data hold."""
+    words = {
         f"{name} [Hz]": [
             None if pd.isna(low) else band_words((low, high)).removesuffix(" Hz")
             for low, high in zip(frame[f"{start} from [Hz]"], frame[f"{start} to [Hz]"], strict=True)
         ]
         for name, start in (("excited band", "excited"), ("band of the data", "data"))
     }
+    return pd.DataFrame(words, index=frame.index)
+
+
+def _asked(analysis: Analysis) -> pd.DataFrame:
+    frame = analysis.rubber
     kept = ["strand", "compound", "kind", "temperature [degC]"]
     strains = ["working strain [-]", "E' factor of strain [-]", "E'' factor of strain [-]"]
-    return pd.concat([frame[kept], pd.DataFrame(bands, index=frame.index), frame[strains]], axis="columns")
+    return pd.concat([frame[kept], bands(frame), frame[strains]], axis="columns")
 
 
-def _known(compound: RubberCompound) -> Iterable[tuple[str, object]]:
+def _known(compound: RubberCompound, system: System) -> Iterable[tuple[str, object]]:
     known = {
         "description": compound.description,
         "origin": compound.source.origin,
         "data": compound.source.data or "not stated",
         "strain of the data": compound.strain or "not stated",
         "Poisson's ratio": f"{compound.poisson_ratio:g}",
-        "reference temperature": _plain(text(compound.reference_temperature)),
+        "reference temperature": _plain(display(si(compound.reference_temperature), "temperature", system)),
         "temperature shift": "none" if compound.shift is None else compound.shift.law,
         "Prony terms": str(len(compound.prony.terms)),
         "not known": "; ".join(compound.missing),

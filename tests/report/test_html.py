@@ -16,7 +16,8 @@ from conveyor.markup import Html, element, escaped
 from conveyor.models import RubberCompound
 from conveyor.report import html
 from conveyor.report.checks import checks
-from conveyor.report.page import COLOURS, number
+from conveyor.report.page import number
+from conveyor.report.page_style import COLOURS
 from conveyor.studies import studies
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
