@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import re
+from copy import copy
+from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
@@ -14,6 +16,8 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
+
+from conveyor.report.formats import number_format
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)
@@ -26,6 +30,26 @@ PALE = PatternFill("solid", fgColor="E8EEF5")
 TOTAL = Border(top=Side(style="thin", color=ACCENT))
 _HEADER = Font(name="Calibri", bold=True, color="FFFFFF")
 _FILL = PatternFill("solid", fgColor=ACCENT)
+_LEFT = Alignment(horizontal="left", indent=1)
+_CENTRE = Alignment(horizontal="center")
+
+
+@dataclass(frozen=True)
+class Look:
+    """Font and fill of a verdict."""
+
+    font: Font
+    fill: PatternFill
+
+
+_GOOD = Look(Font(name="Calibri", color="1E6B34"), PatternFill("solid", fgColor="E2F0E5"))
+_BAD = Look(Font(name="Calibri", bold=True, color="FFFFFF"), PatternFill("solid", fgColor="B3261E"))
+_OPEN = Look(Font(name="Calibri", italic=True, color="7A5200"), PatternFill("solid", fgColor="FFF3D6"))
+VERDICTS = {"pass": _GOOD, "yes": _GOOD, "FAIL": _BAD, "NO": _BAD, "not checked": _OPEN}
+"""How verdicts look; bold on dark is a failure without colours, too."""
+_JUDGED = {"verdict", "covered", "large enough"}
+INFINITE = "∞"
+"""Written where a figure has no bound: a cell cannot hold infinity as a number."""
 
 _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 _UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
@@ -35,28 +59,6 @@ _NARROWEST, _WIDEST = 10, 60
 _PAGE_ROWS = 60  # that a landscape page still shows legibly
 _HIGHEST = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
-
-# Number format by unit; the first pattern that the column's name matches
-_FORMATS = (
-    (r"error", "0.0E+00"),
-    (r"^transit", "#,##0"),
-    (r"^(time|stopping time).*\[s\]", "#,##0.0"),
-    (r"\[(s|Hz)\]", "0.00E+00"),
-    (r"\[(kg|t)\]", "#,##0"),
-    (r"\[m/s²\]", "0.000"),
-    (r"^value$", "#,##0.0"),
-    (r"share|penetration of cover|against base|working strain", "0.0%"),
-    (r"^payback", "0.0"),
-    (r"factor of strain", "0.000"),
-    (r"\bf \[-\]|^classical f", "0.0000"),
-    (r"friction \[-\]|tan delta|energy \[kWh", "0.0000"),
-    (r"^(order|matrices|nodes|retardation)", "#,##0"),
-    (r"^(diameter|roll|cover) \[mm\]", "0.0"),
-    (r"\[N/m\]", "#,##0.00"),
-    (r"\[kg/m\]|\[deg\]|\[-\]|\[m/s\]|spacing", "0.00"),
-    (r"\[mm\]|\[MPa\]", "#,##0.000"),
-    (r"\[(m|N|kW|MWh|t/h|[A-Z]{3})\]", "#,##0.0"),
-)
 
 
 def legible(words: str) -> str:
@@ -93,17 +95,6 @@ def put(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: st
         cell.font = font
 
 
-def number_format(column: str) -> str:
-    """Return the number format of a column or figure from the unit in its name.
-
-    Examples
-    --------
-    >>> number_format("tension [N]"), number_format("error estimate [-]")
-    ('#,##0.0', '0.0E+00')
-    """
-    return next((shown for pattern, shown in _FORMATS if re.search(pattern, column)), "General")
-
-
 def table(
     sheet: Worksheet,
     frame: pd.DataFrame,
@@ -128,32 +119,83 @@ def table(
     formats = [number_format(str(name)) for name in frame[by_row]] if by_row else []
     for j, name in enumerate(names, start=column):
         values = [_worded(value) for value in frame[name].tolist()]
-        _head(sheet.cell(row, j), name, right=not all(v is None or isinstance(v, str) for v in values))
-        longest = _two_lines(name) + 3
-        for i, value in enumerate(values):
-            cell = sheet.cell(row + 1 + i, j)
-            if isinstance(value, str):
-                put(cell, value)
-                lines = -(-(len(value) + 3) // widest)
-                cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=lines > 1)
-                if lines > 1:
-                    sheet.row_dimensions[row + 1 + i].height = min(_HIGHEST, 15.0 * lines)
-                longest = max(longest, len(value) + 3)
-            else:
-                put(cell, value, shown=formats[i] if by_row else number_format(name))
-                longest = max(longest, _length(value, cell.number_format))
+        text = not name.endswith("]") and all(v is None or isinstance(v, str) for v in values)
+        _head(sheet.cell(row, j), name, right=not text)
+        at = sheet.cell(row + 1, j)
+        longest = (
+            _text_column(at, values, widest)
+            if text
+            else _number_column(at, values, formats, number_format(name))
+        )
+        if name in _JUDGED:
+            _judge(at, values)
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
-        sheet.column_dimensions[letter].width = max(known, min(widest, max(_NARROWEST, longest)))
+        wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
+        sheet.column_dimensions[letter].width = max(known, wanted)
     wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
     return row + len(frame)
 
 
+def _text_column(at: Cell, values: list[Any], widest: int) -> int:
+    """Write a column of text from a cell downward; the width it asks for."""
+    sheet, longest, model = at.parent, 0, None
+    for i, value in enumerate(values, start=at.row):
+        if value is None:
+            continue
+        cell = sheet.cell(i, at.column)
+        lines = -(-(len(value) + 3) // widest)
+        if lines > 1:
+            cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=True, vertical="top")
+            sheet.row_dimensions[i].height = min(_HIGHEST, 15.0 * lines)
+        elif model is None:
+            cell.alignment, model = _LEFT, cell
+        else:
+            _dress_like(cell, model)
+        put(cell, value)
+        longest = max(longest, len(value) + 3)
+    return longest
+
+
+def _number_column(at: Cell, values: list[Any], formats: list[str], shown: str) -> int:
+    """Write a column of numbers from a cell downward; the width it asks for."""
+    sheet, longest = at.parent, 0
+    models: dict[str, Cell] = {}
+    for i, value in enumerate(values):
+        cell = sheet.cell(at.row + i, at.column)
+        wanted = formats[i] if formats else shown
+        if wanted in models:
+            _dress_like(cell, models[wanted])
+        else:
+            cell.number_format, models[wanted] = wanted, cell
+        put(cell, value)
+        longest = max(longest, _length(cell.value, wanted))
+    return longest
+
+
+def _dress_like(cell: Cell, model: Cell) -> None:
+    """Give a cell the look of another: a tenth of the time of setting its parts."""
+    cell._style = copy(model._style)  # noqa: SLF001 openpyxl's own way to copy a look
+
+
+def _judge(at: Cell, values: list[Any]) -> None:
+    """Colour verdicts; their words stay what they are read by."""
+    for i, value in enumerate(values, start=at.row):
+        if value in VERDICTS:
+            look = VERDICTS[value]
+            cell = at.parent.cell(i, at.column)
+            cell.font, cell.fill, cell.alignment = look.font, look.fill, _CENTRE
+
+
 def _worded(value: Any) -> Any:
-    """Yes and no in words, all else as it is."""
-    return {True: "yes", False: "NO"}[value] if isinstance(value, bool) else value
+    """Yes and no in words, infinity as its sign, nothing for what is not known; all else as it is."""
+    if isinstance(value, bool):
+        return "yes" if value else "NO"
+    if isinstance(value, float):
+        return None if math.isnan(value) else value if math.isfinite(value) else INFINITE
+    return value
 
 
 def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
@@ -172,7 +214,7 @@ def _two_lines(name: str) -> int:
 
 def _length(value: Any, shown: str) -> int:
     """Characters a number takes, with room beside it."""
-    if value is None:
+    if not isinstance(value, int | float):
         return 0
     if shown.startswith("#,##0"):
         return len(f"{value:,.{max(0, len(shown) - 6)}f}") + 2
@@ -198,10 +240,10 @@ def total(sheet: Worksheet, row: int, columns: int, values: dict[int, Any]) -> N
             cell.alignment = Alignment(horizontal="left", indent=1)
 
 
-def print_set_up(sheet: Worksheet, name: str) -> None:
-    """Landscape, fitted to the width, and to one page where it stays legible; the project's name above."""
-    sheet.page_setup.orientation = "landscape"
-    sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
+def print_set_up(sheet: Worksheet, name: str, *, paper: str = "A4", portrait: bool = False) -> None:
+    """Fitted to the width of the paper, and to one page where it stays legible; the project's name above."""
+    sheet.page_setup.orientation = "portrait" if portrait else "landscape"
+    sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = 1
     if sheet.page_setup.fitToHeight is None:
         sheet.page_setup.fitToHeight = int(sheet.max_row <= _PAGE_ROWS)  # 0: as many as it takes

@@ -12,8 +12,8 @@ import pandas as pd
 
 from conveyor.markup import Html, element, joined
 from conveyor.models.report import Paper
-from conveyor.report.cells import number_format
 from conveyor.report.checks import Check
+from conveyor.report.formats import number_format
 from conveyor.report.page_style import style
 from conveyor.report.unit_systems import converted, converted_rows
 from conveyor.units import System
@@ -166,9 +166,9 @@ def _figure_name(name: str) -> Html:
     return joined([words, " ", element("span", f"[{unit}]", class_="unit")] if unit else [words])
 
 
-def scrolling(content: Html, label: str, *, wide: bool, keep: bool) -> Html:
+def scrolling(content: Html, label: str, *, wide: bool, keep: bool, kind: str = "") -> Html:
     """Return a table that scrolls by itself where the screen is narrow."""
-    kinds = "scroll" + (" wide" if wide else "") + (" keep" if keep else "")
+    kinds = "scroll" + (" wide" if wide else "") + (" keep" if keep else "") + (f" {kind}" if kind else "")
     return element("div", content, class_=kinds, tabindex="0", role="group", aria_label=label)
 
 
@@ -213,7 +213,7 @@ def verdicts(found: Iterable[Check], caption: str) -> Html:
     whole = element(
         "table", element("caption", caption), element("thead", element("tr", *heads)), element("tbody", *rows)
     )
-    return scrolling(whole, caption, wide=False, keep=len(rows) <= _SHORT)
+    return scrolling(whole, caption, wide=False, keep=len(rows) <= _SHORT, kind="checks")
 
 
 def verdict(word: str) -> Html:
