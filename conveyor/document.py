@@ -17,6 +17,7 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
 from conveyor.file_content import file_content
+from conveyor.syntax import plain_json, plain_yaml
 
 LARGEST_FILE: Final = 500_000
 """Bytes; a spec of a thousand sections with two inline compounds has a fifth of it."""
@@ -162,18 +163,9 @@ def _json(content: str, path: Path) -> Any:
     try:
         return json.loads(content, parse_int=lambda digits: _number(digits, "int"))
     except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {error.msg}") from None
+        raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {plain_json(error.msg)}") from None
     except RecursionError:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
-
-
-_ADVICE: Final = {
-    "'\\t'": "; indent with spaces, not tabs",
-    "mapping values are not allowed": "; look here and in the line before: indentation, the blank after each colon, "
-    'quotes around a text with ": " in it',
-    "could not find expected ':'": "; write key: value, on one line",
-    "single document": '; remove the line "---" and what follows',
-}
 
 
 def _composed(content: str, path: Path) -> Node | None:
@@ -186,23 +178,21 @@ def _composed(content: str, path: Path) -> Node | None:
     except ReusedAnchorWarning as twice:
         line, column = map(int, re.findall(r"line (\d+), column (\d+)", str(twice))[-1])
         raise InputError(
-            f"{path}:{line}:{column} syntax: the anchor (&) is given twice; give each its own name"
+            f"{path}:{line}:{column} syntax: the anchor (&) is given twice; write the value itself"
         ) from None
     except MarkedYAMLError as error:
         unclosed = "stream" in str(error.problem)
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
-        advice = next((more for part, more in _ADVICE.items() if part in str(error.problem)), "")
         what = " ".join(part for part in (error.context, error.problem) if part)
-        if "maximum depth" in what:
-            what = _TOO_DEEP
-        raise InputError(f"{path}:{line}:{column} syntax: {what}{advice}") from None
+        said = _TOO_DEEP if "maximum depth" in what else plain_yaml(what)
+        raise InputError(f"{path}:{line}:{column} syntax: {said}") from None
     except YAMLError as error:
         position = getattr(error, "position", 0)
         before = content[:position]
         line, column = before.count("\n") + 1, position - before.rfind("\n")
         reason = getattr(error, "reason", str(error))
-        raise InputError(f"{path}:{line}:{column} syntax: {reason}") from None
+        raise InputError(f"{path}:{line}:{column} syntax: {plain_yaml(reason)}") from None
     except RecursionError:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
     return node

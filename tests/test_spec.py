@@ -105,13 +105,13 @@ POSITIONS = [
     ("    - {name: one, length: 500 m}\n    - {name: two, length: 300 m, lift: 10 m}", "    []",
      "20:3 route.sections: got 0 entries, at least 1 needed"),
     ("speed: 5 m/s", "speed: [5 m/s]", '4:3 belt.speed: expected a speed such as "5 m/s", got a list'),
-    ("name: test line", "name: 'open", "1:7 syntax: while scanning a quoted scalar found unexpected end"),
-    ("name: test line", "name: [1", "2:5 syntax: while parsing a flow sequence expected"),
-    ("  width: 1200 mm", "\twidth: 1200 mm", "3:1 syntax: while scanning for the next token found character '\\t'"),
-    ("name: test line", "name: a: b", "1:8 syntax: mapping values are not allowed here"),
-    ("name: test line", "name: *nobody", "1:7 syntax: found undefined alias 'nobody'"),
-    ("ambient:", "---\nambient:", "24:1 syntax: expected a single document in the stream but found another"),
-    ("name: test line", "name: \x07", "1:7 syntax: special characters are not allowed"),
+    ("name: test line", "name: 'open", "1:7 syntax: a quote is opened here and not closed; add the second one"),
+    ("name: test line", "name: [1", "2:5 syntax: a comma or the closing ] is missing before this place"),
+    ("  width: 1200 mm", "\twidth: 1200 mm", "3:1 syntax: a tab; indent with spaces, not tabs"),
+    ("name: test line", "name: a: b", "1:8 syntax: a colon where none may stand; look here and in the line before"),
+    ("name: test line", "name: *nobody", "1:7 syntax: a value begins with \"*\", it has a meaning"),
+    ("ambient:", "---\nambient:", "24:1 syntax: a second document begins here; remove lines that begin with"),
+    ("name: test line", "name: \x07", "1:7 syntax: a control character; remove it"),
 ]  # fmt: skip
 
 
@@ -119,13 +119,8 @@ POSITIONS = [
 def test_every_error_has_its_line_and_column(tmp_path: Path, old: str, new: str, expected: str) -> None:
     assert old in GOOD
     path = write(tmp_path, GOOD.replace(old, new, 1))
-    place = expected.split(" ", 1)[0]
-    # ruamel's own words about syntax may change; its place may not.
     lines = refusal(path)
-    if " syntax: " in expected:
-        assert lines[0].startswith(f"{path}:{place} syntax: ")
-    else:
-        assert any(line.startswith(f"{path}:{expected}") for line in lines), lines
+    assert any(line.startswith(f"{path}:{expected}") for line in lines), lines
     # A misspelt key is missing too.
     assert len(lines) == (2 if "unknown key" in expected else 1)
 

@@ -55,10 +55,9 @@ def write_template(
         raise InputError(f"{where}: is a folder; give the name of a workbook in it")
     if not where.absolute().parent.is_dir():
         raise InputError(f"{where}: its folder does not exist; create it or choose another")
-    content = _content(given, folders)
     partial = where.with_name(f".{uuid4().hex}.xlsx")
     try:
-        partial.write_bytes(content)
+        partial.write_bytes(_content(given, folders))
         _compare(partial, given, folders)
         partial.replace(where)
     except OSError as error:

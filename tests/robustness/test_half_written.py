@@ -1,0 +1,124 @@
+"""Every kind of output on a disk that runs full, and stopped in the middle: the older file stays, no other appears."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor import compound_file, shelf, starter
+from conveyor.cli.app import write_text
+from conveyor.errors import InputError
+from conveyor.report import plots
+from conveyor.template.write import write_template
+from tests.robustness.arrange import SPEC, full
+from tests.robustness.table import files
+
+_LEAST = 1000
+"""Bytes that the full disk still takes: less than any of the outputs."""
+
+
+@cache
+def _line() -> conveyor.Conveyor:
+    from ruamel.yaml import YAML
+
+    return conveyor.spec.from_data(YAML(typ="safe", pure=True).load(SPEC))
+
+
+@cache
+def _analysis() -> conveyor.Analysis:
+    return conveyor.analyse(_line())
+
+
+@cache
+def _comparison() -> conveyor.Comparison:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return conveyor.compare_compounds(_line(), ["standard-cover", "s100"])
+
+
+def _figure(path: Path) -> object:
+    return plots.save(plots.master_curve(shelf.compound("s100"), 293.15), path)
+
+
+OUTPUTS: dict[str, Callable[[Path], object]] = {
+    "report.xlsx": lambda path: _analysis().to_excel(path),
+    "report.html": lambda path: _analysis().to_html(path),
+    "compounds.xlsx": lambda path: _comparison().to_excel(path),
+    "scenes.csv": lambda path: write_text(path, _comparison().table.to_csv(index=False) * 20),
+    "figure.png": _figure,
+    "figure.svg": _figure,
+    "compound.yaml": lambda path: write_text(path, compound_file.dump(shelf.compound("s100"), "From a test")),
+    "template.xlsx": lambda path: write_template(path, _line()),
+    "starter.yaml": lambda path: write_text(path, starter.written("overland")),
+}
+CHEAP = ["scenes.csv", "figure.svg", "compound.yaml", "starter.yaml"]
+"""Those that take no second, and no temporary files elsewhere."""
+
+
+@contextmanager
+def _full_disk() -> Iterator[None]:
+    """A real refusal of the system, whatever way is taken to write: no file may grow beyond a thousand bytes."""
+    resource = pytest.importorskip("resource", reason="limits of POSIX")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (_LEAST, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_a_full_disk_leaves_the_folder_as_it_was(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(b"from before")
+    before = files(tmp_path)
+    with monkeypatch.context() as patched:
+        full(patched)
+        with pytest.raises(InputError, match=rf"{name}: cannot be written \(No space left on device\)"):
+            OUTPUTS[name](path)
+    assert files(tmp_path) == before
+
+
+@pytest.mark.parametrize("older", [True, False])
+@pytest.mark.parametrize("name", CHEAP)
+def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(
+    name: str, older: bool, tmp_path: Path
+) -> None:
+    OUTPUTS[name](tmp_path / name)  # what is written once, such as a cache of fonts, is there
+    (tmp_path / name).unlink()
+    path = tmp_path / name
+    if older:
+        path.write_bytes(b"from before")
+    before = files(tmp_path)
+    with _full_disk(), pytest.raises(InputError, match=rf"{name}: cannot be written \(File too large\)"):
+        OUTPUTS[name](path)
+    assert files(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", CHEAP)
+def test_ctrl_c_while_it_writes_leaves_the_folder_as_it_was(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(b"from before")
+    before = files(tmp_path)
+
+    def stopped(self: Path, *_: object, **__: object) -> int:
+        with self.open("wb") as stream:
+            stream.write(b"half")
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", stopped)
+        patched.setattr(Path, "write_text", stopped)
+        with pytest.raises(KeyboardInterrupt):
+            OUTPUTS[name](path)
+    assert files(tmp_path) == before
