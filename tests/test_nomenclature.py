@@ -1,0 +1,157 @@
+"""docs/nomenclature.md names every column of the tables, every key of the JSON, every field of the contact."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import conveyor
+from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
+from conveyor.report import case_tables, comparing, loop_tables, tables
+from conveyor.spec import from_data
+from conveyor.studies import Studies, studies
+
+ROOT = Path(__file__).parent.parent
+SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")
+NO_UNIT = "-"
+CURRENCY = re.compile(r"[A-Z]{3}|-")
+
+
+@cache
+def page() -> str:
+    return (ROOT / "docs" / "nomenclature.md").read_text(encoding="utf-8")
+
+
+@cache
+def rows() -> dict[str, list[str]]:
+    """Names of the tables, each with the units that its rows give it."""
+    found: dict[str, list[str]] = {}
+    for line in page().splitlines():
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if len(cells) == 5:
+            names = re.findall(r"`([^`]+)`", cells[0])
+            for name in names:
+                found.setdefault(name, []).extend(
+                    unit.strip() for unit in cells[2].replace("in *Duty*,", ",").split(",")
+                )
+            if "in *Duty*" in cells[4]:
+                found["energy"].append("MWh")
+    return found
+
+
+@cache
+def analysed(name: str) -> tuple[conveyor.Analysis, Studies]:
+    line = conveyor.load(ROOT / "examples" / "specs" / f"{name}.yaml")
+    return conveyor.analyse(line), studies(line)
+
+
+def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
+    result, asked = analysed(name)
+    stretches, found, compound = result.stretches, result.balance, result.conveyor.carry_compound
+    yield from (result.summary, result.sections, result.resistances, result.rolls, result.rubber)
+    yield from (tables.tensions(found), tables.indentation_curves(stretches), tables.solver(stretches))
+    yield from (tables.moduli(compound, 293.15), tables.prony(compound, 293.15))
+    yield pd.Series(dtype=float, index=tables.comparison(found).index)
+    yield from (loop_tables.belt(result.belt_duty), loop_tables.pulleys(result.belt_duty))
+    yield from (loop_tables.curves(result.belt_duty), loop_tables.convergence(result.convergence))
+    yield from (loop_tables.conditions(found), loop_tables.drives(found), loop_tables.take_up(found))
+    yield from (loop_tables.profile(result.conveyor), loop_tables.start_stop(result.motions))
+    yield loop_tables.tension_states(found, result.motions)
+    if asked.cases is not None:
+        yield from (case_tables.cases(asked.cases), case_tables.governing(asked.cases))
+        yield from (case_tables.refused_cases(asked.cases), case_tables.motors(asked.cases.motors()))
+    if asked.duty is not None:
+        yield from (case_tables.duty(asked.duty), case_tables.year(asked.duty))
+    if asked.uncertainty is not None:
+        yield from (case_tables.band(asked.uncertainty), case_tables.tornado(asked.uncertainty))
+
+
+def comparison() -> conveyor.Comparison:
+    line = analysed("overland_10km")[0].conveyor
+    return conveyor.compare_compounds(
+        line, compounds=["standard-cover", "s100"], temperatures=["10 degC"], extra_costs={"s100": 2e4}
+    )
+
+
+def names(frame: pd.DataFrame | pd.Series) -> Sequence[str]:
+    return [str(name) for name in (frame.columns if isinstance(frame, pd.DataFrame) else frame.index)]
+
+
+def missing(columns: Sequence[str]) -> set[str]:
+    found = set()
+    for column in columns:
+        match = re.fullmatch(r"(.*?)(?: \[(.*)\])?", column)
+        assert match is not None
+        name = re.sub(r"motor power, [\d.]+ x friction", "motor power, … x friction", match[1])
+        unit = match[2] or ""
+        listed = rows().get(name)
+        if listed is None or not (
+            unit in listed or ("currency" in listed and CURRENCY.fullmatch(unit)) or (unit == "" and listed)
+        ):
+            found.add(column)
+    return found
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_column_of_an_analysis_is_named_with_its_unit(name: str) -> None:
+    assert missing([column for frame in frames(name) for column in names(frame)]) == set()
+
+
+def test_every_column_of_lives_is_named() -> None:
+    line = analysed("overland_10km")[0].conveyor
+    bearing = {"dynamic_rating": "22 kN", "distance": "0.3 m"}
+    data = line.as_data()
+    for strand in ("carry", "return"):
+        data["idlers"][strand]["roll"]["bearing"] = bearing
+    result = conveyor.analyse(from_data(data))
+    assert "roll L10 life [h]" in result.rolls
+    assert missing([*names(result.rolls), *names(result.sections)]) == set()
+
+
+def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
+    found = comparison()
+    made = (found.table, found.ranking, comparing.coverage(found), comparing.refused(found))
+    assert missing([column for frame in made for column in names(frame)]) == set()
+
+
+def test_a_name_or_a_unit_that_is_not_there_would_be_seen() -> None:
+    assert missing(["effective tension [N]"]) == set()
+    assert missing(["effective tension [kN]", "effective pull [N]"]) == {
+        "effective tension [kN]",
+        "effective pull [N]",
+    }
+
+
+def keys(data: object, path: str = "") -> Iterator[str]:
+    if isinstance(data, dict):
+        for key, value in data.items():
+            if not re.search(r"[ \[]", key):  # rows with the names of the tables
+                yield path + key
+                yield from keys(value, f"{path}{key}.")
+    elif isinstance(data, list | tuple):
+        for item in data:
+            yield from keys(item, path.removesuffix(".") + "[].")
+
+
+def test_every_key_of_the_json_is_named() -> None:
+    told = set(re.findall(r"`([^`]+)`", page().replace("\n", " ")))
+    for name in SPECS:
+        result, asked = analysed(name)
+        for key in keys(result.to_dict() | asked.to_dict()):
+            assert key in told or key.rsplit(".", 1)[-1] in rows(), key
+    for key in keys(comparing.to_dict(comparison())):
+        assert key in told or key.rsplit(".", 1)[-1] in rows(), key
+
+
+def test_every_field_of_the_contact_is_named() -> None:
+    section = page().split("## The dimensionless contact")[1]
+    told = {name.partition("(")[0] for name in re.findall(r"`([^`]+)`", section)}
+    public = {name for name in vars(ContactSolution) if not name.startswith("_")}
+    given = {field.name for kind in (ContactProblem, CreepSpectrum) for field in dataclasses.fields(kind)}
+    assert (public | given) - told == set()
