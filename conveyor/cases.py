@@ -170,6 +170,11 @@ class CaseStudy:
 
         return case_tables.cases(self)
 
+    def _repr_html_(self) -> str:
+        from conveyor.report.representations import of_cases
+
+        return of_cases(self)
+
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
 

@@ -112,6 +112,11 @@ class DutyStudy:
 
         return case_tables.year(self)
 
+    def _repr_html_(self) -> str:
+        from conveyor.report.representations import of_duty
+
+        return of_duty(self)
+
 
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None

@@ -107,6 +107,11 @@ class UncertaintyStudy:
 
         return case_tables.tornado(self)
 
+    def _repr_html_(self) -> str:
+        from conveyor.report.representations import of_uncertainty
+
+        return of_uncertainty(self)
+
 
 @dataclass(frozen=True)
 class _Variation:

@@ -106,6 +106,19 @@ class LoadCurve:
     _contacts: Contact  # at the Chebyshev-Lobatto points, from the widest to the narrowest
     _columns: Array  # Chebyshev coefficients of (ln p, μρ/α, ε/α), shape (k, 3)
 
+    def _repr_html_(self) -> str:
+        """For notebooks: the range of load, and the contact at its ends."""
+        from conveyor.markup import listing
+
+        ends = self.at([self.lowest, self.highest])
+        rows = [("mean pressure p̃_m", f"{self.lowest:.6g} to {self.highest:.6g}")]
+        rows += [
+            (f"{name} there", " to ".join(f"{value:.6g}" for value in getattr(ends, name)))
+            for name in ("friction", "half_width")
+        ]
+        rows.append(("relative error of friction", f"{self.error:.1e}"))
+        return listing("LoadCurve, lengths over R", rows)
+
     def at(self, pressure: ArrayLike) -> LoadSolutions:
         """Figures at mean pressures p̃_m.
 

@@ -102,6 +102,23 @@ class PronyFit:
         """Number of terms the fit kept [-]."""
         return int(self.series.times.size)
 
+    def _repr_html_(self) -> str:
+        """For notebooks: the series, and how far it is from the data."""
+        from conveyor.markup import Html, joined, listing
+
+        rows = [
+            ("data", f"{self.window[0]:.4g} to {self.window[1]:.4g} Hz"),
+            *(
+                (
+                    f"{name}, error",
+                    f"rms {found.rms:.1%}, worst {found.worst:+.1%} at {found.worst_frequency:.3g} Hz",
+                )
+                for name, found in (("E'", self.storage), ("E''", self.loss), ("tan δ", self.tan_delta))
+            ),
+            ("any positive spectrum leaves", f"{self.consistency_floor:.1%}"),
+        ]
+        return joined([listing("PronyFit", rows), Html(self.series._repr_html_())])
+
 
 def fit_prony(
     frequency: ArrayLike,

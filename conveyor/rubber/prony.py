@@ -80,6 +80,21 @@ class PronySeries:
         object.__setattr__(self, "moduli", moduli)
         object.__setattr__(self, "times", times)
 
+    def _repr_html_(self) -> str:
+        """For notebooks: moduli and times, the terms folded away."""
+        from conveyor.markup import listing
+
+        terms = [
+            {"modulus [MPa]": f"{modulus / 1e6:.6g}", "relaxation time [s]": f"{time:.6g}"}
+            for modulus, time in zip(self.moduli, self.times, strict=True)
+        ]
+        rows = [
+            ("equilibrium modulus", f"{self.equilibrium / 1e6:.6g} MPa"),
+            ("glassy modulus", f"{self.glassy / 1e6:.6g} MPa"),
+            ("terms", terms or "none: an elastic solid"),
+        ]
+        return listing("PronySeries", rows)
+
     @property
     def glassy(self) -> float:
         """Instantaneous modulus ``E_inf = E_e + sum E_i`` [Pa]."""

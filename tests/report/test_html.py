@@ -3,69 +3,25 @@
 from __future__ import annotations
 
 import re
-from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 import conveyor
-from conveyor.contact import ContactProblem, CreepSpectrum, solve
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
-from conveyor.models import RubberCompound
 from conveyor.report import html
 from conveyor.report.checks import checks
 from conveyor.report.page import number
 from conveyor.report.page_style import COLOURS
 from conveyor.studies import studies
+from tests.report.reading import HOSTILE, Page
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
-VOID = {"br", "meta", "link", "img", "input", "hr", "col"}
 LARGEST = 600_000  # bytes of a report
-LARGEST_OF_A_NOTEBOOK = 100_000
 CONTRAST = 4.5  # WCAG 2.2, 1.4.3, normal text
 GRAPHIC_CONTRAST = 3.0  # WCAG 2.2, 1.4.11
-HOSTILE = "<script>alert('x')</script> \"&\" $\\frac{1}$ =1+1 \u202e"
-
-
-class Page(HTMLParser):
-    """A page taken apart: every tag must be closed by its own."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__(convert_charrefs=True)
-        self.open: list[str] = []
-        self.tags: list[tuple[str, dict[str, str]]] = []
-        self.faults: list[str] = []
-        self.texts: list[tuple[str, str]] = []
-        self.feed(text)
-        self.close()
-        self.faults += [f"{tag} is not closed" for tag in self.open]
-
-    def handle_starttag(self, tag, attributes):
-        names = [name for name, _ in attributes]
-        if len(set(names)) < len(names):
-            self.faults.append(f"{tag} has an attribute twice")
-        self.tags.append((tag, dict(attributes)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.tags.append((tag, dict(attributes)))
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.faults.append(f"</{tag}> at {self.getpos()}")
-
-    def handle_data(self, data):
-        self.texts.append((self.open[-1] if self.open else "", data))
-
-    def of(self, tag):
-        return [attributes for name, attributes in self.tags if name == tag]
-
-    @property
-    def prose(self):
-        return " ".join(data for tag, data in self.texts if tag != "style")
 
 
 @pytest.fixture(scope="module")
@@ -384,54 +340,6 @@ def test_comparison_holds_the_ranking(comparison, compared, tmp_path):
         assert number("power [kW]", row["mean motor power [kW]"]) in prose
     path = comparison.to_html(tmp_path / "c.html", system="US")
     assert "[hp]" in path.read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize("name", ["overland_10km", "downhill_brakes", "shuttle"])
-def test_models_in_a_notebook(name):
-    shown = conveyor.load(SPECS / f"{name}.yaml")._repr_html_()
-    found = Page(shown)
-    assert found.faults == []
-    assert len(shown.encode()) < LARGEST_OF_A_NOTEBOOK
-    assert "1200 mm" in found.prose or "1000 mm" in found.prose or "800 mm" in found.prose
-
-
-def test_model_in_a_notebook_is_as_entered_and_escaped(line):
-    compound = line.carry_compound.replace(description=HOSTILE)
-    assert isinstance(compound, RubberCompound)
-    found = Page(compound._repr_html_())
-    assert found.faults == []
-    assert "script" not in {tag for tag, _ in found.tags}
-    assert "48 in" in Page(line.belt._repr_html_()).prose
-
-
-def test_results_in_a_notebook(result, comparison):
-    for shown in (result._repr_html_(), comparison._repr_html_()):
-        assert Page(shown).faults == []
-        assert len(shown.encode()) < LARGEST_OF_A_NOTEBOOK
-    assert number("motor power [kW]", result.summary["motor power [kW]"]) in result._repr_html_()
-    assert comparison.base in comparison._repr_html_()
-
-
-def test_contact_in_a_notebook():
-    creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
-    problem = ContactProblem(
-        support="free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep, poisson=0.5
-    )
-    solution = solve(problem, rtol=1e-4)
-    prose = Page(solution._repr_html_()).prose
-    assert f"{solution.friction:.8g}" in prose
-    assert "error_estimate" in prose
-
-
-def test_refused_contact_in_a_notebook_says_why():
-    creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
-    problem = ContactProblem(
-        support="free", radius=0.1, thickness=1.0, pressure=50.0, creep=creep, poisson=0.5
-    )
-    solution = solve(problem, throw=False)
-    prose = Page(solution._repr_html_()).prose
-    assert escaped(solution.status.message) in escaped(prose)
-    assert "friction" not in [data for tag, data in Page(solution._repr_html_()).texts if tag == "th"]
 
 
 def test_markup_is_escaped_once():
