@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass
 from datetime import date
@@ -203,6 +204,12 @@ def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
     cell.fill = _FILL
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
+
+
+def header_row(sheet: Worksheet, row: int, column: int, names: Iterable[str]) -> None:
+    """Write the header of a table of text from a cell to the right."""
+    for j, name in enumerate(names, start=column):
+        _head(sheet.cell(row, j), name, right=False)
 
 
 def _two_lines(name: str) -> int:

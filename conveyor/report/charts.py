@@ -21,6 +21,8 @@ from conveyor.report.tables import CURVE_POINTS
 _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
+MOST_CURVES = 12
+"""Curves that one chart of load curves shows legibly."""
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
 
@@ -33,20 +35,36 @@ def _title(words: str, *, size: int) -> Title:
     return title
 
 
+def _head(sheet: Worksheet, header: int, column: int) -> str:
+    """What stands above a column, its unit with it."""
+    return str(sheet.cell(header, column).value)
+
+
+def axis_title(words: str) -> Title:
+    """Words beside an axis."""
+    return _title(words, size=10)
+
+
+def _unit(sheet: Worksheet, header: int, column: int) -> str:
+    """Unit in the header of a column, in its brackets."""
+    return _head(sheet, header, column).rpartition(" ")[2]
+
+
 def _dress(chart: Any, title: str, x: str, y: str) -> None:
     chart.title = _title(title, size=12)
     for axis, words in ((chart.x_axis, x), (chart.y_axis, y)):
-        axis.title = _title(words, size=10) if words else None
+        axis.title = axis_title(words) if words else None
         axis.delete = False  # recent Excel hides axes otherwise
     chart.y_axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill=_GRID))
     chart.width, chart.height = _WIDTH, _HEIGHT
 
 
-def breakdown(sheet: Worksheet, *, header: int, last: int, label: int, value: int) -> BarChart:
-    """Bars of the resistances of a table with labels and forces in two columns."""
+def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, value: int) -> BarChart:
+    """Bars of the figures of a table, labels and figures in two of its columns; `rows` are header and last."""
+    header, last = rows
     chart = BarChart()
     chart.type = "bar"
-    _dress(chart, "Resistance breakdown", "", "force [N]")
+    _dress(chart, title, "", _head(sheet, header, value))
     chart.add_data(Reference(sheet, min_col=value, min_row=header, max_row=last), titles_from_data=True)
     chart.set_categories(Reference(sheet, min_col=label, min_row=header + 1, max_row=last))
     chart.series[0].graphicalProperties.solidFill = ACCENT
@@ -60,21 +78,16 @@ def breakdown(sheet: Worksheet, *, header: int, last: int, label: int, value: in
     return chart
 
 
-def name(chart: Any, title: str, y: str) -> None:
-    """Give a chart another title and value axis."""
-    chart.title = _title(title, size=12)
-    chart.y_axis.title = _title(y, size=10)
-
-
 def power_over_temperature(
-    sheet: Worksheet, rows: tuple[int, int], *, count: int, speed: float, least: float
+    sheet: Worksheet, rows: tuple[int, int], *, count: int, speed: str, least: float
 ) -> ScatterChart:
     """Motor power of `count` compounds (columns 2 …) over temperature (column 1); `rows` are header and last.
 
-    The power axis begins below `least` [kW], at a round figure: differences between compounds are what is looked for.
+    The power axis begins below `least`, at a round figure: differences between compounds are what is looked for.
     """
     header, last = rows
-    chart = _scatter(f"Motor power at {speed:g} m/s", "belt temperature [degC]", "motor power [kW]")
+    power = f"motor power {_unit(sheet, header, 2)}"
+    chart = _scatter(f"Motor power at {speed}", f"belt {_head(sheet, header, 1)}", power)
     at = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
     for column in range(2, 2 + count):
         _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), at)
@@ -89,7 +102,7 @@ def power_over_temperature(
 
 def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     """Tension and least tension for sag against the way round the loop (columns 2, 3, 4)."""
-    chart = _scatter("Tension round the loop", "distance from the drive [m]", "tension [N]")
+    chart = _scatter("Tension round the loop", _head(sheet, header, 2), _head(sheet, header, 3))
     way = Reference(sheet, min_col=2, min_row=header + 1, max_row=last)
     for column in (3, 4):
         _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), way)
@@ -100,7 +113,8 @@ def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
 
 def profile(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     """Height over the horizontal distance from the tail (columns 3, 4)."""
-    chart = _scatter("Profile of the route", "horizontal distance from the tail [m]", "height [m]")
+    across_words = f"horizontal distance from the tail {_unit(sheet, header, 3)}"
+    chart = _scatter("Profile of the route", across_words, _head(sheet, header, 4))
     across = Reference(sheet, min_col=3, min_row=header + 1, max_row=last)
     _line(chart, Reference(sheet, min_col=4, min_row=header, max_row=last), across)
     chart.legend = None
@@ -111,9 +125,9 @@ def profile(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
 
 
 def indentation(sheet: Worksheet, frame: pd.DataFrame, *, header: int) -> ScatterChart:
-    """Indentation against line load, a curve for each block of rows (columns 2, 3)."""
-    chart = _scatter("Indentation against line load", "line load [N/m]", "indentation [N/m]")
-    for start in range(0, len(frame), CURVE_POINTS):
+    """Indentation against line load, a curve for each of the first blocks of rows (columns 2, 3)."""
+    chart = _scatter("Indentation against line load", _head(sheet, header, 2), _head(sheet, header, 3))
+    for start in range(0, min(len(frame), MOST_CURVES * CURVE_POINTS), CURVE_POINTS):
         first, last = header + 1 + start, header + start + CURVE_POINTS
         loads = Reference(sheet, min_col=2, min_row=first, max_row=last)
         label = legible(str(frame["contact"].iloc[start]))
@@ -124,10 +138,11 @@ def indentation(sheet: Worksheet, frame: pd.DataFrame, *, header: int) -> Scatte
 
 
 def moduli(sheet: Worksheet, name: str, *, header: int, last: int) -> ScatterChart:
-    """E' and E'' against frequency, both axes logarithmic (columns 5, 6, 7)."""
-    chart = _scatter(f"Moduli of {name}", "frequency [Hz]", "modulus [MPa]")
-    frequency = Reference(sheet, min_col=5, min_row=header + 1, max_row=last)
-    for column in (6, 7):
+    """E' and E'' against frequency, both axes logarithmic (columns 1, 2, 3)."""
+    modulus = f"modulus {_unit(sheet, header, 2)}"
+    chart = _scatter(f"Moduli of {name}", _head(sheet, header, 1), modulus)
+    frequency = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
+    for column in (2, 3):
         _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), frequency)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import suppress
-from functools import partial
 from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
-from uuid import uuid4
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from openpyxl import Workbook
-from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
-from conveyor.report import comparing_sheets, sheets, study_sheets
+from conveyor.report import comparing_sheets, cover, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
+from conveyor.report.comparison_contents import of_comparison
+from conveyor.report.contents import CHECKS_AND_NOTES, Contents, of_analysis
+from conveyor.report.files import csv
+from conveyor.report.places import MOST_ROWS, Page, file_name
+from conveyor.report.saving import save
 from conveyor.report.unit_systems import chosen
 
 if TYPE_CHECKING:
@@ -25,8 +26,11 @@ if TYPE_CHECKING:
     from conveyor.studies import Studies
     from conveyor.units import System
 
-SHEETS = {
-    "Summary": sheets.summary,
+Subject = TypeVar("Subject", "Analysis", "Comparison")
+
+SHEETS: Final = {
+    "Summary": cover.summary,
+    "Results": sheets.results,
     "Inputs": sheets.inputs,
     "Sections": sheets.sections,
     "Resistances": sheets.resistances,
@@ -34,18 +38,24 @@ SHEETS = {
     "Tensions": sheets.tensions,
     "States": study_sheets.states,
     "Loop": study_sheets.loop,
+    "Load cases": study_sheets.cases,
+    "Duty": study_sheets.duty,
+    "Uncertainty": study_sheets.uncertainty,
     "Indentation": sheets.indentation,
     "Rubber": sheets.rubber,
-    "Checks and notes": sheets.notes,
+    CHECKS_AND_NOTES: sheets.notes,
 }
 """What fills each sheet, in their order."""
-COMPARISON_SHEETS = {
+COMPARISON_SHEETS: Final = {
     "Ranking": comparing_sheets.ranking,
     "Power": comparing_sheets.power,
     "Scenes": comparing_sheets.scenes,
     "Coverage": comparing_sheets.coverage,
     "Notes": comparing_sheets.notes,
 }
+_WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
+"""Sheets of a workbook only where the spec asks for them."""
+_PORTRAIT: Final = ("Summary",)
 
 
 def write(
@@ -60,7 +70,10 @@ def write(
     studies : Studies, optional
         Load cases, duty and uncertainty, one sheet each.
     path : Path
-        Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced.
+        Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Tables too long for a sheet go
+        to ``<name of the workbook>_<name of the table>.csv`` beside it.
+    system : {"SI", "US"}, optional
+        Units of the tables; without it those of the spec's report.
 
     Returns
     -------
@@ -73,7 +86,10 @@ def write(
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    return _saved(path, lambda: build(analysis, studies, system=system))
+    shown = analysis.in_units(chosen(analysis.conveyor, system))
+    _ready(path)
+    found = of_analysis(shown, studies)
+    return _saved(path, found, build(found, shown, path.stem))
 
 
 def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
@@ -84,61 +100,60 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System | Non
     InputError
         As `write`.
     """
-    return _saved(path, lambda: build_comparison(comparison, system=system))
+    units = chosen(comparison.conveyor, system)
+    _ready(path)
+    found = of_comparison(comparison, units)
+    return _saved(path, found, build_comparison(found, comparison, path.stem))
 
 
-def _saved(path: Path, made: Callable[[], Workbook]) -> Path:
-    """Write a workbook under a temporary name beside its own, then rename."""
+def _ready(path: Path) -> None:
+    """Refuse a path that no workbook can stand at, before any time is spent on one."""
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
-    partial = path.with_name(f".{uuid4().hex}.part")
     try:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the name of a workbook in it")
         if not path.absolute().parent.is_dir():
             raise InputError(f"{path}: its folder does not exist; create it or choose another")
-        content = BytesIO()
-        made().save(content)
-        partial.write_bytes(content.getbuffer())
-        partial.replace(path)
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with suppress(OSError):  # no such file after the rename; a folder that went away has nothing to clean
-            partial.unlink(missing_ok=True)
+
+
+def _saved(path: Path, found: Contents, book: Workbook) -> Path:
+    """Write a workbook, and beside it the tables too long for it."""
+    content = BytesIO()
+    book.save(content)
+    long = [part for part in found.parts if len(part.frame) > MOST_ROWS]
+    save(
+        {path.with_name(file_name(path.stem, part)): csv(part.frame) for part in long}
+        | {path: content.getbuffer()}
+    )
     return path
 
 
-def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Workbook:
-    """Workbook of an analysis and of the studies its spec asks for, not yet saved."""
-    analysis = analysis.in_units(chosen(analysis.conveyor, system))
-    fills: dict[str, Callable[[Worksheet], None]] = {
-        title: partial(fill, analysis=analysis) for title, fill in SHEETS.items()
-    }
-    last = fills.popitem()
-    if studies is not None and studies.cases is not None:
-        fills["Load cases"] = partial(study_sheets.cases, study=studies.cases)
-    if studies is not None and studies.duty is not None:
-        fills["Duty"] = partial(study_sheets.duty, study=studies.duty)
-    if studies is not None and studies.uncertainty is not None:
-        fills["Uncertainty"] = partial(study_sheets.uncertainty, study=studies.uncertainty)
-    return _book(analysis.conveyor.name, fills | dict([last]))
+def build(contents: Contents, analysis: Analysis, stem: str = "") -> Workbook:
+    """Workbook of an analysis whose tables are given, not yet saved; `stem` names files beside it."""
+    return _book(contents, SHEETS, analysis, stem)
 
 
-def _book(name: str, fills: Mapping[str, Callable[[Worksheet], None]]) -> Workbook:
+def build_comparison(contents: Contents, comparison: Comparison, stem: str = "") -> Workbook:
+    """Workbook of a comparison whose tables are given, not yet saved."""
+    return _book(contents, COMPARISON_SHEETS, comparison, stem)
+
+
+def _book(
+    contents: Contents, fills: Mapping[str, Callable[[Page, Subject], None]], subject: Subject, stem: str
+) -> Workbook:
+    conveyor = subject.conveyor
     book = Workbook()
     book.remove(book.worksheets[0])
-    book.properties.title = legible(name)
+    book.properties.title = legible(conveyor.name)
     book.properties.creator = f"conveyor {version('conveyor')}"
+    paper = conveyor.report.paper or ("Letter" if contents.system == "US" else "A4")
+    header = ", ".join(filter(None, (conveyor.report.project, conveyor.name)))
     for title, fill in fills.items():
-        sheet = book.create_sheet(title)
-        fill(sheet)
-        print_set_up(sheet, name)
+        if title in contents.sheets or title not in _WHERE_ASKED:
+            sheet = book.create_sheet(title)
+            fill(Page(sheet, contents, stem), subject)
+            print_set_up(sheet, header, paper=paper, portrait=title in _PORTRAIT)
     return book
-
-
-def build_comparison(comparison: Comparison, *, system: System | None = None) -> Workbook:
-    """Workbook of a comparison, not yet saved."""
-    chosen(comparison.conveyor, system)
-    fills = {title: partial(fill, comparison=comparison) for title, fill in COMPARISON_SHEETS.items()}
-    return _book(comparison.conveyor.name, fills)

@@ -69,7 +69,9 @@ class Page:
     contents: Contents
     stem: str
 
-    def place(self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES) -> Place:
+    def place(
+        self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
+    ) -> Place:
         """Write a table, its heading at (row, column) and its header in the row below; name it and its figures."""
         part = self.contents[key]
         top = row
@@ -78,7 +80,9 @@ class Page:
             top = row + 1
         frame, whole = part.frame, len(part.frame) <= MOST_ROWS
         if not whole:
-            words = f"{len(frame):,} rows, the first {SHOWN_ROWS} here; all of them: {file_name(self.stem, part)}"
+            words = (
+                f"{len(frame):,} rows, the first {SHOWN_ROWS} here; all of them: {file_name(self.stem, part)}"
+            )
             put(self.sheet.cell(row, column + 2), words, GREY)
             frame = frame.iloc[:SHOWN_ROWS]
         last = table(self.sheet, frame, top, column, widest=widest, by_row=part.by_row)
