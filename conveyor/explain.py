@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Callable
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -78,7 +79,9 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
         "union_tag_invalid": lambda: (
             f"got {_bare(context['discriminator'])}: {shown(context['tag'])}, allowed: {context['expected_tags']}"
         ),
-        "literal_error": lambda: f"got {shown(given)}, allowed: {context['expected']}",
+        "literal_error": lambda: (
+            f"got {shown(given)}, allowed: {context['expected']}{_near(given, context['expected'])}"
+        ),
         "too_short": lambda: (
             f"got {context['actual_length']} entries, at least {context['min_length']} needed"
         ),
@@ -95,6 +98,13 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
     if kind in _EXPECTED:
         return f"expected {_EXPECTED[kind]}, got {shown(given)}"
     return f"got {shown(given)}: {item['msg']}"
+
+
+def _near(given: Any, expected: str) -> str:
+    """Guess the word that was meant, by its letters in any case."""
+    words = {word.casefold(): word for word in re.findall(r"'([^']+)'", expected)}
+    near = difflib.get_close_matches(given.casefold(), words, n=1) if isinstance(given, str) else []
+    return f'; did you mean "{words[near[0]]}"?' if near else ""
 
 
 def _bare(name: str) -> str:

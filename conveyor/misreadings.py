@@ -14,14 +14,11 @@ LONGEST = 80
 """Characters: no quantity needs more, and messages quote the text."""
 
 _SEPARATORS = "[ \u00a0\u2007\u2009\u202f'’_]"
+_THOUSANDS = rf"[+-]?[0-9]{{1,3}}({_SEPARATORS}[0-9]{{3}})+(?![0-9])"
 _TRAPS: tuple[tuple[str, str], ...] = (
     (
         r"[+-]?[0-9][0-9.' ]*,",
         'a comma is ambiguous; write a decimal point and no thousands sign, e.g. "1.2 m"',
-    ),
-    (
-        rf"[+-]?[0-9]{{1,3}}({_SEPARATORS}[0-9]{{3}})+(?![0-9])",
-        'write the number without a thousands sign, e.g. "1000 m"',
     ),
     (r"[+-]?[0-9]*\.[0-9]*\.", "the number has more than one decimal point"),
     (r"[−–]", 'write minus as "-"'),
@@ -90,9 +87,9 @@ def _why_not_text(given: str, kind: Kind | None, key: str | None) -> str:
     start = given.strip()
     if len(given) > LONGEST:
         return f"expected {_expected(kind)}, got {shown}"
-    for trap, advice in _TRAPS:
-        if re.match(trap, start):
-            return f"got {shown}: {advice}"
+    advice = _trapped(start)
+    if advice is not None:
+        return f"got {shown}: {advice}"
     match = NUMBER_UNIT.fullmatch(given)
     if match is None:
         return f"expected {_expected(kind)}, got {shown}"
@@ -102,6 +99,14 @@ def _why_not_text(given: str, kind: Kind | None, key: str | None) -> str:
     if unit == "":
         return f"got {shown} without a unit; {_give_the_unit(number, key)}"
     return f"got {shown}" + _wrong_unit(number, unit, kind, key)
+
+
+def _trapped(start: str) -> str | None:
+    """Say what to write instead where a text is one of the traps."""
+    if re.match(_THOUSANDS, start):
+        together = re.sub(rf"(?<=[0-9]){_SEPARATORS}(?=[0-9]{{3}})", "", on_one_line(start))
+        return f'write the number without a thousands sign, e.g. "{together}"'
+    return next((advice for trap, advice in _TRAPS if re.match(trap, start)), None)
 
 
 def _wrong_unit(number: str, unit: str, kind: Kind | None, key: str | None) -> str:

@@ -41,8 +41,9 @@ def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
     listed += [Path(folder) for folder in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if folder]
     for folder in listed:
         if not folder.is_dir():
+            found = "is a file, no folder" if folder.is_file() else "no such folder"
             raise InputError(
-                f"shelf {folder}: no such folder (argument or environment variable {ENVIRONMENT})"
+                f"shelf {folder}: {found} (given by --shelf, shelves= or the variable {ENVIRONMENT})"
             )
     return [*listed, built_in()]
 

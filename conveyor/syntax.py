@@ -27,7 +27,10 @@ _YAML: Final[tuple[tuple[str, str], ...]] = (
         "a colon where none may stand; look here and in the line before: indentation, the blank after each colon, "
         'quotes around a text with ": " in it',
     ),
-    (r"could not find expected ':'", "a line that is no key: value; write it so, on one line"),
+    (
+        r"could not find expected ':'",
+        "a line that is no key: value, or a key of more than 1,000 letters; write key: value, on one line",
+    ),
     (r"undefined alias", f'a value begins with "*", {_MEANT}'),
     (r"(?:scanning an (?:alias|anchor)) expected", rf'a value begins with "*" or "&", {_MEANT}'),
     (r"undefined tag handle|scanning a tag|parsing a tag", rf'a value begins with "!", {_MEANT}'),

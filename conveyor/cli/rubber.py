@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, writable, write_text
+from conveyor.cli import outputs
+from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, write_text
 from conveyor.cli.completion import compound_names
 
 ZERO_CELSIUS = 273.15
@@ -67,10 +68,8 @@ def fit(
     from conveyor import compound_file
     from conveyor.units import quantity, si
 
-    for path in (output, plot):
-        if path is not None:
-            writable(path)
-
+    outputs.file("--output", output, ".yaml", ".yml")
+    outputs.file("--plot", plot, ".png", ".svg", ".pdf")
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
@@ -131,8 +130,7 @@ def shelf(
     """List the compounds on the shelf, or show one."""
     import math
 
-    if plot is not None:
-        writable(plot)
+    outputs.file("--plot", plot, ".png", ".svg", ".pdf")
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table

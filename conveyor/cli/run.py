@@ -25,6 +25,11 @@ INTERRUPTED: Final = 130
 
 _UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
 _SPECS: Final = (".yaml", ".yml", ".json", ".xlsx")
+_PARSERS: Final = {
+    "Input should be a valid number.*": "expected a number",
+    "Input should be a valid integer.*": "expected a whole number",
+}
+"""Words of typer's parsers, and plainer ones."""
 _CONTROL: Final = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 
 
@@ -100,6 +105,9 @@ def usage(error: Any) -> str:
     """One line on a command line that was not understood: what, what was meant, where to read on."""
     context = error.ctx
     said = str(error.message if getattr(error, "possibilities", None) else error.format_message()).rstrip(".")
+    said = said.replace("Value error, ", "")
+    for parser, plain in _PARSERS.items():
+        said = re.sub(parser, plain, said)
     guess = _meant(error, said)
     path = "conveyor" if context is None else context.command_path
     return f"{path}: {said[:1].lower()}{said[1:]}{guess} (see {path} --help)"

@@ -101,10 +101,8 @@ def read_workbook(path: Path) -> dict[str, Grid]:
             return {grid.name: grid for grid in _grids(path, formulas, results)}
     except InputError:
         raise
-    except _DAMAGED as error:
-        raise InputError(
-            f"{path}: the workbook is damaged or incomplete ({type(error).__name__}); save or copy it again"
-        ) from None
+    except _DAMAGED:
+        raise InputError(f"{path}: the workbook is damaged or incomplete; save or copy it again") from None
 
 
 def _content(path: Path) -> bytes:
@@ -126,8 +124,8 @@ def _check_parts(path: Path, content: bytes) -> None:
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
             problem = _part_problem(archive)
-    except _DAMAGED as error:
-        raise InputError(f"{path}: damaged or cut short ({type(error).__name__}); copy it again") from None
+    except _DAMAGED:
+        raise InputError(f"{path}: damaged or cut short; copy it again") from None
     if problem:
         raise InputError(f"{path}: {problem}")
 

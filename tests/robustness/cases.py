@@ -120,7 +120,7 @@ FIELDS = [
     Case("field", "misspelt", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  thicknes: 15 mm\n")), 'unknown key "thicknes"; did you mean "thickness"?'),
     Case("field", "of another part", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  wrap_angle: 200 deg\n")), 'unknown key "wrap_angle"'),
     Case("field", "hostile key", edited(("  speed: 3 m/s\n", '  speed: 3 m/s\n  "\\e]0;x\\a": 1\n')), r"\x1b]0;x"),
-    Case("field", "key of 10,000 letters", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  " + "k" * 10_000 + ": 1\n")), "could not find expected ':'"),
+    Case("field", "key of 10,000 letters", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  " + "k" * 10_000 + ": 1\n")), "a key of more than 1,000 letters"),
     Case("field", "a list as a key", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  ? [a, b]\n  : 1\n")), "expected text before the colon"),
     Case("field", "a number as a key", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  1: 2\n")), 'unknown key "1"'),
     Case("contradiction", "covers and carcass against the thickness", edited(("  speed: 3 m/s\n", "  speed: 3 m/s\n  thickness: 20 mm\n")), "belt.thickness: got 20 mm, but top cover + bottom cover + carcass"),
@@ -144,7 +144,7 @@ SHELF = [
     Case("compound", "its file is a pipe", pipe_named("mine.yaml", "shelf", "mine.yaml"), "mine.yaml: is no ordinary file"),
     Case("compound", "two of a name", two_shelves, 'compound "house" is on the shelf twice: ours/house.yaml and theirs/house.yaml'),
     Case("compound", "a shelf that is not there", given("power", "spec.yaml", "--shelf", "nowhere"), "shelf nowhere: no such folder"),
-    Case("compound", "a file for a shelf", given("power", "spec.yaml", "--shelf", "spec.yaml"), "shelf spec.yaml: no such folder"),
+    Case("compound", "a file for a shelf", given("power", "spec.yaml", "--shelf", "spec.yaml"), "shelf spec.yaml: is a file, no folder"),
     Case("compound", "unknown on the command line", given("compare", "spec.yaml", "-c", "s101"), 'unknown compound "s101"; did you mean "s1'),
     Case("compound", "far outside its temperatures", edited(("temperature: 20 degC", "temperature: -90 degC")), "ambient.temperature"),
 ]  # fmt: skip
@@ -199,7 +199,7 @@ OUTPUTS = [
     Case("output", "workbook into a missing folder", given("power", "spec.yaml", "-o", "out/r.xlsx"), "out/r.xlsx: its folder does not exist"),
     Case("output", "workbook onto a folder", folder_named("r.xlsx", "power", "spec.yaml", "-o", "r.xlsx"), "r.xlsx: is a folder"),
     Case("output", "workbook onto a pipe", pipe_named("r.xlsx", "power", "spec.yaml", "-o", "r.xlsx"), "r.xlsx: is no ordinary file"),
-    Case("output", "workbook of another ending", given("power", "spec.yaml", "-o", "r.docx"), "a workbook's name ends in .xlsx"),
+    Case("output", "workbook of another ending", given("power", "spec.yaml", "-o", "r.docx"), "name ends in .xlsx"),
     Case("output", "workbook onto a read-only one", older("r.xlsx", "power", "spec.yaml", "-o", "r.xlsx"), "r.xlsx: is read-only", spoil=read_only),
     Case("output", "workbook into a read-only folder", given("power", "spec.yaml", "-o", "r.xlsx"), "r.xlsx: its folder is read-only", spoil=read_only_folder),
     Case("output", "disk full, workbook, an older one there", older("r.xlsx", "power", "spec.yaml", "-o", "r.xlsx"), "r.xlsx: cannot be written (No space left on device)", spoil=full),
@@ -211,7 +211,7 @@ OUTPUTS = [
     Case("output", "starter of another ending", given("new", "mine.txt"), "a spec's name ends in .yaml"),
     Case("output", "template into a missing folder", given("template", "out/t.xlsx"), "out/t.xlsx: its folder does not exist"),
     Case("output", "figure into a missing folder", given("shelf", "s100", "--plot", "out/f.png"), "out/f.png: its folder does not exist"),
-    Case("output", "figure of another ending", given("shelf", "s100", "--plot", "f.bmp"), "ends in .png, .svg or .pdf"),
+    Case("output", "figure of another ending", given("shelf", "s100", "--plot", "f.bmp"), "name ends in .png"),
 ]  # fmt: skip
 
 COMMANDS = [

@@ -433,7 +433,7 @@ FILES: dict[str, tuple[Callable[[Path], object], str]] = {
     "encrypted zip": (encrypted_part, "protected by a password; save it without one"),
     "truncated": (
         lambda p: p.write_bytes(p.read_bytes()[:20_000]),
-        "damaged or cut short .BadZipFile.; copy it again",
+        "damaged or cut short; copy it again",
     ),
     "not a zip": (
         lambda p: p.write_text("name: x"),
@@ -455,7 +455,7 @@ FILES: dict[str, tuple[Callable[[Path], object], str]] = {
     ),
     "broken XML": (
         lambda p: edit(p, "xl/workbook.xml", lambda xml: xml[:-30]),
-        "damaged or incomplete .ParseError.",
+        "damaged or incomplete; save or copy it again",
     ),
     "other zip": (lambda p: zipfile.ZipFile(p, "w").close(), "not a workbook|damaged or incomplete"),
     "large": (lambda p: p.write_bytes(b"PK" + b"\0" * LARGEST_FILE), "larger than 3,000,000 bytes"),
