@@ -57,7 +57,7 @@ _UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
-_PAGE_ROWS = 60  # that a landscape page still shows legibly
+_PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
 _HIGHEST = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
 
@@ -253,7 +253,9 @@ def print_set_up(sheet: Worksheet, name: str, *, paper: str = "A4", portrait: bo
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = 1
     if sheet.page_setup.fitToHeight is None:
-        sheet.page_setup.fitToHeight = int(sheet.max_row <= _PAGE_ROWS)  # 0: as many as it takes
+        sheet.page_setup.fitToHeight = int(
+            sheet.max_row <= _PAGE_ROWS[sheet.page_setup.orientation]
+        )  # 0: as many as it takes
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins
     margins.left = margins.right = 0.5

@@ -44,6 +44,11 @@ _SHORTER: Final = {
     "largest_energy_error_of_the_contacts": "contact_energy_error",
 }
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl")
+_CASE_TENSIONS: Final = (
+    "case", "temperature [degC]", "belt speed [m/s]", "tight side tension [N]", "slack side tension [N]",
+    "largest tension [N]", "smallest tension [N]", "take-up tension asked for [N]", "largest roll load [N]",
+    "governed by", "at roll",
+)  # fmt: skip
 CHECKS_AND_NOTES: Final = "Checks and notes"
 
 
@@ -243,7 +248,11 @@ def _studies(studies: Studies) -> Iterator[Part]:
                 f"friction between {low:g} and {high:g} of the computed one, to the safe side",
             )
             motors = case_tables.motors(studies.cases.motors())
-            yield Part("Load cases", "load_cases", "Load cases", case_tables.cases(studies.cases))
+            figures = case_tables.cases(studies.cases)
+            tensions = [name for name in _CASE_TENSIONS if name in figures.columns]
+            yield Part("Load cases", "load_cases", "Load cases", figures.drop(columns=tensions[3:]))
+            heading = "Tensions and roll loads of the cases"
+            yield Part("Load cases", "case_tensions", heading, figures[tensions])
             yield Part("Load cases", "motors", "Motors of the series", motors)
         refused = case_tables.refused_cases(studies.cases)
         yield Part("Load cases", "refused_cases", "Cases without an answer", refused)
@@ -261,6 +270,8 @@ def _studies(studies: Studies) -> Iterator[Part]:
 
 def _contacts(analysis: Analysis) -> Iterator[Part]:
     conveyor = analysis.conveyor
+    heading = "Contacts, one a distinct roll, cover and spacing"
+    yield Part("Indentation", "contact_solutions", heading, tables.solver(analysis.stretches))
     heading = "Indentation against line load, one block a contact"
     yield Part("Indentation", "indentation", heading, tables.indentation_curves(analysis.stretches))
     yield Part("Rubber", "rubber", "What the rolls ask of the rubber", analysis.rubber)
@@ -279,8 +290,6 @@ def _known(analysis: Analysis, system: System) -> Iterator[Part]:
     said += [("assumption", line) for line in analysis.assumptions]
     said += [("note of the spec", line) for line in (analysis.conveyor.notes or "").splitlines() if line]
     yield Part(CHECKS_AND_NOTES, "remarks", "Remarks", pd.DataFrame(said, columns=["kind", "text"]))
-    heading = "Contact solutions, one a distinct roll, cover and spacing"
-    yield Part(CHECKS_AND_NOTES, "contact_solutions", heading, tables.solver(analysis.stretches))
     yield Part(CHECKS_AND_NOTES, "provenance", "Provenance", provenance(fingerprint(analysis.conveyor)))
 
 

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from conveyor.models.report import Report
 
 _COLUMNS: Final = "ABCDEFG"
-_WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 27, "E": 17, "F": 19, "G": 17}
+_WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}
 _KEY_FIGURES: Final = (
     "motor_power", "belt_power", "effective_tension", "equivalent_f", "indentation_share", "specific_energy",
 )  # fmt: skip
@@ -50,8 +50,9 @@ _TENSION_AND_POWER: Final = (
 )  # fmt: skip
 _MOST_CHECKS: Final = 22
 """Checks that the page takes beside the rest; those that passed give way first."""
-_CHART_ROWS: Final = 11
-_HALF, _WHOLE_WIDTH, _CHART_HEIGHT = 9.0, 24.5, 5.6  # [cm]
+_CHART_ROWS: Final = 14
+_HALF, _WHOLE_WIDTH, _CHART_HEIGHT = 9.2, 26.0, 7.2  # [cm]
+_LARGE: Final = 1e4  # beyond it a figure in large type needs no decimals
 _RULE: Final = Border(bottom=Side(style="thin", color=ACCENT))
 _HAIR: Final = Border(bottom=Side(style="hair", color="A6A6A6"))
 _ROW: Final = 15.0  # [pt]
@@ -196,7 +197,7 @@ def _tiles(page: Page, row: int) -> int:
     for letter, (name, value) in zip("ABDEFG", given, strict=False):
         caption, figure = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
         put(caption, name.replace(" of main resistance", ""), GREY)
-        put(figure, value, FIGURE, number_format(name))
+        put(figure, value, FIGURE, "#,##0" if abs(value) >= _LARGE else number_format(name))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
         figure.alignment = Alignment(horizontal="left", vertical="center", indent=1)
     sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
@@ -209,7 +210,7 @@ def _by_name(page: Page) -> dict[str, tuple[str, float]]:
     for key in ("results", "take_up"):
         part = page.contents[key]
         figures = part.frame[part.by_row].tolist(), part.frame["value"].tolist()
-        said = "take-up, " if key == "take_up" else ""
+        said = "take-up " if key == "take_up" else ""
         for name, i in part.figures().items():
             found[name] = (f"{said}{figures[0][i]}", float(figures[1][i]))
     return found
@@ -229,9 +230,12 @@ def _figures(page: Page, analysis: Analysis, row: int) -> int:
                 sheet.cell(i, 1).font = sheet.cell(i, 2).font = BOLD
     _rule(sheet, row, "Resistances", 4)
     last = table(sheet, page.contents["breakdown"].frame, row + 1, 4)
+    sheet.row_dimensions[row + 1].height = _ROW
     part = page.contents["classical"]
     put(sheet.cell(last + 1, 4), "Beside the classical estimate", BOLD)
-    last = table(sheet, part.frame, last + 2, 4, by_row="quantity")
+    head = last + 2
+    last = table(sheet, part.frame, head, 4, by_row="quantity")
+    sheet.row_dimensions[head].height = _ROW
     governed = f"{part.note}; governing at the drive: {analysis.balance.tensions.governed_by}"
     put(sheet.cell(last + 1, 4), governed, GREY)
     return _gap(sheet, max(i, last + 1) + 1)
@@ -250,16 +254,18 @@ def _picture(page: Page, row: int) -> int:
     if cases is not None:
         _rule(sheet, row, "Governing load cases", 4)
         header_row(sheet, row + 1, 4, ("figure", "value", "case", "at"))
+        sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
         at = next(name for name in cases.frame.columns if str(name).startswith("temperature"))
         unit = str(at).rpartition("deg")[2].rstrip("]")
         for i, found in enumerate(cases.frame.to_dict("records"), start=row + 2):
             label = str(found["figure"])
             put(sheet.cell(i, 4), label)
-            sheet.cell(i, 4).alignment = Alignment(shrink_to_fit=True)
+            sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
             put(sheet.cell(i, 5), float(found["value"]), None, number_format(label))
             put(sheet.cell(i, 6), str(found["case"]))
             put(sheet.cell(i, 7), f"{found[at]:g} °{unit}")
-            sheet.cell(i, 6).alignment = sheet.cell(i, 7).alignment = Alignment(shrink_to_fit=True)
+            sheet.cell(i, 6).alignment = Alignment(indent=1, shrink_to_fit=True)
+            sheet.cell(i, 7).alignment = Alignment(indent=1, shrink_to_fit=True)
             for j in range(4, 8):
                 sheet.cell(i, j).border = _HAIR
         end = max(end, row + 2 + len(cases.frame))

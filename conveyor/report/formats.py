@@ -11,7 +11,7 @@ _UNIT: Final = re.compile(r"\[([^\]]*)\]$")
 _BY_NAME: Final = (
     (r"error", "0.0E+00"),
     (r"^transit", "#,##0"),
-    (r"^(time|stopping time).*\[s\]", "#,##0.0"),
+    (r"^(time over|stopping time).*\[s\]", "#,##0.0"),
     (r"^value$|^strength", "#,##0.0"),
     (r"share|penetration of cover|against base|working strain", "0.0%"),
     (r"factor of strain", "0.000"),

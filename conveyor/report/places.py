@@ -18,7 +18,7 @@ SHOWN_ROWS: Final = 100
 """Rows that stand for a table too long."""
 _FILTERED_ROWS: Final = 20
 """Rows beyond which a table has buttons to filter it."""
-_NAMES: Final = 46  # characters of a name on one line
+_NAMES: Final = 56  # characters of a name on one line
 
 
 def file_name(stem: str, part: Part) -> str:

@@ -6,6 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from openpyxl.styles import Alignment
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
@@ -18,7 +20,9 @@ if TYPE_CHECKING:
     from conveyor.models import RubberCompound
 
 _CHART_COLUMN = "F"
-_LINE = 130  # characters of a note in one line of the columns it runs over
+_CURVES_COLUMN = "H"
+_NARROW = 12.0  # width of a chart on a page held upright [cm]
+_FILLED = 1.05  # of a line's width that text takes before it breaks at a word
 _PIECE = 1000  # characters of a note in one cell
 
 
@@ -71,12 +75,14 @@ def tensions(page: Page, _: Analysis) -> None:
 
 
 def indentation(page: Page, _: Analysis) -> None:
-    """Load curve of every distinct contact, with its chart."""
-    place = page.headed("indentation")
+    """What every distinct contact cost, and its load curve with a chart of the curves."""
+    places = page.stacked(("contact_solutions", "indentation"))
+    place = places["indentation"]
     if place.whole:
-        page.sheet.column_dimensions["G"].width = 3
         frame = page.contents["indentation"].frame
-        page.sheet.add_chart(charts.indentation(page.sheet, frame, header=place.header), "H4")
+        chart = charts.indentation(page.sheet, frame, header=place.header)
+        chart.width = _NARROW
+        page.sheet.add_chart(chart, f"{_CURVES_COLUMN}{place.header + 1}")
 
 
 def rubber(page: Page, analysis: Analysis) -> None:
@@ -88,20 +94,30 @@ def rubber(page: Page, analysis: Analysis) -> None:
     if compounds["return"] is compounds["carry"]:
         compounds.pop("return")
     for strand, compound in compounds.items():
-        put(sheet.cell(row, 1), f"{compound.name} ({compound.kind}), {strand} strand", HEADING)
-        for name, value in facts(compound).items():
-            row += 1
-            put(sheet.cell(row, 1), name, GREY)
-            put(sheet.cell(row, 2), value)
-        moduli = page.place(f"moduli_{strand}", row + 2)
+        if strand == "return":
+            sheet.row_breaks.append(Break(id=row - 1))
+        row = _known(sheet, row, f"{compound.name} ({compound.kind}), {strand} strand", compound)
+        moduli = page.place(f"moduli_{strand}", row)
         prony = page.place(f"prony_{strand}", moduli.last + 3)
         chart = charts.moduli(sheet, compound.name, header=moduli.header, last=moduli.last)
+        chart.width = _NARROW
         sheet.add_chart(chart, f"{_CHART_COLUMN}{moduli.header + 1}")
         row = prony.last + 3
         if len(compounds) == 1:  # one compound on both strands
             define(sheet, "table_moduli_return", moduli.cells)
             define(sheet, "table_prony_return", prony.cells)
     sheet.freeze_panes = "B1"
+
+
+def _known(sheet: Worksheet, row: int, heading: str, compound: RubberCompound) -> int:
+    """What is known of a compound; the row its tables begin in."""
+    put(sheet.cell(row, 1), heading, HEADING)
+    for name, value in facts(compound).items():
+        row += 1
+        put(sheet.cell(row, 1), name, GREY)
+        sheet.cell(row, 1).alignment = Alignment(vertical="top")
+        _across(sheet, row, 2, value, columns=10)
+    return row + 2
 
 
 def facts(compound: RubberCompound) -> dict[str, str]:
@@ -129,7 +145,7 @@ def facts(compound: RubberCompound) -> dict[str, str]:
 
 
 def notes(page: Page, analysis: Analysis) -> None:
-    """Checks, warnings, assumptions, the spec's notes, what the contacts cost, and what made the figures."""
+    """Checks, warnings, assumptions, the spec's notes, and what made the figures."""
     sheet = page.sheet
     row = page.place("checks", 1, widest=56).last + 3
     written = (analysis.conveyor.notes or "").splitlines()
@@ -140,8 +156,7 @@ def notes(page: Page, analysis: Analysis) -> None:
         ("Notes of the spec", pieces),
     ):
         row = paragraphs(sheet, row, heading, lines)
-    row = page.place("contact_solutions", row).last + 3
-    row = page.place("provenance", row).last
+    page.place("provenance", row, widest=70)
     sheet.freeze_panes = "A3"
 
 
@@ -152,9 +167,17 @@ def paragraphs(
     put(sheet.cell(row, 1), heading, HEADING)
     for line in lines or ("none",):
         row += 1
-        cell = sheet.cell(row, 1)
-        put(cell, line)
-        cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)
-        sheet.merged_cells.add(f"{cell.coordinate}:{sheet.cell(row, columns).coordinate}")
-        sheet.row_dimensions[row].height = 15.0 * -(-len(line) // _LINE)
+        _across(sheet, row, 1, line, columns=columns)
     return row + 2
+
+
+def _across(sheet: Worksheet, row: int, column: int, line: str, *, columns: int) -> None:
+    """Write one text across columns, on as many lines as it takes."""
+    cell = sheet.cell(row, column)
+    put(cell, line)
+    cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)
+    last = column + columns - 1
+    sheet.merged_cells.add(f"{cell.coordinate}:{get_column_letter(last)}{row}")
+    letters = [get_column_letter(j) for j in range(column, last + 1)]
+    width = sum(sheet.column_dimensions[x].width if x in sheet.column_dimensions else 8.0 for x in letters)
+    sheet.row_dimensions[row].height = 15.0 * -(-len(line) // max(1, int(_FILLED * width)))

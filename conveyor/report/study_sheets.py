@@ -37,7 +37,7 @@ def loop(page: Page, _: Analysis) -> None:
 
 def cases(page: Page, _: Analysis) -> None:
     """Every load case, and the case that governs each figure."""
-    page.stacked(("governing_cases", "load_cases", "motors", "refused_cases"))
+    page.stacked(("governing_cases", "load_cases", "case_tensions", "motors", "refused_cases"))
 
 
 def duty(page: Page, _: Analysis) -> None:
