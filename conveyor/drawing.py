@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from conveyor.compared import Coverage, Found, Grid, Scene, of_compound
+from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.report import analysis_plots, loop_plots, plots
 from conveyor.report.comparing import celsius
@@ -151,6 +152,9 @@ def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quant
     compound = conveyor.carry_compound
     grid = Grid(tuple(temperatures), tuple(speeds), "bottom", _RTOL)
     of_compound(conveyor, compound, grid, found)
+    if not found.scenes:
+        why = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
+        raise InputError(f"nothing to draw: {why}")
     return _Alone(conveyor, (compound,), tuple(found.scenes), tuple(found.coverage))
 
 

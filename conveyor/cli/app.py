@@ -50,7 +50,8 @@ app = typer.Typer(
     epilog=examples(
         "conveyor new mine.yaml",
         "conveyor power mine.yaml",
-        "conveyor power mine.yaml -o report.xlsx",
+        "conveyor power mine.yaml -o report.xlsx --html report.html",
+        "conveyor power --help",
         "conveyor --install-completion",
     )
     + "\n\nExit codes: 0 done, 1 the calculation has no answer, 2 wrong input, 130 stopped by Ctrl-C.",
@@ -90,9 +91,19 @@ class ImageKind(StrEnum):
     PDF = "pdf"
 
 
-Spec = Annotated[Path, typer.Argument(help="Conveyor spec: .yaml, .json or .xlsx.", show_default=False)]
+Spec = Annotated[
+    Path, typer.Argument(metavar="SPEC", help="Conveyor spec: .yaml, .json or .xlsx.", show_default=False)
+]
+Workbook = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the workbook (.xlsx).")
+]
+WebPage = Annotated[
+    Path | None,
+    typer.Option("--html", metavar="FILE", help="Write the report as one page (.html); it prints well."),
+]
 Shelves = Annotated[
-    list[Path] | None, typer.Option("--shelf", help="Further folder of compound files; may be repeated.")
+    list[Path] | None,
+    typer.Option("--shelf", metavar="FOLDER", help="Further folder of compound files; may be repeated."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
 UnitsOption = Annotated[
@@ -188,22 +199,24 @@ def _bar() -> Any:
     return Progress(*columns, console=Console(stderr=True), transient=True)
 
 
-def values(given: str, option: str, unit: str) -> list[str]:
-    """``from:to:step`` or ``a,b,c``, with or without the unit at the end, as texts with the unit.
+def values(given: str, option: str, *units: str) -> list[str]:
+    """``from:to:step`` or ``a,b,c``, with a unit at the end or in the first one, as texts with the unit.
 
     Raises
     ------
     InputError
         Anything else, or more than 1000 values.
     """
+    unit = next((known for known in units if given.strip().endswith(known)), units[0])
     body = given.strip().removesuffix(unit).strip()
     try:
         found = _range(body) if ":" in body else [float(part) for part in body.split(",")]
     except ValueError:
         found = []
     if not (0 < len(found) <= _MOST_VALUES and all(map(math.isfinite, found))):
+        allowed = " or ".join(units)
         raise InputError(
-            f'{option}: got "{given}", expected from:to:step (at most {_MOST_VALUES} values) or a,b,c in {unit}, '
+            f'{option}: got "{given}", expected from:to:step (at most {_MOST_VALUES} values) or a,b,c in {allowed}, '
             'such as "-30:40:5" or "20"'
         )
     return [f"{value:.12g} {unit}" for value in found]

@@ -17,6 +17,8 @@ from conveyor.cli.app import (
     Shelves,
     Spec,
     UnitsOption,
+    WebPage,
+    Workbook,
     app,
     examples,
     one_of,
@@ -38,7 +40,8 @@ if TYPE_CHECKING:
     epilog=examples(
         "conveyor compare overland.yaml -c standard-cover -c low-rolling-resistance-cover",
         "conveyor compare overland.yaml -c s100 -c mine.yaml --temperature -30:40:5",
-        "conveyor compare overland.yaml -c s100 -c s120 --speed 4,5,6 -o compounds.xlsx --html compounds.html",
+        "conveyor compare overland.yaml -c s100 -c s120 --speed 5,6 -o compounds.xlsx --html compounds.html",
+        'conveyor compare overland.yaml -c s100 -c s120 --temperature "0:100:20 degF" --units us',
     ),
 )
 def compare(
@@ -48,41 +51,59 @@ def compare(
         typer.Option(
             "--compound",
             "-c",
+            metavar="NAME",
             help="Shelf name or compound file; may be repeated.",
             autocompletion=compound_names,
         ),
     ],
     temperatures: Annotated[
         str | None,
-        typer.Option("--temperature", help="Of the belt: from:to:step or a,b,c in degC; else the spec's."),
+        typer.Option(
+            "--temperature",
+            metavar="VALUES",
+            help="Of the belt: from:to:step or a,b,c, in degC without a unit.",
+        ),
     ] = None,
     speeds: Annotated[
         str | None,
-        typer.Option("--speed", help="Of the belt: from:to:step or a,b,c in m/s; else the spec's."),
+        typer.Option(
+            "--speed",
+            metavar="VALUES",
+            help="Of the belt: from:to:step or a,b,c, in m/s without a unit; else the spec's.",
+        ),
     ] = None,
-    cover: Annotated[str, typer.Option(help="Cover made of the compounds: bottom, top or both.")] = "bottom",
+    cover: Annotated[
+        str, typer.Option(metavar="WHICH", help="Cover made of the compounds: bottom, top or both.")
+    ] = "bottom",
     base: Annotated[
-        str | None, typer.Option(help="Name of the compound to compare with; else the first.")
+        str | None, typer.Option(metavar="NAME", help="Name of the compound to compare with; else the first.")
     ] = None,
     extra_costs: Annotated[
         list[str] | None,
         typer.Option(
-            "--extra-cost", help="NAME=AMOUNT that its belt costs above the base's; may be repeated."
+            "--extra-cost",
+            metavar="NAME=AMOUNT",
+            help="What its belt costs above the base's; may be repeated.",
         ),
     ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Write the workbook (.xlsx).")] = None,
-    html: Annotated[
-        Path | None, typer.Option("--html", help="Write the report as one page (.html); it prints well.")
+    output: Workbook = None,
+    html: WebPage = None,
+    csv: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write every scene to this file (.csv).")
     ] = None,
-    csv: Annotated[Path | None, typer.Option(help="Write every scene to this file (.csv).")] = None,
     plot: Annotated[
-        Path | None, typer.Option(help="Draw power over temperature to this file (.png, .svg, .pdf).")
+        Path | None,
+        typer.Option(metavar="FILE", help="Draw power over temperature to this file (.png, .svg, .pdf)."),
     ] = None,
     speed_plot: Annotated[
-        Path | None, typer.Option("--speed-plot", help="Draw power over belt speed to this file.")
+        Path | None,
+        typer.Option("--speed-plot", metavar="FILE", help="Draw power over belt speed to this file."),
     ] = None,
     tan_delta: Annotated[
-        Path | None, typer.Option(help="Draw the loss tangents and the band the rolls excite to this file.")
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Draw the loss tangents and the band the rolls excite to this file."
+        ),
     ] = None,
     units: UnitsOption = None,
     as_json: AsJson = False,
@@ -104,8 +125,10 @@ def compare(
         found = compare_compounds(
             line,
             compounds,
-            temperatures=None if temperatures is None else values(temperatures, "--temperature", "degC"),
-            speeds=None if speeds is None else values(speeds, "--speed", "m/s"),
+            temperatures=None
+            if temperatures is None
+            else values(temperatures, "--temperature", "degC", "degF"),
+            speeds=None if speeds is None else values(speeds, "--speed", "m/s", "fpm"),
             cover=one_of("--cover", cover, ("bottom", "top", "both")),
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +17,8 @@ from conveyor.cli.app import (
     Shelves,
     Spec,
     UnitsOption,
+    WebPage,
+    Workbook,
     app,
     examples,
     print_json,
@@ -23,7 +27,7 @@ from conveyor.cli.app import (
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
+    from conveyor.studies import Progress, Studies
     from conveyor.units import System
 
 
@@ -40,17 +44,18 @@ if TYPE_CHECKING:
 )
 def power(
     spec: Spec,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Write the workbook (.xlsx).")] = None,
-    html: Annotated[
-        Path | None, typer.Option("--html", help="Write the report as one page (.html); it prints well.")
-    ] = None,
+    output: Workbook = None,
+    html: WebPage = None,
     tables: Annotated[
-        Path | None, typer.Option("--tables", help="Write every table to a file of its own in this folder.")
+        Path | None,
+        typer.Option("--tables", metavar="FOLDER", help="Write every table to a file of its own in it."),
     ] = None,
     parquet: Annotated[
         bool, typer.Option("--parquet", help="Tables as Parquet files; without it as CSV.")
     ] = False,
-    plots: Annotated[Path | None, typer.Option("--plots", help="Draw the figures into this folder.")] = None,
+    plots: Annotated[
+        Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it.")
+    ] = None,
     plot_kind: Annotated[
         ImageKind, typer.Option("--plot-kind", help="Format of the figures.", case_sensitive=False)
     ] = ImageKind.PNG,
@@ -75,18 +80,7 @@ def power(
     shown = result.in_units(system)
     with progress(silent=quiet or as_json) as told:
         asked = studies(line, progress=told)
-    written = []
-    if output is not None:
-        written.append(f"workbook: {result.to_excel(output, asked, system=system)}")
-    if html is not None:
-        written.append(f"page: {result.to_html(html, asked, system=system)}")
-    if tables is not None:
-        made = result.to_tables(
-            outputs.make(tables), asked, system=system, kind="parquet" if parquet else "csv"
-        )
-        written.append(f"tables: {len(made)} in {tables}")
-    if plots is not None:
-        written.append(f"figures: {_draw(result, asked, plots, plot_kind, system)} in {plots}")
+        written = _written(shown, asked, Outputs(output, html, tables, parquet, plots, plot_kind), told)
     if as_json:
         print_json(result.to_dict() | asked.to_dict())
     elif not quiet:
@@ -97,12 +91,47 @@ def power(
             print("\n" + "\n".join(written))
 
 
-def _draw(result: Analysis, asked: Studies, folder: Path, kind: ImageKind, system: System) -> int:
-    """Draw every figure there is into a folder; how many."""
+@dataclass(frozen=True)
+class Outputs:
+    """Files and folders that are asked for."""
+
+    workbook: Path | None
+    page: Path | None
+    tables: Path | None
+    parquet: bool
+    plots: Path | None
+    kind: ImageKind
+
+
+def _written(result: Analysis, asked: Studies, to: Outputs, told: Progress | None) -> list[str]:
+    """Write what is asked for, in the units of the analysis' report; a line on each."""
+    tasks: list[tuple[str, Path, Callable[[Path], str]]] = []
+    if to.workbook is not None:
+        tasks.append(("workbook", to.workbook, lambda path: str(result.to_excel(path, asked))))
+    if to.page is not None:
+        tasks.append(("page", to.page, lambda path: str(result.to_html(path, asked))))
+    if to.tables is not None:
+        tasks.append(("tables", to.tables, lambda path: _tabled(result, asked, path, to)))
+    if to.plots is not None:
+        tasks.append(("figures", to.plots, lambda path: _drawn(result, asked, path, to)))
+    lines = []
+    for done, (what, path, write) in enumerate(tasks):
+        if told is not None:
+            told("writing", done, len(tasks))
+        lines.append(f"{what}: {write(path)}")
+    return lines
+
+
+def _tabled(result: Analysis, asked: Studies, folder: Path, to: Outputs) -> str:
+    made = result.to_tables(outputs.make(folder), asked, kind="parquet" if to.parquet else "csv")
+    return f"{len(made)} in {folder}"
+
+
+def _drawn(result: Analysis, asked: Studies, folder: Path, to: Outputs) -> str:
     from conveyor.report.plots import save
 
-    drawn = result.plots.every(asked, system=system)
+    made = result.plots.every(asked)
     outputs.make(folder)
-    for name, figure in drawn.items():
-        save(figure, folder / f"{name}.{kind.value}")
-    return len(drawn)
+    for name, figure in made.items():
+        save(figure, folder / f"{name}.{to.kind.value}")
+    return f"{len(made)} in {folder}"
