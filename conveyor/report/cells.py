@@ -134,10 +134,24 @@ def table(
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
         wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
+    _tops(sheet, (row + 1, row + len(frame)), (column, column + len(names) - 1))
     wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
     return row + len(frame)
+
+
+def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> None:
+    """In rows of several lines, set every cell at the top."""
+    for i in range(rows[0], rows[1] + 1):
+        if (sheet.row_dimensions[i].height if i in sheet.row_dimensions else None) is None:
+            continue
+        for j in range(columns[0], columns[1] + 1):
+            cell = sheet.cell(i, j)
+            kept = cell.alignment
+            cell.alignment = Alignment(
+                horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="top"
+            )
 
 
 def _text_column(at: Cell, values: list[Any], widest: int) -> int:

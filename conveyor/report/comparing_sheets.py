@@ -32,9 +32,11 @@ def ranking(page: Page, comparison: Comparison) -> None:
     put(sheet["A3"], words, GREY)
     row = 5
     if "ranking" in page.contents.by_key:
-        place = page.place("ranking", row)
-        sheet.freeze_panes = f"B{place.header + 1}"
-        row = place.last + 2
+        place = page.place("ranking", row, widest=44)
+        sheet.freeze_panes = "B1"
+        row = place.last + 3
+        if "costs" in page.contents.by_key:
+            row = page.place("costs", row, widest=44).last + 3
         frame = page.contents["ranking"].frame
         names = [str(name) for name in frame.columns]
         value = 1 + next(j for j, name in enumerate(names) if name.startswith("mean motor power ["))
@@ -85,14 +87,20 @@ def scenes(page: Page, _: Comparison) -> None:
 
 def coverage(page: Page, _: Comparison) -> None:
     """What the rolls excite against what the data hold; scenes without an answer."""
-    page.stacked(("coverage", "refused"))
-    if "refused" not in page.contents.by_key:
-        put(page.sheet.cell(page.sheet.max_row + 3, 1), "Scenes without an answer: none", HEADING)
+    row = 1
+    if "coverage" in page.contents.by_key:
+        row = page.place("coverage", row).last + 3
+    if "refused" in page.contents.by_key:
+        page.place("refused", row, widest=90)
+    else:
+        put(page.sheet.cell(row, 1), "Scenes without an answer: none", HEADING)
+    page.sheet.freeze_panes = "B1"
 
 
 def notes(page: Page, _: Comparison) -> None:
-    """Remarks, what is known of each compound, and what made the figures."""
+    """What is known of each compound, remarks, and what made the figures."""
+    row = page.place("compounds", 1, widest=44).last + 3
     lines = page.contents["remarks"].frame["remark"].tolist()
-    row = paragraphs(page.sheet, 1, "Remarks", lines, columns=6)
-    row = page.place("compounds", row, widest=44).last + 3
-    page.place("provenance", row)
+    row = paragraphs(page.sheet, row, "Remarks", lines, columns=6)
+    page.place("provenance", row, widest=70)
+    page.sheet.freeze_panes = "B1"

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from conveyor.comparison import Comparison
 
 SPEED: Final = "belt speed [m/s]"
+_COSTS: Final = ("energy per year", "cost per year", "saving per year", "extra cost", "payback")
 TEMPERATURE: Final = "temperature [degC]"
 
 
@@ -25,7 +26,13 @@ def of_comparison(comparison: Comparison, system: System) -> Contents:
 
 
 def _parts(comparison: Comparison, system: System) -> Iterator[Part]:
-    yield Part("Ranking", "ranking", "Ranking, the least mean power of each speed first", comparison.ranking)
+    ranked = comparison.ranking
+    money = [name for name in ranked.columns if str(name).startswith(_COSTS)]
+    heading = "Ranking, the least mean power of each speed first"
+    yield Part("Ranking", "ranking", heading, ranked.drop(columns=money))
+    if money:
+        costs = ranked[["compound", SPEED, *money]]
+        yield Part("Ranking", "costs", "Energy, cost and saving of a year", costs)
     for number, (speed, block) in enumerate(blocks(comparison).items(), start=1):
         heading = f"Motor power over temperature at {display(speed, 'speed', system)}"
         yield Part("Power", f"power_{number}", heading, block)

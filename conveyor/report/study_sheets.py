@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openpyxl.utils import get_column_letter
-
 from conveyor.report import charts
-from conveyor.report.places import Page, Place
+from conveyor.report.places import Page
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
 
+_CHART_COLUMN = "F"
+_CHART_ROWS = 20
 _MOST_BARS = 24
 """Bars that one chart shows legibly."""
 
 
 def states(page: Page, _: Analysis) -> None:
-    """Route profile, and the tension at every place in every state of motion."""
-    places = page.stacked(("profile", "tension_states"))
-    profile, tension = places["profile"], places["tension_states"]
+    """Route profile beside its chart, and the tension at every place in every state of motion."""
+    profile = page.place("profile", 1)
+    row = profile.last + 3
     if profile.whole:
         chart = charts.profile(page.sheet, header=profile.header, last=profile.last)
-        page.sheet.add_chart(chart, _right_of(tension, profile.header))
+        page.sheet.add_chart(chart, f"{_CHART_COLUMN}{profile.header}")
+        row = max(row, profile.header + _CHART_ROWS)
+    page.place("tension_states", row)
+    page.sheet.freeze_panes = "B1"
 
 
 def loop(page: Page, _: Analysis) -> None:
@@ -54,7 +57,3 @@ def uncertainty(page: Page, _: Analysis) -> None:
         rows = place.header, place.last
         chart = charts.bars(page.sheet, "What the motor power swings by", rows, label=1, value=swing)
         page.sheet.add_chart(chart, f"A{place.last + 4}")
-
-
-def _right_of(place: Place, row: int) -> str:
-    return f"{get_column_letter(place.last_column + 2)}{row}"
