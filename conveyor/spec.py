@@ -5,7 +5,9 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,6 +20,7 @@ from conveyor.explain import findings, message
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path, real_errors
 
+_FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
 _TABLES: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}
 
 
@@ -97,6 +100,40 @@ def from_data(
             place = "" if where is None else where(location) + " "
             lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}")
         raise InputError("\n".join(lines)) from None
+
+
+@contextmanager
+def placing(path: str | Path) -> Iterator[None]:
+    """Put the place in a spec before an error that a study finds later, in a field of it.
+
+    Parameters
+    ----------
+    path : str or Path
+        The spec that the conveyor was loaded from.
+
+    Raises
+    ------
+    InputError
+        What was raised inside, with ``file:line:column`` in front where it names a field of the file.
+    """
+    try:
+        yield
+    except InputError as error:
+        named = _FIELD.match(str(error))
+        parts = [] if named is None else re.findall(r"[a-z_]+|[0-9]+", named[0])
+        if not parts or parts[0] not in Conveyor.model_fields:
+            raise
+        location: Location = tuple(int(part) if part.isdigit() else part for part in parts)
+        raise InputError(f"{_placed(Path(path), location)} {error}") from None
+
+
+def _placed(path: Path, location: Location) -> str:
+    if path.suffix.lower() == ".xlsx":
+        from conveyor.template.read import read_template
+
+        return read_template(path).where(location)
+    line, column = read_document(path).place(location)
+    return f"{path}:{line}:{column}"
 
 
 def dump(conveyor: Conveyor) -> str:

@@ -72,6 +72,7 @@ def power(
     if parquet:
         outputs.parquet(tables)
     import conveyor
+    from conveyor import spec as spec_file
     from conveyor.studies import studies
 
     line = conveyor.load(spec, shelves=shelf or ())
@@ -79,7 +80,8 @@ def power(
     result = conveyor.analyse(line)
     shown = result.in_units(system)
     with progress(silent=quiet or as_json) as told:
-        asked = studies(line, progress=told)
+        with spec_file.placing(spec):
+            asked = studies(line, progress=told)
         written = _written(shown, asked, Outputs(output, html, tables, parquet, plots, plot_kind), told)
     if as_json:
         print_json(result.to_dict() | asked.to_dict())

@@ -146,6 +146,7 @@ SHELF = [
     Case("compound", "a shelf that is not there", given("power", "spec.yaml", "--shelf", "nowhere"), "shelf nowhere: no such folder"),
     Case("compound", "a file for a shelf", given("power", "spec.yaml", "--shelf", "spec.yaml"), "shelf spec.yaml: is a file, no folder"),
     Case("compound", "unknown on the command line", given("compare", "spec.yaml", "-c", "s101"), 'unknown compound "s101"; did you mean "s1'),
+    Case("compound", "outside its temperatures in one part of the year", edited(("ambient: {", "operation: {duty: [{hours: 4000 h, share: 100 %}, {hours: 900 h, share: 50 %, temperature: -90 degC}]}\nambient: {")), "spec.yaml:24:47 operation.duty[1] (900 h, share 50 %, -90 degC): ambient.temperature: got -90 degC"),
     Case("compound", "far outside its temperatures", edited(("temperature: 20 degC", "temperature: -90 degC")), "ambient.temperature"),
 ]  # fmt: skip
 
