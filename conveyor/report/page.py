@@ -19,11 +19,6 @@ from conveyor.report.unit_systems import converted, converted_rows
 from conveyor.units import System
 
 _UNIT = re.compile(r"^(.*?)\s*\[([^\]]*)\]$")
-_OTHER_UNITS = {
-    "ft": "#,##0.0", "in": "0.000", "lbf": "#,##0.0", "hp": "#,##0.0", "psi": "#,##0.0", "fpm": "#,##0",
-    "stph": "#,##0", "lb": "#,##0", "lb/ft": "0.00", "lbf/in": "#,##0.00", "ft/s²": "0.000", "°F": "0.0",
-}  # fmt: skip
-"""Formats of units that the workbook's do not know."""
 _SPELLED = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 _WIDE = 8  # columns beyond which a table is set smaller on paper
 _SHORT = 12  # rows up to which a table is kept on one page
@@ -52,7 +47,7 @@ def number(name: str, value: float) -> str:
     """
     if math.isinf(value):
         return "∞" if value > 0.0 else "-∞"
-    pattern = _OTHER_UNITS.get(unit_of(name)[1], number_format(name))
+    pattern = number_format(name)
     if pattern == "General" or isinstance(value, int):
         return f"{value:,}" if isinstance(value, int) else f"{value:,.6g}"
     digits = len(pattern.partition(".")[2].rstrip("%E+0")) or pattern.partition(".")[2].split("E")[0].count(
