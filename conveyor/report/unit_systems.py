@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 from typing import Any, Final
 
 import pandas as pd
@@ -29,7 +30,7 @@ _KINDS: Final = {
 }
 """What a unit of the tables measures; others (Hz, s, MWh, ratios) are the same in both systems."""
 _SPELLED: Final = {"ft/s^2": "ft/s²"}
-_DECIMALS = 9  # beyond them is the rounding of a conversion
+_DIGITS = 12  # beyond them is the rounding of a conversion
 _PER_N_MM: Final = "N/mm"
 
 
@@ -99,5 +100,13 @@ def converted_figure(name: str, values: list[Any], system: System) -> tuple[str,
 def _value(value: Any, kind: str, unit: str, label: str) -> Any:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         return value
-    given = quantity(f"{float(value)!r} {unit}", kind)
-    return round(float(given.to(from_si(1.0, kind, label).units).magnitude), _DECIMALS)
+    factor, zero = _scale(kind, unit, label)
+    return float(f"{factor * value + zero:.{_DIGITS}g}")
+
+
+@cache
+def _scale(kind: str, unit: str, label: str) -> tuple[float, float]:
+    """Factor and zero of one unit in another; the registry is asked once for each pair."""
+    to = from_si(1.0, kind, label).units
+    zero, one = (float(quantity(f"{number} {unit}", kind).to(to).magnitude) for number in (0, 1))
+    return one - zero, zero
