@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from conveyor.starting import Motions
 
 _HEIGHT = 4.4
+_ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
@@ -45,7 +46,9 @@ def route_profile(conveyor: Conveyor, *, system: System = "SI") -> Figure:
             axis.plot(
                 x[i : i + 2], z[i : i + 2], color="#A61C3C", linewidth=3, label=f"{section.curve} curve"
             )
-    if np.ptp(x) < _ASPECT * np.ptp(z):
+    if np.ptp(z) == 0.0:
+        axis.set_ylim(-_ROOM * np.ptp(x), _ROOM * np.ptp(x))
+    elif np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
     axis.set(xlabel=f"horizontal distance [{length.unit}]", ylabel=f"height over the tail [{length.unit}]")
     titled(figure, conveyor.name)

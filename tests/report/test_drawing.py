@@ -148,3 +148,9 @@ def test_scales_agree_with_units(kind):
 def test_temperatures_have_an_offset():
     assert scale("temperature")([273.15, 293.15]) == pytest.approx([0.0, 20.0])
     assert scale("temperature", "US")([273.15, 310.92777777777775]) == pytest.approx([32.0, 100.0])
+
+
+def test_a_level_route_is_drawn_level():
+    shuttle = conveyor.load(SPECS / "shuttle.yaml")
+    low, high = conveyor.analyse(shuttle).plots.profile(system="SI").axes[0].get_ylim()
+    assert (low, high) == pytest.approx((-0.05 * 24.0, 0.05 * 24.0))
