@@ -63,6 +63,11 @@ def fields(model: type[BaseModel]) -> dict[str, Leaf]:
     >>> fields(Conveyor)["route.sections[].length"].allowed
     '> 0 m, ≤ 100 km'
     """
+    return dict(_known(model))
+
+
+@cache
+def _known(model: type[BaseModel]) -> dict[str, Leaf]:
     return dict(_fields(layout(model), ""))
 
 
@@ -75,7 +80,7 @@ def example(model: type[BaseModel], path: str) -> Example | None:
     >>> example(Conveyor, "drive.wrap_angle")
     '210 deg'
     """
-    leaf = fields(model)[path]
+    leaf = _known(model)[path]
     kinds = STARTERS if model is Conveyor else ()
     shown = (_at(_starter(kind), _first_alike(path)) for kind in kinds)
     listed = _examples()["spec" if model is Conveyor else "compound"].get(_first_alike(path))

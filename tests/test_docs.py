@@ -1,86 +1,234 @@
-"""The commands of the docs run as printed."""
+"""README and docs: commands and code run from top to bottom of each page and print what stands there; links hold."""
 
 from __future__ import annotations
 
-import os
+import contextlib
+import io
 import re
 import shlex
-import subprocess
+import signal
 import sys
+import warnings
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import pytest
 from ruamel.yaml import YAML
 
 import conveyor
 import conveyor.spec
+from conveyor.cli import main
+from conveyor.reference import anchor
+from conveyor.starter.write import values
 from conveyor.studies import studies
 
 ROOT = Path(__file__).parent.parent
-PAGES = sorted((ROOT / "docs").glob("*.md"))
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "materials" / "README.md"]
 REFUSED = "S100_strain_sweep.txt"  # the page shows what a doubtful file ends in
+OTHER_PROGRAMS = ("make ", "py -m venv ", "chromium ", "soffice ", ".venv\\Scripts\\python -m pip ")
+WRITTEN = re.compile(
+    r"(?:-o|--html|--plot|--tan-delta|--csv|--tables|--plots|--from|conveyor new|template) (\S+\.\w+|\S+)"
+)
+# forces hold to the contact's rtol of 1e-6; a printed digit may round either way
+RELATIVE = 2e-6
 
 
-def commands() -> list[tuple[str, str]]:
-    found = []
-    for page in PAGES:
-        for block in re.findall(r"```sh\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL):
-            found += [(page.name, line) for line in block.splitlines() if line.startswith("conveyor ")]
-    return found
+class Block(NamedTuple):
+    """A fenced block: language and text."""
+
+    language: str
+    text: str
 
 
-@pytest.mark.parametrize(("page", "line"), commands())
-def test_command_of_the_docs(page: str, line: str, tmp_path: Path) -> None:
+def blocks(page: Path) -> list[Block]:
+    found = re.findall(r"^```(\w+)\n(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.M)
+    return [Block(*block) for block in found]
+
+
+def pages_with(*languages: str) -> list[Path]:
+    return [page for page in PAGES if any(block.language in languages for block in blocks(page))]
+
+
+def named(page: Path) -> str:
+    return "materials" if page.parent.name == "materials" else page.stem
+
+
+@pytest.fixture
+def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that looks like a checkout and may be written to."""
     for folder in ("examples", "materials", "tests"):
         (tmp_path / folder).symlink_to(ROOT / folder)
-    arguments = shlex.split(line.split("  #", maxsplit=1)[0])[1:]
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "conveyor.cli", *arguments],
-        cwd=tmp_path, capture_output=True, text=True, encoding="utf-8", check=False,
-        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-    )  # fmt: skip
-    assert done.returncode == (2 if REFUSED in line else 0), f"{page}: {done.stderr}"
-    if REFUSED in line:
-        assert "--modulus-unit" in done.stderr
-        assert "--strain-unit" in done.stderr
-    for name in re.findall(r"(?:-o|--plot) (\S+)", line):
-        assert REFUSED in line or (tmp_path / name).stat().st_size > 1000
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)  # the command line replaces it
+    return tmp_path
 
 
-def test_the_docs_have_commands() -> None:
-    assert len(commands()) >= 6
+@contextlib.contextmanager
+def signals_kept() -> Any:
+    before = signal.getsignal(signal.SIGPIPE) if hasattr(signal, "SIGPIPE") else None
+    try:
+        yield
+    finally:
+        if before is not None:
+            signal.signal(signal.SIGPIPE, before)
 
 
-@pytest.mark.parametrize(
-    "page", [*PAGES, ROOT / "README.md", ROOT / "materials" / "README.md"], ids=lambda p: p.name
-)
-def test_links_and_pictures_exist(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+?)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
-        if not target.startswith(("http://", "https://")):
-            assert (page.parent / target).exists(), f"{page.name}: {target}"
+def run(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> tuple[int, str, str]:
+    out, err = io.StringIO(), io.StringIO()
+    monkeypatch.setattr(sys, "argv", ["conveyor", *arguments])
+    with (
+        signals_kept(),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+        pytest.raises(SystemExit) as left,
+    ):
+        main()
+    return int(left.value.code or 0), out.getvalue(), err.getvalue()
 
 
-def fragments() -> list[str]:
-    text = (ROOT / "docs" / "conveyor.md").read_text(encoding="utf-8")
-    return re.findall(r"```yaml\n(.*?)```", text, flags=re.DOTALL)
+def same(printed: str, expected: str) -> None:
+    number = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+    got, told = ([float(text) for text in re.findall(number, part)] for part in (printed, expected))
+    for a, b, text in zip(got, told, re.findall(number, expected), strict=True):
+        last = 10.0 ** -len(text.partition("e")[0].partition(".")[2])
+        assert a == pytest.approx(b, rel=RELATIVE, abs=last * 1.000001 if "." in text else 0.0)
+    words = re.compile(rf"(?:{number}|\s)+")
+    assert words.sub(" ", printed) == words.sub(" ", expected)
 
 
-def merged(base: object, other: object) -> object:
+@pytest.mark.parametrize("page", pages_with("sh", "powershell"), ids=named)
+def test_commands_of_a_page(page: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    printed = ""
+    for block in blocks(page):
+        if block.language == "text" and printed:
+            assert all(line.rstrip() in printed for line in block.text.splitlines()), block.text
+        if block.language not in {"sh", "powershell"}:
+            printed = printed if block.language in {"text", "yaml"} else ""
+            continue
+        printed = ""
+        for line in filter(None, block.text.splitlines()):
+            command = line.split("  #", maxsplit=1)[0].split(" # ", maxsplit=1)[0].strip()
+            command = command.replace(".venv\\Scripts\\conveyor ", "conveyor ")
+            if not command.startswith("conveyor "):
+                assert command.startswith(OTHER_PROGRAMS), command
+                inputs = [word for word in command.split() if word.endswith((".html", ".xlsx"))]
+                assert all((checkout / name).exists() for name in inputs)
+                continue
+            code, out, err = run(shlex.split(command)[1:], monkeypatch)
+            printed += out
+            assert code == (2 if REFUSED in command else 0), f"{command}: {err}"
+            if REFUSED in command:
+                assert "--modulus-unit" in err
+                assert "--strain-unit" in err
+                continue
+            for name in WRITTEN.findall(command):
+                assert (checkout / name).is_dir() or (checkout / name).stat().st_size > 1000, name
+
+
+@pytest.mark.parametrize("page", pages_with("python"), ids=named)
+def test_code_of_a_page(page: Path, checkout: Path) -> None:
+    from matplotlib import pyplot as plt
+
+    space: dict[str, Any] = {}
+    found = blocks(page)
+    for block, after in zip(found, [*found[1:], Block("", "")], strict=True):
+        if block.language != "python":
+            continue
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            exec(compile(block.text, page.name, "exec"), space)
+        same(out.getvalue(), after.text if after.language == "text" else "")
+    plt.close("all")
+    assert any(checkout.iterdir())
+
+
+def overland() -> dict[str, Any]:
+    path = ROOT / "examples" / "specs" / "overland.yaml"
+    read: dict[str, Any] = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+    return read
+
+
+def merged(base: Any, other: Any) -> Any:
     if isinstance(base, dict) and isinstance(other, dict):
         return base | {key: merged(base.get(key), value) for key, value in other.items()}
     return other
 
 
-@pytest.mark.parametrize("number", range(len(fragments())))
-def test_fragment_of_the_designers_page(number: int) -> None:
-    overland = YAML(typ="safe").load(
-        (ROOT / "examples" / "specs" / "overland.yaml").read_text(encoding="utf-8")
-    )
-    spec = merged(overland, YAML(typ="safe").load(fragments()[number]))
-    line = conveyor.spec.from_data(spec)
+FRAGMENTS = [(page, i) for page in PAGES for i, b in enumerate(blocks(page)) if b.language == "yaml"]
+
+
+@pytest.mark.parametrize(
+    ("page", "number"), FRAGMENTS, ids=lambda x: named(x) if isinstance(x, Path) else str(x)
+)
+def test_fragment_of_a_spec(page: Path, number: int) -> None:
+    """A whole spec runs as it stands, a fragment merged into the overland example."""
+    fragment = YAML(typ="safe").load(blocks(page)[number].text)
+    line = conveyor.spec.from_data(fragment if "name" in fragment else merged(overland(), fragment))
     assert conveyor.analyse(line).balance.power.motor > 0.0
     studies(line)
 
 
-def test_the_designers_page_has_its_fragments() -> None:
-    assert len(fragments()) == 6
+def test_defaults_on_the_designers_page_do_what_it_says() -> None:
+    text = (ROOT / "docs" / "designer.md").read_text(encoding="utf-8")
+    given = values("overland")
+
+    def motor(change: dict[str, Any]) -> str:
+        line = conveyor.spec.from_data(merged(given, change))
+        return f"{conveyor.analyse(line).balance.power.motor / 1e3:.0f}"
+
+    assert f"motor {motor({})} kW)" in text
+    drags = [
+        motor({"idlers": {s: {"roll": {"drag": d}} for s in ("carry", "return")}})
+        for d in ("1 N", "1.6 N", "4 N")
+    ]
+    assert f"| 1 / 1.6 / 4 N | {' / '.join(drags)} kW |" in text
+    shares = [motor({"calculation": {"flexure_share": share}}) for share in ("5 %", "20 %")]
+    assert f"| 5 / 20 % | {' / '.join(shares)} kW |" in text
+    powers = [
+        conveyor.analyse(
+            conveyor.spec.from_data(merged(overland(), {"belt": {"bottom_cover": {"compound": name}}}))
+        ).balance.power.motor
+        for name in ("low-rolling-resistance-cover", "standard-cover")
+    ]
+    assert f"| + {powers[1] / powers[0] - 1.0:.0%} on the overland example |".replace("%", " %") in text
+
+
+def test_pages_have_their_blocks() -> None:
+    assert {named(page) for page in pages_with("sh")} >= {"README", "designer", "rubber"}
+    assert {named(page) for page in pages_with("python")} >= {"README", "programmer"}
+    assert {named(page) for page, _ in FRAGMENTS} >= {"conveyor", "designer", "spec"}
+    readme = blocks(ROOT / "README.md")
+    python = next(block for block in readme if block.language == "python")
+    assert len([line for line in python.text.splitlines() if line]) <= 15
+
+
+def test_every_language_is_run() -> None:
+    known = {"sh", "powershell", "python", "yaml", "text"}
+    assert {block.language for page in PAGES for block in blocks(page)} <= known
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_links_pictures_and_anchors_exist(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for target, place in re.findall(r"\]\(([^)#\s]*)(?:#([^)]*))?\)", text):
+        if target.startswith(("http://", "https://")):
+            continue
+        path = page.parent / target if target else page
+        assert path.exists(), f"{page.name}: {target}"
+        if place:
+            lines = path.read_text(encoding="utf-8").splitlines()
+            headings = {anchor(line.lstrip("#").strip()) for line in lines if line.startswith("#")}
+            assert place in headings, f"{page.name}: {target}#{place}"
+
+
+def test_make_does_what_the_readme_says() -> None:
+    made = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert "\nreport:" in made
+    assert "conveyor power examples/specs/overland.yaml -o $(OUT)/overland.xlsx" in made
+    assert "\ntest:" in made
+
+
+def test_every_page_is_in_the_index() -> None:
+    index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
+    for page in (ROOT / "docs").glob("*.md"):
+        assert page.name == "README.md" or f"]({page.name})" in index
