@@ -138,7 +138,10 @@ def _ready(path: Path) -> None:
 def _saved(path: Path, found: Contents, book: Workbook) -> Path:
     """Write a workbook, and beside it the tables too long for it."""
     content = BytesIO()
-    book.save(content)
+    try:
+        book.save(content)  # by way of temporary files
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
     long = [part for part in found.parts if len(part.frame) > MOST_ROWS]
     save(
         {path.with_name(file_name(path.stem, part)): csv(part.frame) for part in long}

@@ -117,8 +117,8 @@ class Page:
                 row = places[key].last + 1
                 note = self.contents[key].note
                 if note:
-                    put(self.sheet.cell(row, 1), note, GREY)
-                    row += 1
+                    put(self.sheet.cell(row + 1, 1), note, GREY)
+                    row += 2
                 row += 2
         self.sheet.freeze_panes = "B1"
         return places

@@ -57,7 +57,7 @@ def resistances(page: Page, analysis: Analysis) -> None:
     row = page.place("breakdown", place.last + 4).last + 3
     end = page.place("classical", row).last
     governed = f"governing at the drive: {analysis.balance.tensions.governed_by}"
-    put(page.sheet.cell(end + 1, 1), f"{page.contents['classical'].note}; {governed}", GREY)
+    put(page.sheet.cell(end + 2, 1), f"{page.contents['classical'].note}; {governed}", GREY)
 
 
 def rolls(page: Page, _: Analysis) -> None:

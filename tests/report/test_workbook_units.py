@@ -1,0 +1,303 @@
+"""The workbook in SI and US units: the same figures, converted; what can be checked without an office program."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import openpyxl
+import pytest
+from openpyxl.utils import range_boundaries
+
+import conveyor
+from conveyor.comparison import compare_compounds
+from conveyor.errors import InputError
+from conveyor.report.cells import INFINITE, VERDICTS
+from conveyor.report.checks import checks
+from conveyor.report.formats import number_format
+from conveyor.studies import studies
+
+SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
+ROUNDED = 1e-11  # twelve significant digits of a conversion, and one division
+FACTORS = {  # NIST SP 811, appendix B.8; exact but for the horsepower (550 ft lbf/s) and pound-force
+    ("m", "ft"): 1.0 / 0.3048,
+    ("mm", "in"): 1.0 / 25.4,
+    ("m/s", "fpm"): 60.0 / 0.3048,
+    ("m/s²", "ft/s²"): 1.0 / 0.3048,
+    ("kg", "lb"): 1.0 / 0.45359237,
+    ("kg/m", "lb/ft"): 0.3048 / 0.45359237,
+    ("N", "lbf"): 1.0 / 4.4482216152605,
+    ("N/m", "lbf/in"): 0.0254 / 4.4482216152605,
+    ("N/mm", "lbf/in"): 25.4 / 4.4482216152605,
+    ("MPa", "psi"): 1e6 * 0.0254**2 / 4.4482216152605,
+    ("kW", "hp"): 1e3 / (550.0 * 0.3048 * 4.4482216152605),
+    ("t/h", "stph"): 1000.0 / 907.18474,
+}
+UNIT = re.compile(r" \[([^\]]*)\]$")
+SAME = {"Hz", "s", "-", "deg", "rpm", "h", "t", "MWh", "a", "EUR", "USD", "kWh/(t km)"}
+
+
+@pytest.fixture(scope="module", params=SPECS, ids=lambda path: path.stem)
+def pair(request, tmp_path_factory):
+    """Workbooks of one spec in SI and in US units."""
+    folder = tmp_path_factory.mktemp("w")
+    result = conveyor.analyse(conveyor.load(request.param))
+    asked = studies(result.conveyor)
+    return tuple(
+        openpyxl.load_workbook(result.to_excel(folder / f"{system}.xlsx", asked, system=system))
+        for system in ("SI", "US")
+    )
+
+
+def tables(book):
+    """Every named table: its header and its rows."""
+    for name, defined in book.defined_names.items():
+        if name.startswith("table_"):
+            sheet, cells = next(iter(defined.destinations))
+            left, top, right, bottom = range_boundaries(cells.replace("$", ""))
+            rows = list(
+                book[sheet].iter_rows(
+                    min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True
+                )
+            )
+            yield name, rows[0], rows[1:]
+
+
+def by_row(header):
+    """Whether figures are named in the first column: another one has no unit but holds them."""
+    return header[0] in {"quantity", "figure"}
+
+
+def converted(si_name, us_name, value):
+    """Return an SI figure in the unit of the US name; the words of both names are the same."""
+    unit, other = (UNIT.search(name)[1] if UNIT.search(name) else "" for name in (si_name, us_name))
+    assert UNIT.sub("", si_name) == UNIT.sub("", us_name)
+    if (unit, other) == ("degC", "degF"):
+        return 1.8 * value + 32.0
+    if unit == other:
+        assert unit in SAME or not unit, si_name
+        return value
+    return value * FACTORS[unit, other]
+
+
+def test_us_figures_are_the_si_figures_converted(pair):
+    si_tables, us_tables = ({name: (header, rows) for name, header, rows in tables(book)} for book in pair)
+    assert si_tables.keys() == us_tables.keys()
+    compared = 0
+    for name, (header, rows) in si_tables.items():
+        us_header, us_rows = us_tables[name]
+        if name in {"table_inputs", "table_checks", "table_provenance"}:
+            continue
+        for row, us_row in zip(rows, us_rows, strict=True):
+            for j, (value, us_value) in enumerate(zip(row, us_row, strict=True)):
+                if isinstance(value, int | float):
+                    figured = by_row(header) and not UNIT.search(header[j])
+                    names = (row[0], us_row[0]) if figured else (header[j], us_header[j])
+                    assert us_value == pytest.approx(converted(*names, value), rel=ROUNDED, abs=1e-12), names
+                    compared += 1
+    assert compared > 500
+
+
+def test_no_metric_unit_is_left_where_us_units_are_asked_for(pair):
+    for sheet in pair[1]:
+        if sheet.title != "Inputs":
+            names = [c.value for row in sheet.iter_rows() for c in row if isinstance(c.value, str)]
+            units = {UNIT.search(name)[1] for name in names if UNIT.search(name)}
+            assert not units & {unit for unit, _ in FACTORS} | units & {"degC"}, sheet.title
+
+
+def test_axes_carry_the_units_of_their_columns(pair):
+    def words(title):
+        return "".join(run.t for p in title.tx.rich.p for run in (p.r or ()))
+
+    for book, unit in zip(pair, ("[N]", "[lbf]"), strict=True):
+        chart = book["Tensions"]._charts[0]
+        assert words(chart.y_axis.title) == f"tension {unit}"
+        assert words(book["Summary"]._charts[0].y_axis.title) == f"force {unit}"
+
+
+def test_columns_of_numbers_hold_numbers_only(pair):
+    """A column with a unit holds numbers, gaps, or the sign of no bound; never a number with its unit as text."""
+    for book in pair:
+        for name, header, rows in tables(book):
+            for j, title in enumerate(header):
+                if UNIT.search(title):
+                    cells = {type(row[j]) for row in rows if row[j] not in (None, INFINITE)}
+                    assert cells <= {int, float}, (name, title)
+
+
+def test_no_formula_no_error(pair):
+    for book in pair:
+        types = {cell.data_type for sheet in book for row in sheet.iter_rows() for cell in row}
+        assert not types & {"f", "e"}
+
+
+def test_every_unit_has_its_number_format(pair):
+    for book in pair:
+        for sheet in book:
+            if sheet.title == "Inputs":
+                continue
+            for row in sheet.iter_rows():
+                for cell in row:
+                    if isinstance(cell.value, float):
+                        assert cell.number_format != "General", (sheet.title, cell.coordinate)
+
+
+def test_paper_follows_the_units(pair):
+    assert [int(book["Summary"].page_setup.paperSize) for book in pair] == [
+        9,
+        1,
+    ]  # ECMA-376 18.18.57: A4, Letter
+
+
+def test_cover_is_one_page(pair):
+    for book in pair:
+        sheet = book["Summary"]
+        assert sheet.page_setup.fitToWidth == sheet.page_setup.fitToHeight == 1
+        assert sheet.page_setup.orientation == "portrait"
+        assert sheet.max_row < 80  # at 15 pt a row and 760 pt of paper: characters of 7 pt at the least
+        assert sheet.max_column == 7
+
+
+def test_names_of_figures_point_to_numbers(pair):
+    for book in pair:
+        for name, defined in book.defined_names.items():
+            if not name.startswith("table_"):
+                sheet, cell = next(iter(defined.destinations))
+                assert isinstance(book[sheet][cell.replace("$", "")].value, int | float), name
+
+
+@pytest.fixture(scope="module")
+def brakes():
+    return conveyor.analyse(conveyor.load(next(p for p in SPECS if p.stem == "downhill_brakes")))
+
+
+def named(book, name):
+    sheet, cell = next(iter(book.defined_names[name].destinations))
+    return book[sheet][cell.replace("$", "")].value
+
+
+def test_names_hold_the_figures_of_the_analysis(brakes, tmp_path):
+    book = openpyxl.load_workbook(brakes.to_excel(tmp_path / "b.xlsx"))
+    balance, moving = brakes.balance, brakes.motions
+    expected = {
+        "motor_power": balance.power.motor / 1e3,
+        "belt_power": balance.power.belt / 1e3,
+        "effective_tension": balance.forces.total,
+        "tight_side_tension": balance.tensions.tight,
+        "slack_side_tension": balance.tensions.slack,
+        "take_up_setting": balance.settled.setting,
+        "equivalent_f": balance.friction_factor,
+        "indentation_force": balance.forces.indentation,
+        "indentation_share": balance.forces.indentation / balance.forces.main,
+        "motion_moving_mass": moving.moving_mass,
+        "belt_safety_steady": brakes.belt_duty.safety_steady,
+    }
+    assert {name: named(book, name) for name in expected} == pytest.approx(expected, rel=1e-15)
+
+
+def test_verdicts_are_words_on_their_colours(brakes, tmp_path):
+    book = openpyxl.load_workbook(brakes.to_excel(tmp_path / "b.xlsx"))
+    found = checks(brakes)
+    sheet = book["Checks and notes"]
+    rows = [list(row[:4]) for row in sheet.iter_rows(min_row=3, max_row=2 + len(found))]
+    assert [tuple(c.value for c in row) for row in rows] == [
+        (c.subject, c.found, c.asked, c.verdict) for c in found
+    ]
+    for row in rows:
+        assert row[3].fill.fgColor.rgb == VERDICTS[row[3].value].fill.fgColor.rgb
+    cover = [row[6] for row in book["Summary"].iter_rows() if row[6].value in {"pass", "FAIL", "not checked"}]
+    assert 0 < len(cover) <= len(found)
+    assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in cover)
+    assert VERDICTS["FAIL"].font.b  # a failure without colours, too
+    assert not VERDICTS["pass"].font.b
+
+
+def test_what_failed_is_on_the_cover_however_many_passed(brakes, tmp_path):
+    """28 checks, of which the cover shows 22; a brake too weak fails and stays."""
+    pulley = brakes.conveyor.drive.replace(brake_force="1 kN")
+    weak = conveyor.analyse(brakes.conveyor.replace(drive=pulley))
+    failed = [check.subject for check in checks(weak) if check.verdict == "FAIL"]
+    assert failed
+    sheet = openpyxl.load_workbook(weak.to_excel(tmp_path / "w.xlsx"))["Summary"]
+    shown = {row[0].value for row in sheet.iter_rows() if row[6].value == "FAIL"}
+    assert shown == set(failed)
+    assert any(
+        str(row[0].value).endswith("more that passed: see Checks and notes") for row in sheet.iter_rows()
+    )
+
+
+def test_the_spec_says_units_paper_and_head(brakes, tmp_path):
+    report = brakes.conveyor.report.replace(
+        units="US", paper="A4", project="=Quarry", number="C-101", client="N", engineer="E", revision="B"
+    )
+    result = conveyor.analyse(brakes.conveyor.replace(report=report))
+    book = openpyxl.load_workbook(result.to_excel(tmp_path / "u.xlsx"))
+    assert book["Results"]["A3"].value == "length [ft]"
+    assert int(book["Summary"].page_setup.paperSize) == 9
+    said = {
+        (a.value, b.value)
+        for row in book["Summary"]["A1:E6"]
+        for a, b in ((row[0], row[1]), (row[3], row[4]))
+    }
+    assert {
+        ("project", "=Quarry"),
+        ("number", "C-101"),
+        ("client", "N"),
+        ("engineer", "E"),
+        ("revision", "B"),
+    } <= said
+    assert book["Summary"].oddHeader.left.text.startswith("=Quarry, ")
+    in_si = openpyxl.load_workbook(result.to_excel(tmp_path / "s.xlsx", system="SI"))
+    assert in_si["Results"]["A3"].value == "length [m]"
+
+
+def test_unknown_systems_are_refused(brakes, tmp_path):
+    with pytest.raises(InputError, match='system = "metric": SI or US'):
+        brakes.to_excel(tmp_path / "m.xlsx", system="metric")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("column", "shown"),
+    [
+        ("tension [lbf]", "#,##0.0"),
+        ("highest line load [lbf/in]", "#,##0.0000"),
+        ("mean motor power [hp]", "#,##0.0"),
+        ("diameter [in]", "#,##0.00"),
+        ("half width [in]", "0.0000"),
+        ("time at reference [s]", "0.00E+00"),
+        ("time over the whole speed range [s]", "#,##0.0"),
+        ("cost per year [USD]", "#,##0"),
+        ("share of total [-]", "0.0%"),
+        ("compound", "General"),
+    ],
+)
+def test_formats(column, shown):
+    assert number_format(column) == shown
+
+
+def test_comparison_in_us_units(tmp_path):
+    line = conveyor.load(next(p for p in SPECS if p.stem == "in_plant_us"))
+    found = compare_compounds(
+        line,
+        ["standard-cover", "S100"],
+        temperatures=["0 degC", "20 degC"],
+        rtol=1e-3,
+        extra_costs={"S100": 1000},
+    )
+    books = [
+        openpyxl.load_workbook(found.to_excel(tmp_path / f"{system}.xlsx", system=system))
+        for system in ("SI", "US")
+    ]
+    assert books[0].sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
+    si_power, us_power = (
+        {name: (header, rows) for name, header, rows in tables(book)}["table_power_1"] for book in books
+    )
+    assert us_power[0] == ("temperature [degF]", "standard-cover [hp]", "S100 [hp]")
+    for row, us_row in zip(si_power[1], us_power[1], strict=True):
+        assert us_row[0] == pytest.approx(1.8 * row[0] + 32.0, rel=ROUNDED)
+        assert us_row[1:] == pytest.approx([v * FACTORS["kW", "hp"] for v in row[1:]], rel=ROUNDED)
+    assert books[1]["Ranking"].page_setup.fitToHeight == 1
+    covered = [row[-1] for row in books[1]["Coverage"]["A3:G6"]]
+    assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in covered)
