@@ -289,10 +289,3 @@ def _yaml(value: Any) -> str:
     if isinstance(value, float):
         return re.sub(r"e([+-])0", r"e\1", f"{value:g}").replace("e+", "e")
     return f"[{', '.join(map(_yaml, value))}]" if isinstance(value, list | tuple) else str(value)
-
-
-if __name__ == "__main__":
-    import sys
-
-    sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
-    sys.stdout.write(markdown())

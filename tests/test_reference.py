@@ -8,7 +8,9 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 import pytest
 from pydantic import BaseModel, TypeAdapter
+from typer.testing import CliRunner
 
+from conveyor.cli import app
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.reference import anchor, example, fields, markdown
 
@@ -60,6 +62,12 @@ def test_an_example_outside_its_field_would_be_seen() -> None:
 
 def test_page_is_what_the_models_say() -> None:
     assert PAGE.read_text(encoding="utf-8") == markdown(), "run: conveyor schema --markdown > docs/spec.md"
+
+
+def test_command_line_prints_the_page() -> None:
+    found = CliRunner().invoke(app, ["schema", "--markdown"])
+    assert found.exit_code == 0
+    assert found.stdout == markdown()
 
 
 def test_every_field_is_on_the_page() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -88,9 +90,22 @@ def template(
         print(f"template: {written}")
 
 
-@app.command(epilog=examples("conveyor schema > conveyor.schema.json"))
-def schema() -> None:
-    """Print the JSON schema of a spec, for editors."""
+@app.command(
+    epilog=examples("conveyor schema > conveyor.schema.json", "conveyor schema --markdown > spec.md")
+)
+def schema(
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="Print the reference of all fields for people, as markdown.")
+    ] = False,
+) -> None:
+    """Print the JSON schema of a spec, for editors; or the reference of the file formats."""
+    if markdown:
+        from conveyor.reference import markdown as written
+
+        with suppress(AttributeError):  # a stream that a test put there
+            sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
+        print(written(), end="")
+        return
     from conveyor.spec import schema as build
 
     print_json(build())
