@@ -101,20 +101,20 @@ def _written(found: Contents, folder: Path, kind: str) -> tuple[Path, ...]:
 
 
 def csv(frame: pd.DataFrame) -> bytes:
-    r"""Write a table as CSV (UTF-8 with its mark, so that Excel reads it as such), no text of it a formula.
+    r"""Write a table as CSV (RFC 4180; UTF-8 with its mark, so that Excel reads it so), no text of it a formula.
 
     Text that begins as a formula does (``= + - @``, a tab or a line break) has an apostrophe before it.
 
     Examples
     --------
     >>> csv(pd.DataFrame({"name": ["=1+1", "mine"], "power [kW]": [1.5, -2.0]})).decode("utf-8-sig")
-    "name,power [kW]\n'=1+1,1.5\nmine,-2.0\n"
+    "name,power [kW]\r\n'=1+1,1.5\r\nmine,-2.0\r\n"
     """
     safe = pd.DataFrame(
         {_plain(str(name)): [_plain(value) for value in frame[name].tolist()] for name in frame.columns},
         dtype=object,
     )
-    return safe.to_csv(index=False, lineterminator="\n").encode("utf-8-sig")
+    return safe.to_csv(index=False, lineterminator="\r\n").encode("utf-8-sig")
 
 
 def _plain(value: object) -> object:
