@@ -279,7 +279,7 @@ def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:
         (("--temperature", "0:1e9:1e-3"), 2, "at most 1000 values"),
         (("--temperature", "warm"), 2, '--temperature: got "warm"'),
         (("--temperature", "nan"), 2, '--temperature: got "nan"'),
-        (("--speed", "5 fpm"), 2, '--speed: got "5 fpm"'),
+        (("--speed", "5 kn"), 2, '--speed: got "5 kn"'),
         (("--cover", "left"), 2, '--cover: got "left", allowed: bottom, top, both'),
         (("--extra-cost", "x"), 2, "expected NAME=AMOUNT"),
         (("--extra-cost", "standard-cover=nan"), 2, "expected NAME=AMOUNT"),

@@ -123,11 +123,23 @@ def test_nothing_is_wider_than_the_terminal(command, columns, busy, inside):
 
 def test_comparison_writes_a_page_and_figures(tmp_path, inside, monkeypatch):
     options = ("-c", "standard-cover", "-c", "low-rolling-resistance-cover", "--temperature", "32:68:18 degF")
-    files = ("--html", "c.html", "--csv", "c.csv", "--plot", "t.svg", "--speed-plot", "v.svg")
+    files = (
+        "--html",
+        "c.html",
+        "--csv",
+        "c.csv",
+        "--tables",
+        "t",
+        "--plot",
+        "t.svg",
+        "--speed-plot",
+        "v.svg",
+    )
     spec = SPECS / "in_plant_us.yaml"
     monkeypatch.chdir(tmp_path)
     shown = inside("compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us")
-    assert {path.name for path in tmp_path.iterdir()} == {"c.html", "c.csv", "t.svg", "v.svg"}
+    assert {path.name for path in tmp_path.iterdir()} == {"c.html", "c.csv", "t", "t.svg", "v.svg"}
+    assert f"tables: {len(list((tmp_path / 't').iterdir()))} in t" in shown
     head, first, *_ = (tmp_path / "c.csv").read_text(encoding="utf-8").splitlines()
     assert "temperature [degF]" in head
     assert "32.0" in first

@@ -101,6 +101,11 @@ WebPage = Annotated[
     Path | None,
     typer.Option("--html", metavar="FILE", help="Write the report as one page (.html); it prints well."),
 ]
+TablesFolder = Annotated[
+    Path | None,
+    typer.Option("--tables", metavar="FOLDER", help="Write every table to a file of its own in it."),
+]
+AsParquet = Annotated[bool, typer.Option("--parquet", help="Tables as Parquet files; without it as CSV.")]
 Shelves = Annotated[
     list[Path] | None,
     typer.Option("--shelf", metavar="FOLDER", help="Further folder of compound files; may be repeated."),

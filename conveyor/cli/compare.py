@@ -13,9 +13,11 @@ import typer
 from conveyor.cli import outputs
 from conveyor.cli.app import (
     AsJson,
+    AsParquet,
     Quiet,
     Shelves,
     Spec,
+    TablesFolder,
     UnitsOption,
     WebPage,
     Workbook,
@@ -88,6 +90,8 @@ def compare(
     ] = None,
     output: Workbook = None,
     html: WebPage = None,
+    tables: TablesFolder = None,
+    parquet: AsParquet = False,
     csv: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write every scene to this file (.csv).")
     ] = None,
@@ -113,6 +117,7 @@ def compare(
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     outputs.file("--output", output, ".xlsx")
     outputs.file("--html", html, ".html", ".htm")
+    outputs.tables(tables, parquet=parquet)
     outputs.file("--csv", csv, ".csv")
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         outputs.file(option, path, ".png", ".svg", ".pdf")
@@ -138,7 +143,9 @@ def compare(
     if not found.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    written = _written(found, Outputs(output, html, csv, plot, speed_plot, tan_delta), system)
+    written = _written(
+        found, Outputs(output, html, tables, parquet, csv, plot, speed_plot, tan_delta), system
+    )
     if as_json:
         from conveyor.report import comparing
 
@@ -157,6 +164,8 @@ class Outputs:
 
     workbook: Path | None
     page: Path | None
+    tables: Path | None
+    parquet: bool
     table: Path | None
     plot: Path | None
     speed_plot: Path | None
@@ -170,6 +179,11 @@ def _written(found: Comparison, to: Outputs, system: System) -> list[str]:
         written.append(f"workbook: {found.to_excel(to.workbook, system=system)}")
     if to.page is not None:
         written.append(f"page: {found.to_html(to.page, system=system)}")
+    if to.tables is not None:
+        made = found.to_tables(
+            outputs.make(to.tables), system=system, kind="parquet" if to.parquet else "csv"
+        )
+        written.append(f"tables: {len(made)} in {to.tables}")
     if to.table is not None:
         from conveyor.report.unit_systems import converted
 

@@ -21,7 +21,9 @@ def file(option: str, path: Path | None, *endings: str) -> None:
     if path is None:
         return
     if path.suffix.lower() not in endings:
-        raise InputError(f'{option}: {path}: its name ends in {" or ".join(endings)}, got "{path.suffix}"')
+        *others, last = endings
+        allowed = f"{', '.join(others)} or {last}" if others else last
+        raise InputError(f'{option}: {path}: its name ends in {allowed}, got "{path.suffix}"')
     writable(path)
 
 
@@ -44,17 +46,20 @@ def folder(option: str, path: Path | None) -> None:
         raise InputError(f"{option}: {path}: {holder} is read-only; choose another folder")
 
 
-def parquet(tables: Path | None) -> None:
-    """Refuse Parquet without a folder to write to, or without the package that writes it.
+def tables(path: Path | None, *, parquet: bool) -> None:
+    """Refuse a folder for tables as `folder` does, and Parquet without a folder or the package that writes it.
 
     Raises
     ------
     InputError
-        No folder, or no such package.
+        As `folder`; no folder, or no such package.
     """
-    if tables is None:
+    folder("--tables", path)
+    if not parquet:
+        return
+    if path is None:
         raise InputError("--parquet: says how tables are written; give --tables FOLDER, too")
-    if find_spec("pyarrow") is None and find_spec("fastparquet") is None:
+    if find_spec("pyarrow") is None:
         raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
 
 

@@ -12,10 +12,12 @@ import typer
 from conveyor.cli import outputs
 from conveyor.cli.app import (
     AsJson,
+    AsParquet,
     ImageKind,
     Quiet,
     Shelves,
     Spec,
+    TablesFolder,
     UnitsOption,
     WebPage,
     Workbook,
@@ -46,13 +48,8 @@ def power(
     spec: Spec,
     output: Workbook = None,
     html: WebPage = None,
-    tables: Annotated[
-        Path | None,
-        typer.Option("--tables", metavar="FOLDER", help="Write every table to a file of its own in it."),
-    ] = None,
-    parquet: Annotated[
-        bool, typer.Option("--parquet", help="Tables as Parquet files; without it as CSV.")
-    ] = False,
+    tables: TablesFolder = None,
+    parquet: AsParquet = False,
     plots: Annotated[
         Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it.")
     ] = None,
@@ -67,10 +64,8 @@ def power(
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     outputs.file("--output", output, ".xlsx")
     outputs.file("--html", html, ".html", ".htm")
-    outputs.folder("--tables", tables)
+    outputs.tables(tables, parquet=parquet)
     outputs.folder("--plots", plots)
-    if parquet:
-        outputs.parquet(tables)
     import conveyor
     from conveyor import spec as spec_file
     from conveyor.studies import studies
