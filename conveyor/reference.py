@@ -271,9 +271,10 @@ def _without(leaf: Leaf) -> str:
 def _without_block(part: Group | Table) -> str:
     if part.required:
         return "**required**"
-    values = [leaf.default for leaf in _inside(part) if isinstance(leaf, Leaf) and not leaf.required]
-    set_already = isinstance(part, Group) and any(value not in (*_NOTHING, False) for value in values)
-    return "its defaults" if set_already and len(values) == len(_inside(part)) else "none of it"
+    leaves = [inner for inner in _inside(part) if isinstance(inner, Leaf)]
+    optional = isinstance(part, Group) and not any(inner.required for inner in _inside(part))
+    given = any(leaf.default not in (*_NOTHING, False) for leaf in leaves)
+    return "its defaults" if optional and given else "none of it"
 
 
 def _written(value: Any, leaf: Leaf) -> Any:
