@@ -119,22 +119,26 @@ def validate(quiet: Quiet = False) -> None:
     """Run the built-in reference cases and print what was expected and what came out."""
     from rich import box
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     from conveyor import validation
 
     checks = validation.run()
-    table = Table("source", "quantity", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
+    table = Table("source, quantity", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
     for heading in ("expected", "got", "deviation", "allowed", ""):
         table.add_column(heading, no_wrap=True, justify="right")
+    source = ""
     for check in checks:
+        if check.source != source:
+            source = check.source
+            table.add_row(f"[bold]{escape(source)}[/]")
         table.add_row(
-            check.source,
-            check.quantity,
-            f"{check.expected:.10g}" if isinstance(check.expected, float) else str(check.expected),
-            f"{check.got:.10g}" if isinstance(check.got, float) else str(check.got),
-            f"{check.deviation:.1e}",
-            f"{check.tolerance:.1e}",
+            escape(check.quantity),
+            f"{check.expected:.8g}" if isinstance(check.expected, float) else str(check.expected),
+            f"{check.got:.8g}" if isinstance(check.got, float) else str(check.got),
+            f"{check.deviation:.0e}",
+            f"{check.tolerance:.0e}",
             "ok" if check.passed else "[bold red]FAILED[/]",
         )
     failed = sum(not check.passed for check in checks)
