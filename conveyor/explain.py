@@ -25,6 +25,7 @@ _EXPECTED = {
     "float_type": "a number",
     "int_type": "a whole number",
     "int_from_float": "a whole number",
+    "int_parsing_size": "a whole number of a usual size",
     "bool_type": "true or false",
     "tuple_type": "a list",
     "model_type": "a mapping of fields",

@@ -5,11 +5,13 @@ from __future__ import annotations
 import difflib
 import math
 import re
+import sys
 
 from conveyor.kinds import KINDS, SPELLINGS, Kind
 
 NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 NUMBER_UNIT = re.compile(rf"\s*({NUMBER})\s*([^\s0-9.,+-](?:.*\S)?|)\s*")
+_LARGEST = sys.float_info.max
 LONGEST = 80
 """Characters: no quantity needs more, and messages quote the text."""
 
@@ -45,8 +47,8 @@ def why_not(given: object, kind: str | None) -> str:
         return _why_not_text(given, None if kind is None else KINDS[kind], kind)
     expected = _expected(None if kind is None else KINDS[kind])
     if isinstance(given, int | float) and not isinstance(given, bool):
-        if not math.isfinite(given):
-            return f"got {given}, expected a finite number"
+        if not -_LARGEST <= given <= _LARGEST:
+            return f"got {_shown(given)}, expected a finite number"
         return f"got {given} without a unit; {_give_the_unit(str(given), kind)}"
     return f"expected {expected}, got {_shown(given)}"
 

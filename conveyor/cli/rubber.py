@@ -10,6 +10,7 @@ import typer
 from conveyor.cli import outputs
 from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, write_text
 from conveyor.cli.completion import compound_names
+from conveyor.errors import InputError
 
 ZERO_CELSIUS = 273.15
 
@@ -75,22 +76,24 @@ def fit(
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
         "temperature": None if temperature is None else si(quantity(temperature, "temperature")),
     }  # fmt: skip
-    found = compound_file.fit_file(
-        data,
-        compound_file.Request(
-            name=name or data.name.split(".")[0],
-            reference_temperature=reference_temperature,
-            shift=shift,
-            strain=strain,
-            reference_strain=reference_strain,
-            poisson_ratio=poisson,
-            equilibrium=None if equilibrium is None else si(quantity(equilibrium, "pressure")),
-            terms_per_decade=terms_per_decade,
-            vertical=vertical,
-            by=one_of("--by", by, ("both", "storage", "loss")),
-            reading={key: value for key, value in answers.items() if value is not None},
-        ),
+    request = compound_file.Request(
+        name=name or data.name.split(".")[0],
+        reference_temperature=reference_temperature,
+        shift=shift,
+        strain=strain,
+        reference_strain=reference_strain,
+        poisson_ratio=poisson,
+        equilibrium=None if equilibrium is None else si(quantity(equilibrium, "pressure")),
+        terms_per_decade=terms_per_decade,
+        vertical=vertical,
+        by=one_of("--by", by, ("both", "storage", "loss")),
+        reading={key: value for key, value in answers.items() if value is not None},
     )
+    try:
+        found = compound_file.fit_file(data, request)
+    except InputError as error:
+        said = str(error)
+        raise InputError(said if said.startswith(str(data)) else f"{data}: {said}") from None
     if not quiet:
         from conveyor.report import fitting
 

@@ -92,6 +92,9 @@ VALUES = [
     Case("value", "infinite", edited(("friction: 0.35", "friction: .inf")), "drive.friction: "),
     Case("value", "too large for a float", edited(("width: 1000 mm", "width: 1e999 mm")), "belt.width: "),
     Case("value", "five thousand digits", edited(("friction: 0.35", "friction: " + "9" * 5000)), "drive.friction: "),
+    Case("value", "four hundred digits without a unit", edited(("width: 1000 mm", "width: " + "9" * 400)), "..., expected a finite number"),
+    Case("value", "four hundred digits for a number", edited(("friction: 0.35", "friction: " + "9" * 400)), "drive.friction: "),
+    Case("value", "four hundred digits for a count", edited(("rolls: 3", "rolls: " + "9" * 400)), "idlers.carry.rolls: expected a whole number of a usual size, got 999"),
     Case("value", "an expression", edited(("width: 1000 mm", "width: 9**9**9 mm")), "belt.width: "),
     Case("value", "out of range", edited(("width: 1000 mm", "width: 12 m")), "got 12 m, allowed: >= 0.1 m and <= 5 m"),
     Case("value", "negative", edited(("speed: 3 m/s", "speed: -3 m/s")), "got -3 m/s, allowed: > 0 m/s"),
@@ -146,7 +149,7 @@ SHELF = [
     Case("compound", "a shelf that is not there", given("power", "spec.yaml", "--shelf", "nowhere"), "shelf nowhere: no such folder"),
     Case("compound", "a file for a shelf", given("power", "spec.yaml", "--shelf", "spec.yaml"), "shelf spec.yaml: is a file, no folder"),
     Case("compound", "unknown on the command line", given("compare", "spec.yaml", "-c", "s101"), 'unknown compound "s101"; did you mean "s1'),
-    Case("compound", "outside its temperatures in one part of the year", edited(("ambient: {", "operation: {duty: [{hours: 4000 h, share: 100 %}, {hours: 900 h, share: 50 %, temperature: -90 degC}]}\nambient: {")), "spec.yaml:24:47 operation.duty[1] (900 h, share 50 %, -90 degC): ambient.temperature: got -90 degC"),
+    Case("compound", "outside its temperatures in one part of the year", edited(("ambient: {", "operation: {duty: [{hours: 4000 h, share: 100 %}, {hours: 900 h, share: 50 %, temperature: -90 degC}]}\nambient: {")), "spec.yaml:24:51 operation.duty[1] (900 h, share 50 %, -90 degC): ambient.temperature: got -90 degC"),
     Case("compound", "far outside its temperatures", edited(("temperature: 20 degC", "temperature: -90 degC")), "ambient.temperature"),
 ]  # fmt: skip
 
@@ -180,6 +183,7 @@ LABORATORY = [
     Case("laboratory", "no unit for the moduli", laboratory(MASTER.replace("_MPa", "")), "--modulus-unit"),
     Case("laboratory", "no temperature stated", laboratory(MASTER), '--at "20 degC"'),
     Case("laboratory", "a negative modulus", laboratory(MASTER.replace("100,7", "100,-7"), "--at", "20 degC"), "data.csv:4: column 2"),
+    Case("laboratory", "too few rows", laboratory(MASTER, "--at", "20 degC"), "data.csv: the window 1 to 100000 Hz has 4 rows"),
     Case("laboratory", "an .xls", laboratory(OLD_XLS, name="data.xls"), "old .xls workbook"),
     Case("laboratory", "120 kB that unpack to 120 MB", laboratory(bomb(120_000_000), name="data.xlsx"), "unpacks to more than 100,000,000 bytes"),
     Case("laboratory", "a folder", folder_named("data.csv", "fit", "data.csv"), "data.csv: is a folder"),
