@@ -11,18 +11,13 @@ from conveyor.studies import Studies, studies
 
 
 @pytest.fixture(scope="module")
-def line():
-    return conveyor.load("examples/specs/overland_10km.yaml")
+def asked(studied):
+    return studied("overland_10km")[1]
 
 
 @pytest.fixture(scope="module")
-def asked(line):
-    return studies(line)
-
-
-@pytest.fixture(scope="module")
-def result(line):
-    return conveyor.analyse(line)
+def result(studied):
+    return studied("overland_10km")[0]
 
 
 @pytest.fixture(scope="module")

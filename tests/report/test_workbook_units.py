@@ -15,7 +15,6 @@ from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
 from conveyor.report.checks import checks
 from conveyor.report.formats import number_format
-from conveyor.studies import studies
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
 ROUNDED = 1e-11  # twelve significant digits of a conversion, and one division
@@ -38,11 +37,10 @@ SAME = {"Hz", "s", "-", "deg", "rpm", "h", "t", "MWh", "a", "EUR", "USD", "kWh/(
 
 
 @pytest.fixture(scope="module", params=SPECS, ids=lambda path: path.stem)
-def pair(request, tmp_path_factory):
+def pair(request, studied, tmp_path_factory):
     """Workbooks of one spec in SI and in US units."""
     folder = tmp_path_factory.mktemp("w")
-    result = conveyor.analyse(conveyor.load(request.param))
-    asked = studies(result.conveyor)
+    result, asked = studied(request.param.stem)
     return tuple(
         openpyxl.load_workbook(result.to_excel(folder / f"{system}.xlsx", asked, system=system))
         for system in ("SI", "US")
@@ -168,8 +166,8 @@ def test_names_of_figures_point_to_numbers(pair):
 
 
 @pytest.fixture(scope="module")
-def brakes():
-    return conveyor.analyse(conveyor.load(next(p for p in SPECS if p.stem == "downhill_brakes")))
+def brakes(studied):
+    return studied("downhill_brakes")[0]
 
 
 def named(book, name):

@@ -1,0 +1,168 @@
+"""docs/workbook.md against the workbooks: every sheet, table, column, unit and name is in it, and nothing else."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.cases import analyse_cases
+from conveyor.comparison import compare_compounds
+from conveyor.models import LoadCase
+from conveyor.report.comparison_contents import of_comparison
+from conveyor.report.contents import of_analysis
+from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build, build_comparison
+from conveyor.studies import Studies
+
+ROOT = Path(__file__).parent.parent.parent
+SPECS = ROOT / "examples" / "specs"
+PAGE = ROOT / "docs" / "workbook.md"
+CONVEYOR, COMPARISON = "Workbook of a conveyor", "Workbook of a comparison"
+STATES = {
+    "steady",
+    "braking",
+    "least friction",
+    "braking, least friction",
+    "brakes on",
+    "start",
+    "drives off",
+}
+
+
+def _named_unit(name):
+    found = re.match(r"^(.*) \[([^\]]*)\]$", name)
+    words, unit = (found[1], found[2]) if found else (name, "")
+    return words, "currency" if re.fullmatch("[A-Z]{3}", unit) else unit
+
+
+def _column(key, name):
+    """A column as the page has it: what a spec names stands in angle brackets."""
+    words, unit = _named_unit(name)
+    if key == "tension_states" and words in STATES:
+        words = "<state>"
+    if key == "power_<n>" and words != "temperature":
+        words = "<compound>"
+    return re.sub(r"motor power, [\d.]+ x friction", "motor power, <n> x friction", words), unit
+
+
+def _read_page():
+    """Of each workbook: sheets; by table its columns and figures as rows of the page."""
+    sheets, columns, names = {}, {}, {}
+    book = sheet = table = ""
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        if line.startswith("## Workbook of"):
+            book = line.removeprefix("## ")
+            sheets[book] = []
+        elif line.startswith("## Sheet: "):
+            sheet = line.removeprefix("## Sheet: ")
+            sheets[book].append(sheet)
+        elif line.startswith("### "):
+            table = line.strip("# `")
+            columns[book, sheet, table], names[book, table] = set(), set()
+        elif line.startswith("| ") and table:
+            cells = tuple(cell.strip() for cell in line.strip("|").split("|"))
+            if cells[0].startswith("`"):
+                names[book, table].add((cells[0].strip("`"), *cells[1:4]))
+            elif len(cells) == 4 and cells[:2] not in {("column", "SI"), ("name", "figure")}:
+                columns[book, sheet, table].add(cells[:3])
+    return sheets, columns, names
+
+
+@pytest.fixture(scope="module")
+def page():
+    return _read_page()
+
+
+def _of_a_rare_spec():
+    """Bearings' lives, CEMA's estimate, a case without an answer: nothing of it is in the example specs."""
+    line = conveyor.load(SPECS / "in_plant_us.yaml")
+    idlers = line.idlers
+    roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
+    carry = idlers.carry.replace(roll=roll)
+    cema = {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}
+    line = line.replace(idlers=idlers.replace(carry=carry), calculation=line.calculation.replace(cema=cema))
+    slow = LoadCase(name="slow", speeds=("0.1 m/s",))
+    return conveyor.analyse(line), Studies(cases=analyse_cases(line, [slow]))
+
+
+@pytest.fixture(scope="module")
+def written(studied):
+    """Contents of every example in both systems, and of the rare spec."""
+    found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
+    found.append(_of_a_rare_spec())
+    pairs = [
+        tuple(of_analysis(result.in_units(system), asked) for system in ("SI", "US"))
+        for result, asked in found
+    ]
+    line = conveyor.load(SPECS / "in_plant_us.yaml")
+    options = {"temperatures": ["-60 degC", "20 degC"], "rtol": 1e-3, "extra_costs": {"S100": 1}}
+    compared = compare_compounds(line, ["standard-cover", "S100"], **options)
+    return pairs, compared, [tuple(of_comparison(compared, system) for system in ("SI", "US"))]
+
+
+def _tables(pairs):
+    columns, names = {}, {}
+    for pair in pairs:
+        for part, us_part in zip(pair[0].parts, pair[1].parts, strict=True):
+            key = re.sub(r"^power_\d+$", "power_<n>", part.key)
+            rows = columns.setdefault((part.sheet, key), set())
+            for name, us_name in zip(part.frame.columns, us_part.frame.columns, strict=True):
+                words, unit = _column(key, str(name))
+                rows.add((words, unit, _column(key, str(us_name))[1]))
+            found = names.setdefault(key, set())
+            for name, i in part.figures().items():
+                words, unit = _named_unit(str(part.frame[part.by_row][i]))
+                found.add((name, words, unit, _named_unit(str(us_part.frame[us_part.by_row][i]))[1]))
+    return columns, names
+
+
+@pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
+def test_sheets(page, book):
+    assert page[0][book] == list({CONVEYOR: SHEETS, COMPARISON: COMPARISON_SHEETS}[book])
+
+
+@pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
+def test_tables_columns_and_units(page, written, book):
+    columns, _ = _tables(written[0] if book == CONVEYOR else written[2])
+    told = {key[1:]: rows for key, rows in page[1].items() if key[0] == book}
+    assert told.keys() == columns.keys()
+    for key, rows in columns.items():
+        assert told[key] == rows, key
+
+
+@pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
+def test_names_of_figures(page, written, book):
+    _, names = _tables(written[0] if book == CONVEYOR else written[2])
+    told = {key[1]: rows for key, rows in page[2].items() if key[0] == book}
+    for key, rows in names.items():
+        assert told[key] == rows, key
+
+
+def test_the_workbooks_have_these_names_and_no_others(page, written, studied):
+    """Figures and tables; of the tables all but those that stand as text, and the covers' of nothing."""
+    pairs, compared, ours = written
+    result, _ = studied("overland_10km")
+    of = next(pair[0] for pair in pairs if "duty" in pair[0].by_key)
+    books = {CONVEYOR: build(of, result), COMPARISON: build_comparison(ours[0][0], compared)}
+    for book, made in books.items():
+        figures = {name for key, rows in page[2].items() if key[0] == book for name, *_ in rows}
+        tables = {f"table_{key[2]}" for key in page[1] if key[0] == book}
+        tables |= {f"table_power_{n}" for n in range(1, 9)}
+        assert set(made.defined_names) <= figures | tables
+        contents = of if book == CONVEYOR else ours[0][0]
+        there = {f"table_{part.key}" for part in contents.parts if part.key != "remarks"}
+        there |= {name for part in contents.parts for name in part.figures()}
+        assert set(made.defined_names) == there
+
+
+def test_names_may_stand_in_a_formula(page):
+    """Letters, digits, underscores; none that a spreadsheet reads as the address of a cell."""
+    for rows in page[2].values():
+        for name, *_ in rows:
+            assert re.fullmatch(r"[a-z][a-z0-9_]*", name)
+            assert not re.fullmatch(r"[a-z]{1,3}\d+|r|c|r\d*c\d*", name)
+            assert len(name) <= 255
+    everywhere = [name for key, rows in page[2].items() if key[0] == CONVEYOR for name, *_ in rows]
+    assert len(everywhere) == len(set(everywhere))
