@@ -117,33 +117,26 @@ def schema(
 )
 def validate(quiet: Quiet = False) -> None:
     """Run the built-in reference cases and print what was expected and what came out."""
-    from rich import box
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
-
     from conveyor import validation
+    from conveyor.cli.terminal import console, table
 
     checks = validation.run()
-    table = Table("source, quantity", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
+    made = table()
+    made.add_column("reference")
     for heading in ("expected", "got", "deviation", "allowed", ""):
-        table.add_column(heading, no_wrap=True, justify="right")
-    source = ""
+        made.add_column(heading, no_wrap=True, justify="right")
     for check in checks:
-        if check.source != source:
-            source = check.source
-            table.add_row(f"[bold]{escape(source)}[/]")
-        table.add_row(
-            escape(check.quantity),
-            f"{check.expected:.8g}" if isinstance(check.expected, float) else str(check.expected),
-            f"{check.got:.8g}" if isinstance(check.got, float) else str(check.got),
-            f"{check.deviation:.0e}",
-            f"{check.tolerance:.0e}",
+        made.add_row(
+            f"{check.source}: {check.quantity}",
+            f"{check.expected:.7g}" if isinstance(check.expected, float) else str(check.expected),
+            f"{check.got:.7g}" if isinstance(check.got, float) else str(check.got),
+            f"{check.deviation:.1e}",
+            f"{check.tolerance:.1e}",
             "ok" if check.passed else "[bold red]FAILED[/]",
         )
     failed = sum(not check.passed for check in checks)
     if not quiet:
-        Console(highlight=False).print(table)
+        console().print(made)
         print(f"{len(checks) - failed} of {len(checks)} agree")
     if failed:
         raise NoSolutionError(f"{failed} reference cases do not agree: do not trust results on this machine")

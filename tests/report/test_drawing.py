@@ -90,7 +90,7 @@ def test_power_over_speed_passes_through_the_analysis(result, figures):
 def test_values_of_ones_own(result):
     figure = result.plots.power_against_temperature(["50 degF", "20 degC"])
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([10.0, 20.0])
-    with pytest.raises(InputError, match="nothing to draw: .*cross-section"):
+    with pytest.raises(InputError, match=r"nothing to draw: .*cross-section"):
         result.plots.power_against_speed(["20 fpm"])  # the bulk does not fit the belt
     with pytest.raises(InputError, match="kn"):
         result.plots.power_against_speed(["5 kn"])
