@@ -58,8 +58,12 @@ class _Strip:
     def amplitude(self, m: Array) -> ComplexArray:
         """p̃̂_m about the strip's centre, ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m (spectral.py)."""
         v = np.arange(1, self.c.size + 1)
-        phased = 0.5 * v * self.c * (-1j) ** ((v - 1) % 4)
-        out: ComplexArray = (phased @ bessel_j(self.c.size, m * self.alpha)[1:].astype(complex)) / m
+        signed = 0.5 * v * self.c * np.where((v - 1) % 4 < 2, 1.0, -1.0)
+        table = bessel_j(self.c.size, m * self.alpha)
+        out = np.empty(m.shape, dtype=complex)
+        out.real = signed[::2] @ table[1::2]  # (-i)^{v-1} is real for odd v, imaginary for even
+        out.imag = -(signed[1::2] @ table[2::2])
+        out /= m
         return out
 
 

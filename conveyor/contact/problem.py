@@ -112,8 +112,11 @@ class CreepSpectrum:
         out = np.full(m.shape, self.instantaneous, dtype=complex)
         if self.weights.size:
             mz = np.multiply.outer(m, self.times)
-            # 1/(1 - iz) = (1 + iz)/(1 + z²), written so that z = 1e200 does not overflow
-            out += (1.0 / (1.0 - 1j * mz)) @ self.weights
+            with np.errstate(over="ignore"):  # 1/(1 + z²) of z = 1e200 is zero, to rounding
+                real = 1.0 / (1.0 + mz * mz)
+            out.real += real @ self.weights
+            real *= mz
+            out.imag = real @ self.weights
         return out
 
 
