@@ -52,7 +52,7 @@ _MOST_CHECKS: Final = 22
 """Checks that the page takes beside the rest; those that passed give way first."""
 _CHART_ROWS: Final = 14
 _HALF, _WHOLE_WIDTH, _CHART_HEIGHT = 9.2, 26.0, 7.2  # [cm]
-_LARGE: Final = 1e4  # beyond it a figure in large type needs no decimals
+_SMALL, _LARGE = 10.0, 1e4  # below, one decimal is too few; beyond, a figure in large type needs none
 _RULE: Final = Border(bottom=Side(style="thin", color=ACCENT))
 _HAIR: Final = Border(bottom=Side(style="hair", color="A6A6A6"))
 _ROW: Final = 15.0  # [pt]
@@ -197,11 +197,19 @@ def _tiles(page: Page, row: int) -> int:
     for letter, (name, value) in zip("ABDEFG", given, strict=False):
         caption, figure = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
         put(caption, name.replace(" of main resistance", ""), GREY)
-        put(figure, value, FIGURE, "#,##0" if abs(value) >= _LARGE else number_format(name))
+        put(figure, value, FIGURE, _format(name, value, large="#,##0"))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
         figure.alignment = Alignment(horizontal="left", vertical="center", indent=1)
     sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
     return _gap(sheet, row + 2)
+
+
+def _format(name: str, value: float, *, large: str = "#,##0.0") -> str:
+    """Number format of a figure by its unit; small figures with more digits, large ones with as many as asked for."""
+    shown = number_format(name)
+    if shown != "#,##0.0":
+        return shown
+    return large if abs(value) >= _LARGE else "0.000" if abs(value) < _SMALL else shown
 
 
 def _by_name(page: Page) -> dict[str, tuple[str, float]]:
@@ -225,7 +233,7 @@ def _figures(page: Page, analysis: Analysis, row: int) -> int:
         if name in names:
             i += 1
             label, value = names[name]
-            _line(sheet, (i, 1), label.replace(" of the contacts", ""), value, number_format(label))
+            _line(sheet, (i, 1), label.replace(" of the contacts", ""), value, _format(label, value))
             if name == "motor_power":
                 sheet.cell(i, 1).font = sheet.cell(i, 2).font = BOLD
     _rule(sheet, row, "Resistances", 4)

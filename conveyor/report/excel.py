@@ -57,7 +57,7 @@ COMPARISON_SHEETS: Final = {
 }
 _WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them."""
-_PORTRAIT: Final = ("Summary", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
+_PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
 
 
 def write(

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _CHART_COLUMN = "F"
 _CURVES_COLUMN = "H"
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
+_PAGE_ROWS = 110  # of a compound that still fit its page
 _FILLED = 1.05  # of a line's width that text takes before it breaks at a word
 _PIECE = 1000  # characters of a note in one cell
 
@@ -106,6 +107,8 @@ def rubber(page: Page, analysis: Analysis) -> None:
         if len(compounds) == 1:  # one compound on both strands
             define(sheet, "table_moduli_return", moduli.cells)
             define(sheet, "table_prony_return", prony.cells)
+    if row <= _PAGE_ROWS * len(compounds):
+        sheet.page_setup.fitToHeight = len(compounds)
     sheet.freeze_panes = "B1"
 
 

@@ -17,10 +17,10 @@ _MOST_BARS = 24
 
 
 def states(page: Page, _: Analysis) -> None:
-    """Route profile beside its chart, and the tension at every place in every state of motion."""
+    """Route profile beside its chart where it rises, and the tension at every place in every state of motion."""
     profile = page.place("profile", 1)
     row = profile.last + 3
-    if profile.whole:
+    if profile.whole and page.contents["profile"].frame.iloc[:, 3].nunique() > 1:
         chart = charts.profile(page.sheet, header=profile.header, last=profile.last)
         page.sheet.add_chart(chart, f"{_CHART_COLUMN}{profile.header}")
         row = max(row, profile.header + _CHART_ROWS)
