@@ -122,14 +122,14 @@ def table(
         values = [_worded(value) for value in frame[name].tolist()]
         text = not name.endswith("]") and all(v is None or isinstance(v, str) for v in values)
         _head(sheet.cell(row, j), name, right=not text)
-        at = sheet.cell(row + 1, j)
+        at = row + 1, j
         longest = (
-            _text_column(at, values, widest)
+            _text_column(sheet, at, values, widest)
             if text
-            else _number_column(at, values, formats, number_format(name))
+            else _number_column(sheet, at, values, formats or [number_format(name)] * len(values))
         )
         if name in _JUDGED:
-            _judge(at, values)
+            _judge(sheet, at, values)
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
         wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
@@ -154,13 +154,13 @@ def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> 
             )
 
 
-def _text_column(at: Cell, values: list[Any], widest: int) -> int:
-    """Write a column of text from a cell downward; the width it asks for."""
-    sheet, longest, model = at.parent, 0, None
-    for i, value in enumerate(values, start=at.row):
+def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], widest: int) -> int:
+    """Write a column of text from (row, column) downward; the width it asks for."""
+    longest, model = 0, None
+    for i, value in enumerate(values, start=at[0]):
         if value is None:
             continue
-        cell = sheet.cell(i, at.column)
+        cell = sheet.cell(i, at[1])
         lines = -(-(len(value) + 3) // widest)
         if lines > 1:
             cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=True, vertical="top")
@@ -174,33 +174,32 @@ def _text_column(at: Cell, values: list[Any], widest: int) -> int:
     return longest
 
 
-def _number_column(at: Cell, values: list[Any], formats: list[str], shown: str) -> int:
-    """Write a column of numbers from a cell downward; the width it asks for."""
-    sheet, longest = at.parent, 0
-    models: dict[str, Cell] = {}
-    for i, value in enumerate(values):
-        cell = sheet.cell(at.row + i, at.column)
-        wanted = formats[i] if formats else shown
-        if wanted in models:
-            _dress_like(cell, models[wanted])
+def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], formats: list[str]) -> int:
+    """Write a column of numbers from (row, column) downward, each in its format; the width it asks for."""
+    longest = 0
+    models: dict[str, Cell | MergedCell] = {}
+    for i, (value, shown) in enumerate(zip(values, formats, strict=True), start=at[0]):
+        cell = sheet.cell(i, at[1])
+        if shown in models:
+            _dress_like(cell, models[shown])
         else:
-            cell.number_format, models[wanted] = wanted, cell
+            cell.number_format, models[shown] = shown, cell
         put(cell, value)
-        longest = max(longest, _length(cell.value, wanted))
+        longest = max(longest, _length(cell.value, shown))
     return longest
 
 
-def _dress_like(cell: Cell, model: Cell) -> None:
+def _dress_like(cell: Any, model: Any) -> None:
     """Give a cell the look of another: a tenth of the time of setting its parts."""
     cell._style = copy(model._style)  # noqa: SLF001 openpyxl's own way to copy a look
 
 
-def _judge(at: Cell, values: list[Any]) -> None:
+def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
     """Colour verdicts; their words stay what they are read by."""
-    for i, value in enumerate(values, start=at.row):
+    for i, value in enumerate(values, start=at[0]):
         if value in VERDICTS:
             look = VERDICTS[value]
-            cell = at.parent.cell(i, at.column)
+            cell = sheet.cell(i, at[1])
             cell.font, cell.fill, cell.alignment = look.font, look.fill, _CENTRE
 
 

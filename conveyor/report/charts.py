@@ -59,6 +59,11 @@ def _dress(chart: Any, title: str, x: str, y: str) -> None:
     chart.width, chart.height = _WIDTH, _HEIGHT
 
 
+def sized(chart: Any, width: float, height: float = _HEIGHT) -> None:
+    """Give a chart another size [cm]."""
+    chart.width, chart.height = width, height
+
+
 def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, value: int) -> BarChart:
     """Bars of the figures of a table, labels and figures in two of its columns; `rows` are header and last."""
     header, last = rows

@@ -212,9 +212,9 @@ def _loop(analysis: Analysis) -> Iterator[Part]:
     yield Part("States", "tension_states", "Tension in every state of motion", states)
     yield Part("Loop", "drives", "Drives in every state of motion", loop_tables.drives(found))
     take_up = loop_tables.take_up(found)
-    words = [name for name, value in take_up.items() if isinstance(value, str)]
-    note = ", ".join(f"{name}: {take_up[name]}" for name in words)
-    figures = listed(take_up.drop(words).astype(float))
+    words = {name: value for name, value in take_up.items() if isinstance(value, str)}
+    note = ", ".join(f"{name}: {value}" for name, value in words.items())
+    figures = listed(take_up.drop(list(words)).astype(float))
     yield Part("Loop", "take_up", "Take-up", figures, "quantity", "take_up_", note)
     yield Part(
         "Loop",

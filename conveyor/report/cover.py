@@ -71,7 +71,6 @@ def summary(page: Page, analysis: Analysis) -> None:
     row = _picture(page, row)
     _checked(page, analysis, row)
     sheet.page_setup.fitToHeight = 1
-    sheet.page_setup.horizontalCentered = True
     sheet.print_options.horizontalCentered = True
 
 
@@ -256,7 +255,7 @@ def _picture(page: Page, row: int) -> int:
     first = next(i for i in range(1, row) if sheet.cell(i, 4).value == place.frame.columns[0])
     rows = first, first + len(place.frame)
     chart = charts.bars(sheet, "Resistance breakdown", rows, label=4, value=5)
-    chart.height, chart.width = _CHART_HEIGHT, _WHOLE_WIDTH if cases is None else _HALF
+    charts.sized(chart, _WHOLE_WIDTH if cases is None else _HALF, _CHART_HEIGHT)
     sheet.add_chart(chart, f"A{row}")
     end = row + _CHART_ROWS
     if cases is not None:

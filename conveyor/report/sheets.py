@@ -82,7 +82,7 @@ def indentation(page: Page, _: Analysis) -> None:
     if place.whole:
         frame = page.contents["indentation"].frame
         chart = charts.indentation(page.sheet, frame, header=place.header)
-        chart.width = _NARROW
+        charts.sized(chart, _NARROW)
         page.sheet.add_chart(chart, f"{_CURVES_COLUMN}{place.header + 1}")
 
 
@@ -101,7 +101,7 @@ def rubber(page: Page, analysis: Analysis) -> None:
         moduli = page.place(f"moduli_{strand}", row)
         prony = page.place(f"prony_{strand}", moduli.last + 3)
         chart = charts.moduli(sheet, compound.name, header=moduli.header, last=moduli.last)
-        chart.width = _NARROW
+        charts.sized(chart, _NARROW)
         sheet.add_chart(chart, f"{_CHART_COLUMN}{moduli.header + 1}")
         row = prony.last + 3
         if len(compounds) == 1:  # one compound on both strands
