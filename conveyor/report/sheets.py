@@ -160,7 +160,6 @@ def notes(page: Page, analysis: Analysis) -> None:
     ):
         row = paragraphs(sheet, row, heading, lines)
     page.place("provenance", row, widest=70)
-    sheet.freeze_panes = "A3"
 
 
 def paragraphs(
