@@ -13,6 +13,7 @@ from conveyor.units import Bounds, Fraction, quantity, si
 
 PRODUCT_TOLERANCE: Final = 1e-9
 """Efficiencies are typed as decimals; a product that differs by more is another train's."""
+_DIGITS: Final = 12  # of a product of decimals; beyond is rounding
 
 
 class DrivePart(Model):
@@ -40,4 +41,4 @@ def with_efficiency(data: Mapping[str, Any]) -> Mapping[str, Any]:
         parts = [DrivePart.model_validate(part) for part in given]
     except ValidationError:
         return data  # refused by the field itself, at its own place
-    return {**data, "efficiency": quantity(product(parts, "belt"), "fraction")}
+    return {**data, "efficiency": quantity(round(product(parts, "belt"), _DIGITS), "fraction")}
