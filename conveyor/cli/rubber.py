@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from types import ModuleType
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +13,11 @@ from conveyor.cli import outputs
 from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, write_text
 from conveyor.cli.completion import compound_names
 from conveyor.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+    from rich.table import Table
 
 ZERO_CELSIUS = 273.15
 
@@ -94,20 +101,18 @@ def fit(
     except InputError as error:
         said = str(error)
         raise InputError(said if said.startswith(str(data)) else f"{data}: {said}") from None
-    if not quiet:
-        from conveyor.report import fitting
+    from conveyor.report import fitting
 
-        print("\n".join(fitting.lines(found)))
+    lines = fitting.lines(found)
     if plot is not None:
-        from conveyor.report import fitting, plots
+        from conveyor.report import plots
 
-        drawn = plots.save(fitting.figure(found), plot)
-        if not quiet:
-            print(f"figure: {drawn}")
+        lines.append(f"figure: {plots.save(fitting.figure(found), plot)}")
     if output is not None:
         write_text(output, compound_file.dump(found.compound, "Written by conveyor fit"))
-        if not quiet:
-            print(f"compound file: {output}")
+        lines.append(f"compound file: {output}")
+    if not quiet:
+        print("\n".join(lines))
 
 
 @app.command(
@@ -167,11 +172,7 @@ def shelf(
         table = Table(title=escape(compound.name), title_justify="left", show_header=False)
         for key, value in rows.items():
             table.add_row(key, escape(value))
-        console.print(table)
-        if plot is not None:
-            from conveyor.report import plots
-
-            print(f"figure: {plots.save(plots.master_curve(compound, kelvin), plot)}")
+        _show(console, table, plot, lambda plots: plots.master_curve(compound, kelvin))
         return
     table = Table(
         title=f"E' and tan delta at {at}, {frequency}",
@@ -196,8 +197,15 @@ def shelf(
         storage, tangent = float(series.storage(omega)) / 1e6, float(series.tan_delta(omega))
         table.add_row(known, compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
         drawn.append(compound)
-    console.print(table)
+    _show(console, table, plot, lambda plots: plots.loss_tangents(drawn, kelvin))
+
+
+def _show(console: Console, table: Table, plot: Path | None, figure: Callable[[ModuleType], Figure]) -> None:
+    """Draw what is asked for, then print the table: what fails says so alone."""
     if plot is not None:
         from conveyor.report import plots
 
-        print(f"figure: {plots.save(plots.loss_tangents(drawn, kelvin), plot)}")
+        plots.save(figure(plots), plot)
+    console.print(table)
+    if plot is not None:
+        print(f"figure: {plot}")
