@@ -48,8 +48,8 @@ def new(
         raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
     if spec.is_file() and not force:
         raise InputError(f"{spec}: exists; choose another name, or replace it with --force")
-    from conveyor.starter import written
+    from conveyor.starter import quoted, written
 
     write_text(spec, written(kind.value, units.value, file=spec.name))
     if not quiet:
-        print(f"spec: {spec}\nnext: conveyor power {spec}")
+        print(f"spec: {spec}\nnext: conveyor power {quoted(str(spec))}")

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from conveyor.starter.write import KINDS, Kind, values, written
+from conveyor.starter.write import KINDS, Kind, quoted, values, written
 
-__all__ = ["KINDS", "Kind", "values", "written"]
+__all__ = ["KINDS", "Kind", "quoted", "values", "written"]

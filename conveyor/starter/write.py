@@ -13,6 +13,7 @@ from typing import Any, Final, Literal, get_args
 from ruamel.yaml import YAML
 
 from conveyor.kinds import KINDS as QUANTITIES
+from conveyor.misreadings import on_one_line
 from conveyor.models import Conveyor
 from conveyor.template.layout import Group, Leaf, Part, Table, layout
 from conveyor.units import System, quantity, text
@@ -21,6 +22,7 @@ Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
 """Conveyors there is a starter of."""
 
+_PLAIN_NAME: Final = re.compile(r"[\w.,:/\\+~-]+")
 _OPTIONAL: Final = "?"
 _WIDTH: Final = 112
 _COMMENT_COLUMN: Final = 40
@@ -106,8 +108,19 @@ def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str
     'name: My overland conveyor              # What the conveyor is called in reports.'
     """
     lines = _Writer(units).group(layout(Conveyor), _read(f"{kind}.yaml"), ())
-    heading = _HEADING.format(name=f"A conveyor ({kind})", file=file, units=_units())
+    heading = _HEADING.format(name=f"A conveyor ({kind})", file=quoted(file), units=_units())
     return "\n".join([heading, *lines]).rstrip() + "\n"
+
+
+def quoted(name: str) -> str:
+    """Write the name of a file as it stands in a command: in quotes where it has blanks, on one line in any case.
+
+    Examples
+    --------
+    >>> quoted("mine.yaml"), quoted("my belt.yaml")
+    ('mine.yaml', '"my belt.yaml"')
+    """
+    return name if _PLAIN_NAME.fullmatch(name) else f'"{on_one_line(name)}"'
 
 
 def _units() -> str:

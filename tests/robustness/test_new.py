@@ -91,3 +91,10 @@ def test_every_line_has_a_comment_and_fits_a_screen(kind: starter.Kind, units: S
             assert " # " in line, line
         if not line.lstrip().startswith("- {") and not line.lstrip("# ").startswith("- {"):
             assert len(line) <= 112, line
+
+
+@pytest.mark.parametrize("name", ["my belt.yaml", "a\nb: 1.yaml", 'he said "x".yaml', "# 1.yaml"])
+def test_any_name_of_a_file_stays_inside_the_heading(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text(starter.written("overland", file=name), encoding="utf-8")
+    assert conveyor.load(path) == spec.from_data(starter.values("overland"))
