@@ -126,12 +126,12 @@ def read_document(path: Path) -> Document:
     data: Any = _json(content, path) if is_json else None
     root = _composed(content.replace("\t", " ") if is_json else content, path)
     if root is None:
-        raise InputError(f"{path}:1:1 file: empty; expected a mapping of fields (key: value)")
+        raise InputError(f"{path}:1:1 file: empty; expected fields (key: value)")
     if not isinstance(root, MappingNode):
         found = "a list" if isinstance(root, SequenceNode) else "a single value"
         place = _place(root)
         raise InputError(
-            f"{path}:{place.line}:{place.column} file: expected a mapping of fields (key: value), got {found}"
+            f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {found}"
         )
     reader = _Reader(str(path))
     read = reader.value(root, ())
@@ -236,7 +236,7 @@ class _Reader:
             if not isinstance(key, ScalarNode):
                 self.findings.append(
                     Finding(
-                        _place(key), _path(location), "expected text before the colon, got a list or mapping"
+                        _place(key), _path(location), "expected text before the colon, got a list or fields"
                     )
                 )
                 continue

@@ -28,9 +28,9 @@ _EXPECTED = {
     "int_parsing_size": "a whole number of a usual size",
     "bool_type": "true or false",
     "tuple_type": "a list",
-    "model_type": "a mapping of fields",
-    "model_attributes_type": "a mapping of fields",
-    "dict_type": "a mapping of fields",
+    "model_type": "fields (key: value)",
+    "model_attributes_type": "fields (key: value)",
+    "dict_type": "fields (key: value)",
     "finite_number": "a finite number",
 }
 
@@ -115,7 +115,7 @@ def _bare(name: str) -> str:
 def shown(value: Any) -> str:
     """Write a given value for a message, shortened."""
     if isinstance(value, dict | BaseModel):
-        return "a mapping"
+        return "several fields"
     if isinstance(value, list | tuple):
         return "a list"
     if value is None:

@@ -66,7 +66,7 @@ def _shown(value: object) -> str:
     if value is None:
         return "nothing"
     if isinstance(value, dict | list | tuple):
-        return "a mapping" if isinstance(value, dict) else "a list"
+        return "several fields" if isinstance(value, dict) else "a list"
     if isinstance(value, bool):
         return str(value).lower()
     shown = f'"{on_one_line(value)}"' if isinstance(value, str) else repr(value)

@@ -53,6 +53,10 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
         return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
     if where.suffix.lower() in _TABLES:
         raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
+    if where.suffix.lower() not in {".yaml", ".yml", ".json"} and not where.is_dir():
+        raise InputError(
+            f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"'
+        )
     document = read_document(where)
     context = {"compound": shelf.resolver(extra=shelves, base=where.parent)}
     found = list(document.findings)

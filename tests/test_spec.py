@@ -84,7 +84,7 @@ POSITIONS = [
     ("friction: 0.35", "friction: yes", '23:40 drive.friction: expected a number, got "yes"'),
     ("friction: 0.35", "friction: true", "23:40 drive.friction: expected a number, got true"),
     ("efficiency: 95 %", "efficiency: 95", "23:58 drive.efficiency: got 95, allowed: > 0 and <= 1"),
-    ("drive: {wrap", "drive: [] #", "23:1 drive: expected a mapping of fields, got a list"),
+    ("drive: {wrap", "drive: [] #", "23:1 drive: expected fields (key: value), got a list"),
     ("flow: 2000 t/h", "flow: 9000 t/h", "18:51 material.flow: got 9000 t/h, which at 5 m/s (belt.speed) needs"),
     ("20 degC", "20 C", '24:24 ambient.temperature: got "20 C": unknown unit "C"; did you mean "20 degC"?'),
     ("20 degC", "95 degC",
@@ -183,10 +183,10 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", ":1:1 file: empty; expected a mapping"),
-        (b"# only a comment\n", ":1:1 file: empty; expected a mapping"),
-        (b"- a\n- b\n", r":1:1 file: expected a mapping of fields \(key: value\), got a list"),
-        (b"\n\n  just text\n", ":3:3 file: expected a mapping of fields .* got a single value"),
+        (b"", ":1:1 file: empty; expected fields"),
+        (b"# only a comment\n", ":1:1 file: empty; expected fields"),
+        (b"- a\n- b\n", r":1:1 file: expected fields \(key: value\), got a list"),
+        (b"\n\n  just text\n", ":3:3 file: expected fields .* got a single value"),
         (b"a: 1\nname: M\xfcller\n", ":2:8 file: not UTF-8 text .byte 0xfc.; save it as UTF-8"),
         (b"\xff\xfea\x00", ":1:1 file: UTF-16 text, expected UTF-8; save it as UTF-8"),
         (b"a: 1\n" * 300_000, "larger than 500,000 bytes"),
@@ -220,7 +220,7 @@ def test_anchors_and_aliases_are_read(tmp_path: Path) -> None:
     ("name", "message"),
     [
         ("none.yaml", "none.yaml: no such file"),
-        ("spec.toml", "ends in .yaml, .yml or .json"),
+        ("spec.toml", "ends in .yaml, .yml, .json or .xlsx"),
         ("folder.yaml", "is a folder; give a file in it"),
     ],
 )
@@ -253,7 +253,7 @@ def test_json_spec_with_positions(tmp_path: Path) -> None:
     [
         ('{"name": "a",}', r"spec.json:1:1[34] syntax: "),
         ('{"name": NaN, "name": 2}', "spec.json:1:15 name: given twice, first in line 1"),
-        ("[1]", "spec.json:1:1 file: expected a mapping"),
+        ("[1]", "spec.json:1:1 file: expected fields"),
         ("  ", "spec.json:1:1 file: empty"),
         ("[" * 100_000, "spec.json:1:1 syntax: nested deeper"),
     ],

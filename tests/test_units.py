@@ -116,7 +116,7 @@ TRAPS = [
     (True, "length", "got true"),
     (True, "fraction", "got true"),
     ([1], "length", "got a list"),
-    ({"a": 1}, "length", "got a mapping"),
+    ({"a": 1}, "length", "got several fields"),
     ("much", "fraction", r'expected a fraction \(0.95 or "95 %"\), got "much"'),
     ("much", None, r'expected a number and a unit such as "1200 mm"'),
 ]
