@@ -45,7 +45,9 @@ def test_power_json_is_clean_and_complete() -> None:
     )
     assert found["power_kW"]["belt"] == pytest.approx(forces["total"] * 5.0 / 1e3, rel=1e-12)
     assert found["power_kW"]["motor"] == pytest.approx(found["power_kW"]["belt"] / 0.94, rel=1e-12)
-    assert found["power_kW"]["mains"] == found["power_kW"]["motor"]  # no part between mains and motor shaft given
+    assert (
+        found["power_kW"]["mains"] == found["power_kW"]["motor"]
+    )  # no part between mains and motor shaft given
     assert {"friction_factor", "tensions_N", "sections", "warnings"} <= set(found)
     assert len(found["sections"]) == 20
 
