@@ -17,8 +17,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import conveyor
-from conveyor.balance import balance
-from conveyor.line import Track, indented, surfaces
+from conveyor.line.walk import Track, indented, surfaces
+from conveyor.loop.balance import balance
 from conveyor.models import Conveyor
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -13,33 +13,33 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis, analyse
-    from conveyor.cases import CaseStudy, analyse_cases
-    from conveyor.comparison import Comparison, compare, compare_compounds
-    from conveyor.duty import DutyStudy, analyse_duty
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
+    from conveyor.studies.cases import CaseStudy, analyse_cases
+    from conveyor.studies.comparison import Comparison, compare, compare_compounds
+    from conveyor.studies.duty import DutyStudy, analyse_duty
 
     __version__: str
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
-    "CaseStudy": "conveyor.cases",
-    "Comparison": "conveyor.comparison",
+    "CaseStudy": "conveyor.studies.cases",
+    "Comparison": "conveyor.studies.comparison",
     "Conveyor": "conveyor.models",
     "ConveyorError": "conveyor.errors",
-    "DutyStudy": "conveyor.duty",
+    "DutyStudy": "conveyor.studies.duty",
     "InputError": "conveyor.errors",
     "NoSolutionError": "conveyor.errors",
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
     "analyse": "conveyor.analysis",
-    "analyse_cases": "conveyor.cases",
-    "analyse_duty": "conveyor.duty",
-    "compare": "conveyor.comparison",
-    "compare_compounds": "conveyor.comparison",
+    "analyse_cases": "conveyor.studies.cases",
+    "analyse_duty": "conveyor.studies.duty",
+    "compare": "conveyor.studies.comparison",
+    "compare_compounds": "conveyor.studies.comparison",
     "load": "conveyor.spec",
 }
 
@@ -69,9 +69,9 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("conveyor")
     if name == "libraries":
-        return import_module("conveyor.libraries")
+        return import_module("conveyor.files.libraries")
     if name in _WHERE:
         return getattr(import_module(_WHERE[name]), name)
     if name == "uncertainty":
-        return import_module("conveyor.uncertainty")
+        return import_module("conveyor.studies.uncertainty")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

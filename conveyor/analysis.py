@@ -7,20 +7,20 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from conveyor.balance import Balance
-from conveyor.belt_duty import BeltDuty, belt_duty
-from conveyor.curved import Convergence, run
-from conveyor.line import StretchResult
+from conveyor.line.walk import StretchResult
+from conveyor.loop.balance import Balance
+from conveyor.loop.belt_duty import BeltDuty, belt_duty
+from conveyor.loop.curved import Convergence, run
+from conveyor.loop.starting import Motions, motions
 from conveyor.models import Conveyor
 from conveyor.remarks import assumptions, warnings
-from conveyor.starting import Motions, motions
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from conveyor.drawing import AnalysisPlots
     from conveyor.report.files import FileKind
     from conveyor.studies import Studies
+    from conveyor.studies.drawing import AnalysisPlots
     from conveyor.units import System
 
 
@@ -288,7 +288,7 @@ class Analysis:
     @property
     def plots(self) -> AnalysisPlots:
         """Figures: resistances, tensions, profile, pressure, rubber, power over temperature and speed."""
-        from conveyor.drawing import AnalysisPlots
+        from conveyor.studies.drawing import AnalysisPlots
 
         return AnalysisPlots(self)
 

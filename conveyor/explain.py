@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from conveyor.document import Document, Finding
+from conveyor.files.document import Document, Finding
 from conveyor.kinds import KINDS
 from conveyor.misreadings import on_one_line
 from conveyor.models.base import Location, field_path, real_errors

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from conveyor.document import listing, read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings
+from conveyor.files.document import listing, read_document
+from conveyor.files.shelves import ENVIRONMENT, SUFFIXES, built_in, files, folders
 from conveyor.models.compound import RubberCompound
-from conveyor.shelf_files import ENVIRONMENT, SUFFIXES, built_in, files, folders
 
 __all__ = ["ENVIRONMENT", "built_in", "compound", "folders", "names", "read_compound", "resolver"]
 

@@ -14,9 +14,9 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from conveyor import shelf
-from conveyor.document import listing, read_document
 from conveyor.errors import InputError
 from conveyor.explain import findings, message
+from conveyor.files.document import listing, read_document
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path, real_errors
 

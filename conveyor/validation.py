@@ -14,7 +14,6 @@ from importlib import resources
 
 import numpy as np
 
-from conveyor import loading, power, resistance, tension
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum, solve
 from conveyor.contact.closed_forms import (
     composite_plane_modulus,
@@ -23,6 +22,7 @@ from conveyor.contact.closed_forms import (
     hunter_at_load,
     plane_modulus,
 )
+from conveyor.laws import loading, power, resistance, tension
 from conveyor.rubber.prony import PronySeries
 
 _PROTOTYPE = "Bessel-Galerkin prototype"

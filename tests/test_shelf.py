@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from conveyor import shelf, shelf_files
+from conveyor import shelf
 from conveyor.errors import InputError
+from conveyor.files import shelves as shelf_files
 from conveyor.units import si
 
 BUILT_IN = ["cold-resistant-cover", "low-rolling-resistance-cover", "s100", "s120", "standard-cover"]
@@ -115,7 +116,7 @@ def test_file_with_errors_lists_all_with_places(tmp_path: Path) -> None:
 def test_packaged_shelf_is_found_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = tmp_path / "conveyor"
     package.mkdir()
-    monkeypatch.setattr(shelf_files, "__file__", str(package / "shelf_files.py"))
+    monkeypatch.setattr(shelf_files, "__file__", str(package / "files" / "shelves.py"))
     with pytest.raises(InputError, match="no built-in shelf in"):
         shelf.built_in()
     (tmp_path / "materials").mkdir()

@@ -13,7 +13,7 @@ import pytest
 
 from conveyor import spec
 from conveyor.errors import InputError
-from conveyor.loading import bulk_line_mass, cross_section, usable_width
+from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.models import Conveyor
 from conveyor.units import si, text
 

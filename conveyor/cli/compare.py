@@ -33,7 +33,7 @@ from conveyor.cli.completion import compound_names
 from conveyor.errors import InputError, NoSolutionError
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison
+    from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
 
@@ -122,7 +122,7 @@ def compare(
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         outputs.file(option, path, ".png", ".svg", ".pdf")
     import conveyor
-    from conveyor.comparison import compare_compounds
+    from conveyor.studies.comparison import compare_compounds
 
     line = conveyor.load(spec, shelves=shelf or ())
     system: System = line.report.units if units is None else units.value

@@ -14,7 +14,7 @@ from conveyor.report.axes import scale
 from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison
+    from conveyor.studies.comparison import Comparison
 
 Row = Mapping[Hashable, Any]
 _ZERO = 273.15  # degC in K

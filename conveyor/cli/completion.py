@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from conveyor.errors import InputError
-from conveyor.shelf_files import files
+from conveyor.files.shelves import files
 
 
 def compound_names(context: typer.Context, incomplete: str) -> list[str]:

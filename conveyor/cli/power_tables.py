@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from conveyor.analysis import Analysis
-    from conveyor.cases import CaseStudy
     from conveyor.models import Conveyor
     from conveyor.studies import Studies
-    from conveyor.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CaseStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
 
 
 def show(result: Analysis, asked: Studies, system: System) -> None:

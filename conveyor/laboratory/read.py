@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.file_content import file_content
+from conveyor.files.content import file_content
 from conveyor.laboratory.arrange import Arrangement, arrange
 from conveyor.laboratory.cells import Grid, refusal
 from conveyor.laboratory.columns import Question, Series, check_units, column_label, read_columns

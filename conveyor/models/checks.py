@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from conveyor.errors import RangeError
-from conveyor.loading import bulk_line_mass, cross_section, usable_width
+from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
+from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.models.base import Location, Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.route import Feeding
-from conveyor.resistance import SHORTEST_FOR_FACTOR
 from conveyor.units import Quantity, display, from_si, si, text
 
 if TYPE_CHECKING:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from conveyor.laws.resistance import FLEXURE_SHARE, FRICTION_FACTOR
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.belt import Belt
 from conveyor.models.cases import LoadCase, named_once
@@ -18,7 +19,6 @@ from conveyor.models.operation import EarthTemperature, Operation
 from conveyor.models.report import Report
 from conveyor.models.route import Route
 from conveyor.models.uncertainty import Uncertainty
-from conveyor.resistance import FLEXURE_SHARE, FRICTION_FACTOR
 from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, text
 
 

@@ -7,10 +7,10 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import ConfigDict, Field, model_validator
 
+from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
 from conveyor.models.train import PRODUCT_TOLERANCE, DrivePart, product, with_efficiency
-from conveyor.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.units import Acceleration, Angle, Bounds, Force, Fraction, Mass, Power, quantity, si, text
 
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value

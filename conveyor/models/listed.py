@@ -9,8 +9,8 @@ from pydantic import GetJsonSchemaHandler, StringConstraints, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from conveyor import libraries
 from conveyor.errors import InputError
+from conveyor.files import libraries
 from conveyor.models.base import Model, Problem, refuse
 
 ListedName = Annotated[str, StringConstraints(min_length=1, max_length=100)]

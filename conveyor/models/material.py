@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from conveyor.loading import surcharge_from_slope
+from conveyor.laws.loading import surcharge_from_slope
 from conveyor.models.base import Name
 from conveyor.models.listed import Listed, ListedName
 from conveyor.units import Angle, Bounds, Density, MassFlow, si

@@ -6,8 +6,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from conveyor.laws.resistance import SCRAPING_FACTOR
 from conveyor.models.base import Model, Name, Problem, refuse
-from conveyor.resistance import SCRAPING_FACTOR
 from conveyor.units import Bounds, Length, LineForce, quantity
 
 

@@ -6,15 +6,15 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Number, Problem, refuse
-from conveyor.models.listed import Listed, ListedName
-from conveyor.resistance import (
+from conveyor.laws.resistance import (
     BEARING_F0,
     BEARING_F1_EXPONENT,
     BEARING_F1_FACTOR,
     TEST_LOAD,
     TEST_ROTATION,
 )
+from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.listed import Listed, ListedName
 from conveyor.units import (
     Bounds,
     Force,

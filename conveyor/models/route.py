@@ -9,15 +9,15 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
-from conveyor.models.idlers import Spacing
-from conveyor.models.ploughs import Plough
-from conveyor.resistance import (
+from conveyor.laws.resistance import (
     BULK_ON_BELT_FRICTION,
     BULK_ON_SKIRT_FRICTION,
     CLEANER_FRICTION,
     CLEANER_PRESSURE,
 )
+from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
+from conveyor.models.idlers import Spacing
+from conveyor.models.ploughs import Plough
 from conveyor.units import (
     Angle,
     Bounds,

@@ -12,7 +12,7 @@ import numpy as np
 from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
-from conveyor.line import RollResult, StretchResult, excited_band
+from conveyor.line.walk import RollResult, StretchResult, excited_band
 from conveyor.report.axes import scale
 from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
 from conveyor.units import System, display
@@ -20,11 +20,11 @@ from conveyor.units import System, display
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.balance import Balance, Classical
-    from conveyor.cases import CaseResult, CaseStudy
+    from conveyor.line.stretches import Strand
+    from conveyor.loop.balance import Balance, Classical
     from conveyor.models import RubberCompound
-    from conveyor.stretches import Strand
-    from conveyor.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CaseResult, CaseStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
 
 _PARTS = ("indentation", "idler_rotation", "flexure")
 _SUMS = ("main", "secondary", "special", "lift", "total")

@@ -9,9 +9,9 @@ import pandas as pd
 from conveyor.report.comparing import celsius
 
 if TYPE_CHECKING:
-    from conveyor.cases import CaseStudy, MotorChoice
-    from conveyor.duty import DutyStudy
-    from conveyor.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CaseStudy, MotorChoice
+    from conveyor.studies.duty import DutyStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
 
 _UNITS = {"power": ("kW", 1e-3), "force": ("N", 1.0)}
 

@@ -8,19 +8,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from conveyor.line import excited_band
-from conveyor.loop_remarks import HELD
+from conveyor.line.roll_lives import set_life
+from conveyor.line.walk import excited_band
 from conveyor.models import Conveyor
 from conveyor.remarks import DEEP
-from conveyor.roll_lives import set_life
-from conveyor.roll_remarks import ASKED_LIFE
+from conveyor.remarks.loop import HELD
+from conveyor.remarks.rolls import ASKED_LIFE
 from conveyor.units import System, display, is_quantity, si
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.belt_duty import BeltDuty, CurveCheck
-    from conveyor.starting import Motions
-    from conveyor.stretches import Strand
+    from conveyor.line.stretches import Strand
+    from conveyor.loop.belt_duty import BeltDuty, CurveCheck
+    from conveyor.loop.starting import Motions
 
 _WHOLE = re.compile(r"^-?\d{4,}")  # grouped by thousands
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -65,7 +65,7 @@ def checks(analysis: Analysis, system: System = "SI") -> tuple[Check, ...]:
 
     Notes
     -----
-    The limits are those of the warnings (`conveyor.loop_remarks`, `conveyor.roll_remarks`): what fails here is said
+    The limits are those of the warnings (`conveyor.remarks.loop`, `conveyor.remarks.rolls`): what fails here is said
     there with its source.
     """
     conveyor, duty, moving = analysis.conveyor, analysis.belt_duty, analysis.motions

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison, Scene
+    from conveyor.studies.comparison import Comparison, Scene
 
 _ZERO_CELSIUS = 273.15
 

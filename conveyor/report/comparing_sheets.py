@@ -17,7 +17,7 @@ from conveyor.spec import fingerprint
 from conveyor.units import display, si
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison
+    from conveyor.studies.comparison import Comparison
 
 _CHART_ROWS = 20
 

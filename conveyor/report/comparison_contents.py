@@ -13,7 +13,7 @@ from conveyor.spec import fingerprint
 from conveyor.units import System, display
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison
+    from conveyor.studies.comparison import Comparison
 
 SPEED: Final = "belt speed [m/s]"
 _COSTS: Final = ("energy per year", "cost per year", "saving per year", "extra cost", "payback")

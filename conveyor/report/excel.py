@@ -24,8 +24,8 @@ from conveyor.report.unit_systems import chosen
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.comparison import Comparison
     from conveyor.studies import Studies
+    from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
 Subject = TypeVar("Subject", "Analysis", "Comparison")

@@ -23,9 +23,9 @@ from conveyor.units import System
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.comparison import Comparison
     from conveyor.models import Conveyor
     from conveyor.studies import Studies
+    from conveyor.studies.comparison import Comparison
 
 _ENDINGS = (".html", ".htm")
 

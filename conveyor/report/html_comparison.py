@@ -13,7 +13,7 @@ from conveyor.report.page import Part, bullets, facts, table
 from conveyor.units import System, display
 
 if TYPE_CHECKING:
-    from conveyor.comparison import Comparison
+    from conveyor.studies.comparison import Comparison
 
 _RANKED: Final = (
     "compound", "belt speed [m/s]", "mean motor power [kW]", "mean motor power, low [kW]",

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.analysis import Analysis
+    from conveyor.line.stretches import Strand
     from conveyor.models import RubberCompound
-    from conveyor.stretches import Strand
 
 KEY_FIGURES: Final = (
     "motor power [kW]", "effective tension [N]", "tight side tension [N]", "equivalent DIN f [-]",

@@ -15,10 +15,10 @@ from conveyor.report.unit_systems import converted_figure
 from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.cases import CaseStudy
-    from conveyor.duty import DutyStudy
     from conveyor.studies import Studies
-    from conveyor.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CaseStudy
+    from conveyor.studies.duty import DutyStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
 
 _CASE_FIGURES = (
     "case", "temperature [degC]", "belt speed [m/s]", "mass flow [t/h]", "indentation [N]", "effective tension [N]",

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from conveyor.balance import Balance
+    from conveyor.loop.balance import Balance
+    from conveyor.loop.starting import Motions
     from conveyor.models import Conveyor
-    from conveyor.starting import Motions
 
 _HEIGHT = 4.4
 _ROOM = 0.05  # of the length, above and below a level route

@@ -6,13 +6,13 @@ import math
 
 import pandas as pd
 
-from conveyor.balance import Balance
-from conveyor.belt_duty import BeltDuty
-from conveyor.curved import Convergence
+from conveyor.laws.motion import Stop
+from conveyor.laws.take_up import mean_tension, take_up_mass
+from conveyor.loop.balance import Balance
+from conveyor.loop.belt_duty import BeltDuty
+from conveyor.loop.curved import Convergence
+from conveyor.loop.starting import Motions
 from conveyor.models import Conveyor
-from conveyor.motion_laws import Stop
-from conveyor.starting import Motions
-from conveyor.take_up import mean_tension, take_up_mass
 from conveyor.units import si
 
 

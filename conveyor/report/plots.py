@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.legend import Legend
 
-    from conveyor.compared import Coverage, Scene
-    from conveyor.comparison import Comparison
     from conveyor.models import Conveyor, RubberCompound
+    from conveyor.studies.compared import Coverage, Scene
+    from conveyor.studies.comparison import Comparison
 
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)

@@ -14,10 +14,10 @@ from conveyor.report.unit_systems import converted_figure
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.cases import CaseStudy
-    from conveyor.comparison import Comparison
-    from conveyor.duty import DutyStudy
-    from conveyor.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CaseStudy
+    from conveyor.studies.comparison import Comparison
+    from conveyor.studies.duty import DutyStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
 
 _ROWS = 40  # of a table that a notebook is shown
 _SHOWN = (

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from conveyor.balance import Balance
-from conveyor.line import StretchResult, excited_band
+from conveyor.line.roll_lives import roll_life, set_life
+from conveyor.line.stretches import Strand
+from conveyor.line.walk import StretchResult, excited_band
+from conveyor.loop.balance import Balance
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.roll_lives import roll_life, set_life
-from conveyor.stretches import Strand
 from conveyor.units import si
 
 CURVE_POINTS = 25

@@ -19,7 +19,7 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
-from conveyor.file_content import file_content
+from conveyor.files.content import file_content
 from conveyor.template.values import Value
 
 LARGEST_FILE: Final = 3_000_000

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from conveyor import belt_check
 from conveyor.errors import InputError, RangeError
+from conveyor.laws import belt as belt_check
 
 ROUNDING = 1e-13
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from conveyor import resistance
 from conveyor.errors import InputError
-from conveyor.resistance import cema
+from conveyor.laws import resistance
+from conveyor.laws.resistance import cema
 
 ROUNDING = 1e-13
 LB_FT = cema.POUND / cema.FOOT  # [kg/m]

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from conveyor import vertical_curve
 from conveyor.errors import InputError
-from conveyor.loading import curves
+from conveyor.laws import vertical_curve
+from conveyor.laws.loading import curves
 
 ROUNDING = 1e-13
 

@@ -7,20 +7,12 @@ import re
 
 import pytest
 
-from conveyor import (
-    belt_check,
-    drive_laws,
-    energy_laws,
-    loading,
-    motion_laws,
-    power,
-    resistance,
-    roll_life,
-    take_up,
-    tension,
-    vertical_curve,
-)
 from conveyor.contact import closed_forms
+from conveyor.laws import belt as belt_check
+from conveyor.laws import drive as drive_laws
+from conveyor.laws import energy as energy_laws
+from conveyor.laws import loading, power, resistance, roll_life, take_up, tension, vertical_curve
+from conveyor.laws import motion as motion_laws
 
 WITHOUT_UNIT = {"minima", "carcass"}  # a mapping whose text states the unit; a name
 MODULES = (

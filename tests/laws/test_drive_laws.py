@@ -6,8 +6,9 @@ import math
 
 import pytest
 
-from conveyor import drive_laws, tension
 from conveyor.errors import InputError
+from conveyor.laws import drive as drive_laws
+from conveyor.laws import tension
 
 ROUNDING = 1e-13
 

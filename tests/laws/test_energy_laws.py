@@ -6,9 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from conveyor import energy_laws as energy
-from conveyor import power
 from conveyor.errors import InputError, RangeError
+from conveyor.laws import energy, power
 
 ROUNDING = 1e-13
 HOUR = 3600.0

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.resistance import flexure
+from conveyor.laws.resistance import flexure
 
 ROUNDING = 1e-13
 SPAN = {"tension": 50e3, "spacing": 1.2, "loss_tangent": 0.1}

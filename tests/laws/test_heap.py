@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from conveyor import loading
 from conveyor.errors import InputError
-from conveyor.loading import heap
+from conveyor.laws import loading
+from conveyor.laws.loading import heap
 
 TROUGH = {
     "middle_roll_length": 0.436,

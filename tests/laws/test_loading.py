@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import loading
 from conveyor.errors import InputError
+from conveyor.laws import loading
 
 ULPS = 8 * np.finfo(float).eps  # a handful of products and sums
 

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from conveyor import motion_laws as motion
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws import motion
 
 ROUNDING = 1e-13
 

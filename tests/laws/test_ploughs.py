@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.resistance import ploughs
+from conveyor.laws.resistance import ploughs
 
 
 def test_plough_resistance_is_width_times_factor_times_number():

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from conveyor import power
 from conveyor.errors import InputError
+from conveyor.laws import power
 
 ROUNDING = 1e-14
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import pytest
 
-from conveyor import resistance
 from conveyor.errors import InputError, RangeError, ValidityWarning
+from conveyor.laws import resistance
 
 ROUNDING = 1e-14  # a handful of products and sums
 

@@ -7,8 +7,8 @@ import math
 import pytest
 
 from conveyor.errors import InputError, ValidityWarning
-from conveyor.resistance import rim_drag as drag
-from conveyor.resistance import roll_bearing as bearing
+from conveyor.laws.resistance import rim_drag as drag
+from conveyor.laws.resistance import roll_bearing as bearing
 
 ROUNDING = 1e-13  # a handful of products, two powers
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from conveyor import roll_life
 from conveyor.errors import InputError
+from conveyor.laws import roll_life
 
 ROUNDING = 1e-13
 ROLL = {"dynamic_rating": 20e3, "rotation": 10.0}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from conveyor import take_up
 from conveyor.errors import InputError
+from conveyor.laws import take_up
 
 ROUNDING = 1e-13
 LENGTHS = [300.0, 500.0, 200.0]

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from conveyor import tension
 from conveyor.errors import InputError
+from conveyor.laws import tension
 
 ROUNDING = 1e-14
 

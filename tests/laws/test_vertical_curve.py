@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from conveyor import vertical_curve as curve
 from conveyor.errors import InputError
+from conveyor.laws import vertical_curve as curve
 
 ROUNDING = 1e-13
 

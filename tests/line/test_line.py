@@ -145,7 +145,7 @@ def test_secondary_by_length_coefficient(line):
         calculation=line.calculation.replace(secondary="C"),
     )
     found = conveyor.analyse(short).balance
-    from conveyor.resistance import length_coefficient
+    from conveyor.laws.resistance import length_coefficient
 
     assert found.forces.secondary == pytest.approx(
         (length_coefficient(1020.0) - 1.0) * found.forces.main, rel=1e-12

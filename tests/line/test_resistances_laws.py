@@ -9,9 +9,9 @@ import pytest
 
 import conveyor
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.resistance import belt_flexure_resistance, bulk_flexure_bound
+from conveyor.line.set_loads import SetLoads
 from conveyor.report import tables
-from conveyor.resistance import belt_flexure_resistance, bulk_flexure_bound
-from conveyor.set_loads import SetLoads
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -9,10 +9,10 @@ import pytest
 
 import conveyor
 from conveyor.errors import InputError
-from conveyor.resistance import bearing_roll_drag, oil_viscosity
-from conveyor.roll_life import heavier_bearing_load
-from conveyor.roll_lives import roll_life, set_life
-from conveyor.stretches import roll_at, stretches
+from conveyor.laws.resistance import bearing_roll_drag, oil_viscosity
+from conveyor.laws.roll_life import heavier_bearing_load
+from conveyor.line.roll_lives import roll_life, set_life
+from conveyor.line.stretches import roll_at, stretches
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

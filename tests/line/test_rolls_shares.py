@@ -9,9 +9,9 @@ import pytest
 
 import conveyor
 from conveyor.errors import InputError
-from conveyor.loading import cross_section, filled_width, middle_share_by_area, surcharge_from_slope
-from conveyor.set_loads import SetLoads
-from conveyor.stretches import stretches
+from conveyor.laws.loading import cross_section, filled_width, middle_share_by_area, surcharge_from_slope
+from conveyor.line.set_loads import SetLoads
+from conveyor.line.stretches import stretches
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

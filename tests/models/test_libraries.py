@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from conveyor import libraries
 from conveyor.errors import InputError
+from conveyor.files import libraries
 from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.listed import merged, without
+from conveyor.remarks.rolls import roll_assumptions, roll_warnings
 from conveyor.report.inputs import inputs
-from conveyor.roll_remarks import roll_assumptions, roll_warnings
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text
 

@@ -11,11 +11,11 @@ from matplotlib.patches import Rectangle
 
 import conveyor
 from conveyor.errors import InputError
-from conveyor.line import excited_band
+from conveyor.line.walk import excited_band
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
 from conveyor.report.svg import inline, restyle
-from conveyor.uncertainty import study as uncertain
+from conveyor.studies.uncertainty import study as uncertain
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

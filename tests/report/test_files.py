@@ -12,12 +12,12 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor.comparison import compare_compounds
 from conveyor.errors import InputError
 from conveyor.report import files, places
 from conveyor.report.contents import Contents, of_analysis
 from conveyor.report.excel import _saved, build
 from conveyor.report.saving import save
+from conveyor.studies.comparison import compare_compounds
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # pandas writes the shortest decimal that reads back

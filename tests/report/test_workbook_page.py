@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.cases import analyse_cases
-from conveyor.comparison import compare_compounds
 from conveyor.models import LoadCase
 from conveyor.report.comparison_contents import of_comparison
 from conveyor.report.contents import of_analysis
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build, build_comparison
 from conveyor.studies import Studies
+from conveyor.studies.cases import analyse_cases
+from conveyor.studies.comparison import compare_compounds
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"

@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from conveyor import loading, power, resistance, tension
+from conveyor.laws import loading, power, resistance, tension
 
 G = 9.81
 

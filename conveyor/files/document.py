@@ -1,0 +1,284 @@
+"""A YAML or JSON file read so that every value knows its line and column, and nothing hostile gets in."""
+
+from __future__ import annotations
+
+import codecs
+import json
+import re
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning, YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from conveyor.errors import InputError
+from conveyor.files.content import file_content
+from conveyor.files.syntax import plain_json, plain_yaml
+
+LARGEST_FILE: Final = 500_000
+"""Bytes; a spec of a thousand sections with two inline compounds has a fifth of it."""
+MOST_NODES: Final = 100_000
+"""Values after aliases are expanded: stops a file whose aliases multiply."""
+DEEPEST: Final = 50
+"""Levels of nesting; a spec has 7."""
+
+MOST_LINES: Final = 100
+"""Errors listed of one file; the rest are counted."""
+
+_MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
+          codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
+
+_TOO_DEEP: Final = f"nested deeper than {DEEPEST} levels"
+_FIRST: Final = 1000  # bytes: text without a null there has none
+
+Location = tuple[int | str, ...]
+_TAG = "tag:yaml.org,2002:"
+
+
+class Place(NamedTuple):
+    """Line and column, both from 1."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something wrong at a place of a file: the field (or what it is about) and what to change."""
+
+    place: Place
+    field: str
+    message: str
+
+    def line(self, path: str) -> str:
+        """Write it as ``file:line:column field: message``."""
+        return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
+
+
+def listing(path: str, findings: Sequence[Finding]) -> str:
+    """Write findings one a line, the first hundred of them."""
+    lines = [finding.line(path) for finding in findings[:MOST_LINES]]
+    if len(findings) > MOST_LINES:
+        lines.append(f"{path}: and {len(findings) - MOST_LINES} more errors")
+    return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class Document:
+    """Plain data of a file, the findings met on the way, and the nodes that know the places."""
+
+    path: str
+    data: Any
+    root: Node
+    findings: tuple[Finding, ...]
+
+    def place(self, location: Location, *, of_key: bool = False) -> Place:
+        """Return where a field is, or its nearest parent that exists.
+
+        Parameters
+        ----------
+        location : tuple
+            Keys and indices from the root; parts that are not in the file (tags of unions) are skipped.
+        of_key : bool
+            Point at the key instead of the value.
+        """
+        place, node = _place(self.root), self.root
+        for part in location:
+            if isinstance(node, MappingNode):
+                pair = next(((k, v) for k, v in node.value if k.value == str(part)), None)
+                if pair is not None:
+                    node = pair[1]
+                    place = _place(node if _is_written(node) and not of_key else pair[0])
+            elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.value):
+                node = node.value[part]
+                place = _place(node)
+        return place
+
+
+def _is_written(node: Node) -> bool:
+    """Whether one value stands behind a key; YAML marks nothing, and a block, where the next line begins."""
+    return isinstance(node, ScalarNode) and (node.value != "" or node.style is not None)
+
+
+def _place(node: Node) -> Place:
+    return Place(node.start_mark.line + 1, node.start_mark.column + 1)
+
+
+def read_document(path: Path) -> Document:
+    """Read a ``.yaml``, ``.yml`` or ``.json`` file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is not UTF-8, too large, empty, of wrong syntax, or no mapping.
+        Duplicate keys, tags and merge keys do not raise: they are in `Document.findings`.
+    """
+    if path.suffix.lower() not in {".yaml", ".yml", ".json"}:
+        if path.is_dir():
+            raise InputError(f"{path}: is a folder; give a file in it")
+        raise InputError(f'{path}: expected a file that ends in .yaml, .yml or .json, got "{path.name}"')
+    content = _decoded(path)
+    is_json = path.suffix.lower() == ".json"
+    data: Any = _json(content, path) if is_json else None
+    root = _composed(content.replace("\t", " ") if is_json else content, path)
+    if root is None:
+        raise InputError(f"{path}:1:1 file: empty; expected fields (key: value)")
+    if not isinstance(root, MappingNode):
+        found = "a list" if isinstance(root, SequenceNode) else "a single value"
+        place = _place(root)
+        raise InputError(
+            f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {found}"
+        )
+    reader = _Reader(str(path))
+    read = reader.value(root, ())
+    return Document(str(path), data if is_json else read, root, tuple(reader.findings))
+
+
+def _decoded(path: Path) -> str:
+    content = file_content(path, largest=LARGEST_FILE, expected="spec or compound file")
+    for mark, encoding in _MARKS.items():
+        if content.startswith(mark):
+            raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
+    if b"\0" in content[:_FIRST]:
+        raise InputError(
+            f"{path}:1:1 file: holds null bytes: UTF-16 without its mark, or no text; save it as UTF-8"
+        )
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = content[: error.start]
+        line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
+        raise InputError(
+            f"{path}:{line}:{column} file: not UTF-8 text (byte 0x{content[error.start]:02x}); save it as UTF-8"
+        ) from None
+
+
+def _json(content: str, path: Path) -> Any:
+    if not content.strip():
+        return None
+    try:
+        return json.loads(content, parse_int=lambda digits: _number(digits, "int"))
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {plain_json(error.msg)}") from None
+    except RecursionError:
+        raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
+
+
+def _composed(content: str, path: Path) -> Node | None:
+    try:
+        parser = YAML(typ="rt", pure=True)
+        parser.max_depth = DEEPEST + 1  # its effort grows with the square of the depth
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", ReusedAnchorWarning)
+            node: Node | None = parser.compose(content)
+    except ReusedAnchorWarning as twice:
+        line, column = map(int, re.findall(r"line (\d+), column (\d+)", str(twice))[-1])
+        raise InputError(
+            f"{path}:{line}:{column} syntax: the anchor (&) is given twice; write the value itself"
+        ) from None
+    except MarkedYAMLError as error:
+        unclosed = "stream" in str(error.problem)
+        mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
+        line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
+        what = " ".join(part for part in (error.context, error.problem) if part)
+        said = _TOO_DEEP if "maximum depth" in what else plain_yaml(what)
+        raise InputError(f"{path}:{line}:{column} syntax: {said}") from None
+    except YAMLError as error:
+        position = getattr(error, "position", 0)
+        before = content[:position]
+        line, column = before.count("\n") + 1, position - before.rfind("\n")
+        reason = getattr(error, "reason", str(error))
+        raise InputError(f"{path}:{line}:{column} syntax: {plain_yaml(reason)}") from None
+    except RecursionError:
+        raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
+    return node
+
+
+class _Reader:
+    """Turns nodes into plain data and notes what is not allowed."""
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self.findings: list[Finding] = []
+        self._count = 0
+
+    def value(self, node: Node, location: Location) -> Any:
+        """Return the plain data of a node."""
+        self._count += 1
+        place = _place(node)
+        if self._count > MOST_NODES:
+            raise InputError(
+                f"{self.path}:{place.line}:{place.column} file: more than {MOST_NODES:,} values, aliases expanded"
+            )
+        if len(location) > DEEPEST:
+            raise InputError(f"{self.path}:{place.line}:{place.column} file: {_TOO_DEEP}")
+        if isinstance(node, MappingNode) and node.tag == _TAG + "map":
+            return dict(self._pairs(node, location))
+        if isinstance(node, SequenceNode) and node.tag == _TAG + "seq":
+            return [self.value(item, (*location, i)) for i, item in enumerate(node.value)]
+        if isinstance(node, ScalarNode):
+            return self._scalar(node, location)
+        return self._not_allowed(node, location)
+
+    def _not_allowed(self, node: Node, location: Location) -> None:
+        tag = str(node.tag).replace(_TAG, "!!")
+        self.findings.append(
+            Finding(_place(node), _path(location), f"the tag {tag} is not allowed; write plain values")
+        )
+
+    def _pairs(self, node: MappingNode, location: Location) -> Iterator[tuple[str, Any]]:
+        first: dict[str, Place] = {}
+        for key, value in node.value:
+            if not isinstance(key, ScalarNode):
+                self.findings.append(
+                    Finding(
+                        _place(key), _path(location), "expected text before the colon, got a list or fields"
+                    )
+                )
+                continue
+            name = str(key.value)
+            field = _path((*location, name))
+            if key.tag == _TAG + "merge":
+                message = "merge keys (<<) are not allowed; write the fields out"
+                self.findings.append(Finding(_place(key), field, message))
+            elif name in first:
+                message = f"given twice, first in line {first[name].line}; remove one"
+                self.findings.append(Finding(_place(key), field, message))
+            else:
+                first[name] = _place(key)
+                yield name, self.value(value, (*location, name))
+
+    def _scalar(self, node: ScalarNode, location: Location) -> Any:
+        content, kind = str(node.value), str(node.tag).removeprefix(_TAG)
+        if kind in {"str", "timestamp"}:
+            return content
+        if kind == "null":
+            return None
+        if kind == "bool":
+            return content.lower() in {"true", "yes", "on", "y"}
+        if kind in {"int", "float"}:
+            return _number(content, kind)
+        return self._not_allowed(node, location)
+
+
+def _number(content: str, kind: str) -> int | float | str:
+    """Read a plain number; what only looks like one (1_000), or is too long, stays text for the models to refuse."""
+    try:
+        if "_" in content:
+            return content
+        if kind == "int":
+            return int(content, 0)
+        return float(content.lower().replace(".inf", "inf").replace(".nan", "nan"))
+    except ValueError:
+        return content
+
+
+def _path(location: Location) -> str:
+    path = ""
+    for part in location:
+        path += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return path.removeprefix(".") or "file"

@@ -1,0 +1,178 @@
+"""Libraries of belts, rolls, materials and spacings: commented data files in the package, each entry with its source.
+
+A spec names an entry with `listed`; what it gives itself goes before the entry's.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+from conveyor.errors import InputError
+from conveyor.files.document import read_document
+from conveyor.units import quantity, si
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Library = Literal["belts", "rolls", "materials", "spacing"]
+
+ROLL_DIAMETERS: Final = (63, 76, 89, 102, 108, 127, 133, 152, 159, 168, 178, 194, 219, 245)
+"""Outer diameters that rolls are made in [mm]: makers' lists."""
+
+_FOLDER = Path(__file__).parents[1] / "_library"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What a library knows of one thing.
+
+    Attributes
+    ----------
+    name : str
+        As specs name it.
+    fields : mapping
+        Values as a spec writes them, nested likewise.
+    source : str
+        Where they come from.
+    general_knowledge : bool
+        Common knowledge of the craft, not read in a source: an analysis that uses it says so.
+    range : mapping of str to str
+        What is met in practice, in words.
+    note : str
+        What else a user must know.
+    """
+
+    name: str
+    fields: Mapping[str, Any]
+    source: str
+    general_knowledge: bool = False
+    range: Mapping[str, str] = field(default_factory=dict)
+    note: str = ""
+
+
+@cache
+def entries(library: Library) -> Mapping[str, Entry]:
+    """Return the entries of a library by name.
+
+    Raises
+    ------
+    InputError
+        The library's file is damaged.
+
+    Examples
+    --------
+    >>> entries("rolls")["159x465"].fields["diameter"]
+    '159 mm'
+    """
+    data = read_document(_FOLDER / f"{library}.yaml").data
+    return MappingProxyType({str(name): Entry(str(name), **held) for name, held in data["entries"].items()})
+
+
+def entry(library: Library, name: str) -> Entry:
+    """Return one entry, its name in any case.
+
+    Raises
+    ------
+    InputError
+        No such name; with the names there are.
+
+    Examples
+    --------
+    >>> entry("belts", "st1600").fields["mass"]
+    '27 kg/m^2'
+    >>> entry("materials", "hard cole")
+    Traceback (most recent call last):
+    conveyor.errors.InputError: "hard cole" is not in the library of materials; did you mean "hard coal"? ...
+    """
+    known = entries(library)
+    folded = {other.casefold(): other for other in known}
+    found = folded.get(name.casefold().strip())
+    if found is None:
+        near = difflib.get_close_matches(name.casefold(), folded, n=1)
+        guess = f'; did you mean "{folded[near[0]]}"?' if near else ";"
+        shown = name if len(name) <= 80 else name[:80] + "..."
+        raise InputError(
+            f'"{shown}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
+        )
+    return known[found]
+
+
+def belts() -> pd.DataFrame:
+    """Return the belt classes, one a row, with sources."""
+    return _table("belts")
+
+
+def rolls() -> pd.DataFrame:
+    """Return the rolls, one a row, with sources."""
+    return _table("rolls")
+
+
+def materials() -> pd.DataFrame:
+    """Return the bulk materials, one a row: values, ranges, sources."""
+    return _table("materials")
+
+
+def spacings() -> pd.DataFrame:
+    """Return guidance on the distance of idler sets, with sources.
+
+    Examples
+    --------
+    >>> spacings().loc["carry", "to"]
+    '1.5 m'
+    """
+    return _table("spacing")
+
+
+def widest_spacings() -> dict[str, float]:
+    """Return the widest distances of idler sets in use, by strand [m].
+
+    Examples
+    --------
+    >>> widest_spacings()
+    {'carry': 3.0, 'return': 6.0}
+    """
+    guidance = entries("spacing")
+    return {
+        strand: si(quantity(guidance[f"{strand}, overland"].fields["to"])) for strand in ("carry", "return")
+    }
+
+
+def _table(library: Library) -> pd.DataFrame:
+    import pandas as pd
+
+    rows = {
+        name: {
+            **flat(held.fields),
+            **{f"{key}, range": span for key, span in held.range.items()},
+            "note": held.note,
+            "general knowledge": held.general_knowledge,
+            "source": held.source,
+        }
+        for name, held in entries(library).items()
+    }
+    frame = pd.DataFrame.from_dict(rows, orient="index").rename_axis(library)
+    last = ["note", "general knowledge", "source"]
+    return frame[[*(column for column in frame.columns if column not in last), *last]]
+
+
+def flat(fields: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Fields under dotted names.
+
+    Examples
+    --------
+    >>> flat({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}})
+    {'mass': '27 kg/m^2', 'carcass.kind': 'EP'}
+    """
+    found: dict[str, Any] = {}
+    for name, value in fields.items():
+        if isinstance(value, Mapping):
+            found |= flat(value, f"{above}{name}.")
+        else:
+            found[f"{above}{name}"] = value
+    return found

@@ -1,0 +1,63 @@
+"""Which compound files there are: the folders searched, and the names in them; reads none of them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Final
+
+from conveyor.errors import InputError
+
+ENVIRONMENT: Final = "CONVEYOR_SHELF"
+"""Environment variable with further folders, separated as in PATH."""
+SUFFIXES: Final = (".yaml", ".yml", ".json")
+
+
+def built_in() -> Path:
+    """Return the folder of the built-in compounds: in the installed package, else in the checkout.
+
+    Raises
+    ------
+    InputError
+        Neither exists: the installation is incomplete.
+    """
+    package = Path(__file__).parents[1]
+    for folder in (package / "_materials", package.parent / "materials"):
+        if folder.is_dir():
+            return folder
+    raise InputError(f"no built-in shelf in {package / '_materials'}; install the package again")
+
+
+def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
+    """Return the folders that are searched: `extra`, those of CONVEYOR_SHELF, the built-in one.
+
+    Raises
+    ------
+    InputError
+        A folder does not exist.
+    """
+    listed = [Path(folder) for folder in extra]
+    listed += [Path(folder) for folder in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if folder]
+    for folder in listed:
+        if not folder.is_dir():
+            found = "is a file, no folder" if folder.is_file() else "no such folder"
+            raise InputError(
+                f"shelf {folder}: {found} (given by --shelf, shelves= or the variable {ENVIRONMENT})"
+            )
+    return [*listed, built_in()]
+
+
+def files(extra: Iterable[str | Path]) -> dict[str, list[Path]]:
+    """Find the compound files by their name on the shelf: the file's name without its ending."""
+    found: dict[str, list[Path]] = {}
+    unique = {folder.resolve(): folder for folder in folders(extra)}
+    for folder in unique.values():
+        try:
+            listed = sorted(folder.iterdir())
+        except OSError as error:
+            raise InputError(f"shelf {folder}: cannot be read ({error.strerror or error})") from None
+        for path in listed:
+            if path.suffix.lower() in SUFFIXES:
+                found.setdefault(path.stem.casefold(), []).append(path)
+    return found

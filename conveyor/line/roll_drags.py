@@ -1,0 +1,147 @@
+"""Drag of every roll of a set at its rim, by the law its spec names; SI, prepared once a strand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from conveyor.errors import InputError
+from conveyor.laws.loading import RollLoad
+from conveyor.laws.resistance import (
+    bearing_roll_drag,
+    linear_roll_drag,
+    oil_viscosity,
+    roll_drag,
+    roll_rotation,
+)
+from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.rolls import BearingDrag, MakerDrag
+from conveyor.units import si
+
+DragLaw = Callable[[float], float]
+"""From the load of a roll [N] to its drag at the rim [N]."""
+
+
+def roll_at(idlers: IdlerSet, place: int) -> Roll:
+    """Roll at a place of the set, left to right."""
+    middle = idlers.rolls in {3, 5} and place == idlers.rolls // 2
+    return idlers.middle if middle else idlers.roll
+
+
+class SetDrags:
+    """Drags of one strand's rolls, by their loads; equal loads are computed once.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        Its belt speed and its air count.
+    idlers : IdlerSet
+        The sets of the strand.
+    strand : str
+        For messages.
+    """
+
+    def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: str) -> None:
+        speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
+        rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
+        self._laws = [_law(roll, speed, air, _field(idlers, roll, strand)) for roll in rolls]
+        self._known: dict[tuple[int, float], float] = {}
+        self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
+
+    def of(self, loads: Sequence[RollLoad]) -> tuple[float, ...]:
+        """Drag of each roll under its load [N].
+
+        Raises
+        ------
+        InputError
+            A maker's line falls below zero there.
+        """
+        return tuple(
+            self._drag(same, load.bulk_force + load.belt_force)
+            for same, load in zip(self._same, loads, strict=True)
+        )
+
+    def _drag(self, place: int, load: float) -> float:
+        known = self._known.get((place, load))
+        if known is None:
+            known = self._known[place, load] = self._laws[place](load)
+        return known
+
+
+def _field(idlers: IdlerSet, roll: Roll, strand: str) -> str:
+    name = "roll" if roll is idlers.roll else "middle_roll"
+    return f"idlers.{strand}.{name}.drag_law"
+
+
+def _law(roll: Roll, speed: float, air: float, field: str) -> DragLaw:
+    diameter, law = si(roll.diameter), roll.drag_law
+    if isinstance(law, MakerDrag):
+        return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), field)
+    if isinstance(law, BearingDrag):
+        return _named(_bearing(law, diameter, speed, air, field), field)
+    drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=diameter).force
+    return lambda _load: drag
+
+
+def _maker(law: MakerDrag, rotation: float) -> DragLaw:
+    measured, slope, per_rotation = si(law.drag), law.load_slope, si(law.rotation_slope)
+    at_load, at_rotation = si(law.load), si(law.rotation)
+    return lambda load: linear_roll_drag(
+        measured,
+        load=load,
+        rotation=rotation,
+        load_slope=slope,
+        rotation_slope=per_rotation,
+        reference_load=at_load,
+        reference_rotation=at_rotation,
+    )
+
+
+def _bearing(law: BearingDrag, diameter: float, speed: float, air: float, field: str) -> DragLaw:
+    mean, rating, seal = si(law.mean_diameter), si(law.static_rating), si(law.seal_moment)
+    try:
+        viscosity = bearing_viscosity(law, air)
+    except InputError as error:
+        raise InputError(f"{field}: {error}") from None
+    return lambda load: (
+        bearing_roll_drag(
+            load,
+            belt_speed=speed,
+            roll_diameter=diameter,
+            mean_diameter=mean,
+            viscosity=viscosity,
+            static_rating=rating,
+            f0=law.f0,
+            f1_factor=law.f1_factor,
+            f1_exponent=law.f1_exponent,
+            seal_moment=seal,
+        ).force
+    )
+
+
+def bearing_viscosity(law: BearingDrag, air: float) -> float:
+    """Viscosity of the base oil in the running bearing [m²/s], in air of a temperature [K].
+
+    Raises
+    ------
+    InputError
+        The oil is solid there.
+    """
+    return oil_viscosity(
+        air + si(law.warming),
+        first_temperature=si(law.first_temperature),
+        first_viscosity=si(law.first_viscosity),
+        second_temperature=si(law.second_temperature),
+        second_viscosity=si(law.second_viscosity),
+    )
+
+
+def _named(law: DragLaw, field: str) -> DragLaw:
+    """Name the field in a refusal of the law."""
+
+    def drag(load: float) -> float:
+        try:
+            return law(load)
+        except InputError as error:
+            raise InputError(f"{field}: {error}") from None
+
+    return drag

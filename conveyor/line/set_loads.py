@@ -1,0 +1,129 @@
+"""Loads of the rolls of a strand's sets, in SI: what all its stretches share is made once."""
+
+from __future__ import annotations
+
+from conveyor.errors import InputError
+from conveyor.laws.loading import (
+    Heap,
+    RollLoad,
+    filled_width,
+    middle_share_by_area,
+    roll_loads,
+)
+from conveyor.models import Conveyor, IdlerSet
+from conveyor.units import Quantity, si
+
+
+class SetLoads:
+    """Loads of the rolls of one set by spacing, slope and masses.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        Belt, material, gravity.
+    idlers : IdlerSet
+        The sets of the strand.
+    """
+
+    def __init__(self, conveyor: Conveyor, idlers: IdlerSet) -> None:
+        self.idlers = idlers
+        self._trough = si(idlers.trough_angle)
+        self._roll_length = si(idlers.roll.length)
+        self._width = si(conveyor.belt.width)
+        self._gravity = si(conveyor.calculation.gravity)
+        self._density = si(conveyor.material.density)
+        self._surcharge = conveyor.material.surcharge
+        iso = conveyor.material.surcharge_convention == "ISO 5048"
+        self._heap: Heap = "parabola" if iso else "triangle"
+        self._bulk_shares = _shares(idlers.load_shares)
+        self._belt_shares = _shares(idlers.belt_shares)
+        self._by_area = idlers.share_rule == "cross-section" and idlers.rolls == 3
+        self._found: dict[tuple[float, ...], tuple[RollLoad, ...]] = {}
+        self._known_shares: dict[float, tuple[float, ...]] = {}
+
+    def of(
+        self, *, spacing: float, inclination: float, belt_mass: float, bulk_mass: float, flow_mass: float
+    ) -> tuple[RollLoad, ...]:
+        """Load of each roll of one set.
+
+        Parameters
+        ----------
+        spacing : float
+            Of the sets [m].
+        inclination : float
+            Slope angle [rad].
+        belt_mass, bulk_mass : float
+            As they press on the rolls [kg/m].
+        flow_mass : float
+            Bulk that lies on the belt [kg/m]: decides the cross-section.
+        """
+        key = (spacing, inclination, belt_mass, bulk_mass, flow_mass)
+        found = self._found.get(key)
+        if found is None:
+            found = self._found[key] = roll_loads(
+                bulk_line_mass=bulk_mass,
+                belt_line_mass=belt_mass,
+                spacing=spacing,
+                n_rolls=self.idlers.rolls,
+                trough_angle=self._trough,
+                roll_length=self._roll_length,
+                belt_width=self._width,
+                inclination=inclination,
+                gravity=self._gravity,
+                bulk_shares=self._shares_of(flow_mass),
+                belt_shares=self._belt_shares,
+                outer_shape=self.idlers.wing_load,
+            )
+        return found
+
+    def _shares_of(self, flow_mass: float) -> tuple[float, ...] | None:
+        if not self._by_area or flow_mass == 0.0:
+            return self._bulk_shares
+        if flow_mass not in self._known_shares:
+            middle = self._middle_share(flow_mass)
+            self._known_shares[flow_mass] = (0.5 * (1.0 - middle), middle, 0.5 * (1.0 - middle))
+        return self._known_shares[flow_mass]
+
+    def _middle_share(self, flow_mass: float) -> float:
+        """By the area above the middle roll at the filling of this stretch; a narrow heap lies on it alone."""
+        across = self.covered(flow_mass)
+        if across <= self._roll_length:
+            return 1.0
+        return middle_share_by_area(
+            across,
+            middle_roll_length=self._roll_length,
+            trough_angle=self._trough,
+            surcharge_angle=self._surcharge,
+            heap=self._heap,
+        )
+
+    def covered(self, flow_mass: float) -> float:
+        """Width of the belt under the bulk of a mass per length, for sets of up to 3 rolls [m].
+
+        Raises
+        ------
+        InputError
+            Sets of 4 or 5 rolls.
+        """
+        if self.idlers.rolls in {4, 5}:
+            raise InputError(f"the width under the bulk is not known for sets of {self.idlers.rolls} rolls")
+        if flow_mass == 0.0:
+            return 0.0
+        flat = self.idlers.rolls == 1
+        return filled_width(
+            flow_mass / self._density,
+            middle_roll_length=self._roll_length if self.idlers.rolls == 3 else 0.0,
+            trough_angle=0.0 if flat else self._trough,
+            surcharge_angle=self._surcharge,
+        )
+
+    def wing_contact(self, flow_mass: float) -> float:
+        """Width of each outer roll's belt under the bulk [m]; none on a flat belt."""
+        if self.idlers.rolls == 1:
+            return 0.0
+        inner = self._roll_length if self.idlers.rolls == 3 else 0.0
+        return max(0.5 * (self.covered(flow_mass) - inner), 0.0)
+
+
+def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
+    return None if given is None else tuple(si(share) for share in given)

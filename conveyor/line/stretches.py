@@ -1,0 +1,257 @@
+"""A conveyor cut into stretches: geometry, masses, loads of the rolls, and the forces that no rubber changes.
+
+Here quantities become SI, once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws.loading import RollLoad, bulk_line_mass
+from conveyor.laws.resistance import (
+    ROLL_ON_BELT_FRICTION,
+    TILT_COEFFICIENT_30,
+    TILT_COEFFICIENT_45,
+    idler_rotation_resistance,
+    idler_tilt_resistance,
+    roll_line_mass,
+    section_main_resistance,
+    slope_resistance,
+)
+from conveyor.laws.tension import sag_tension
+from conveyor.line.flexing import FlexureLaw
+from conveyor.line.roll_drags import SetDrags, roll_at
+from conveyor.line.set_loads import SetLoads
+from conveyor.models import Conveyor, IdlerSet, Section
+from conveyor.units import si
+
+__all__ = ["FixedForces", "Pressing", "Strand", "Stretch", "roll_at", "roll_masses", "stretches"]
+
+Strand = Literal["carry", "return"]
+Pressing = Mapping[tuple[str, Strand], float]
+"""Mass per length with which tension presses on the rolls of a section and strand [kg/m], negative where it lifts."""
+
+_TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """One section of one strand, SI, in running direction of that strand.
+
+    Attributes
+    ----------
+    section : str
+        Name of the section.
+    strand : {"carry", "return"}
+        Which strand.
+    length, rise : float
+        Along the belt, and upward in running direction [m].
+    spacing : float
+        Of the idler sets [m].
+    idlers : IdlerSet
+        The sets.
+    belt_mass, bulk_mass : float
+        m'_belt, m'_bulk [kg/m].
+    loads : tuple of RollLoad
+        Load of each roll of one set.
+    least_tension : float
+        That keeps the sag between the sets as small as asked for [N].
+    drags : tuple of float
+        Drag of each roll of one set at its rim [N].
+    set_mass : float
+        Rotating mass of one set [kg].
+    span_flexure : float or None
+        Flexure of belt and bulk over one span [N], where the spec names laws for it; else a share stands in.
+    """
+
+    section: str
+    strand: Strand
+    length: float
+    rise: float
+    spacing: float
+    idlers: IdlerSet
+    belt_mass: float
+    bulk_mass: float
+    loads: tuple[RollLoad, ...]
+    least_tension: float
+    drags: tuple[float, ...]
+    set_mass: float
+    span_flexure: float | None = None
+
+    @property
+    def inclination(self) -> float:
+        """Slope angle δ [rad]."""
+        return math.asin(self.rise / self.length)
+
+    @property
+    def sets(self) -> float:
+        """Number of idler sets, a broken number allowed."""
+        return self.length / self.spacing
+
+    @property
+    def line_mass(self) -> float:
+        """m'_belt + m'_bulk [kg/m]."""
+        return self.belt_mass + self.bulk_mass
+
+
+def stretches(conveyor: Conveyor, pressing: Pressing | None = None) -> tuple[Stretch, ...]:
+    """Both strands of every section, SI; `pressing` as of `roll_masses`."""
+    sections = conveyor.route.sections
+    carry, back = _Strand(conveyor, "carry", pressing or {}), _Strand(conveyor, "return", pressing or {})
+    return (
+        *(carry.stretch(section) for section in sections),
+        *(back.stretch(section) for section in reversed(sections)),
+    )
+
+
+def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
+    """Belt and bulk as they press on the rolls of a vertical curve [kg/m].
+
+    A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
+
+    Raises
+    ------
+    NoSolutionError
+        The belt lifts off with all that lies on it.
+    """
+    belt = belt_mass + pressing
+    if bulk_mass + belt <= 0.0:
+        raise NoSolutionError(
+            f"the belt lifts off in {where}: on a concave curve its tension pulls up like {-pressing:.4g} kg/m, belt "
+            f"and bulk are {belt_mass + bulk_mass:.4g} kg/m; choose a larger curve_radius or less tension"
+        )
+    return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
+
+
+class _Strand:
+    """What all stretches of a strand share."""
+
+    def __init__(self, conveyor: Conveyor, strand: Strand, pressing: Pressing) -> None:
+        self.strand, self.pressing = strand, pressing
+        self.carrying = strand == "carry"
+        self.idlers = conveyor.idlers.carry if self.carrying else conveyor.idlers.return_
+        self.spacing, self.sag = si(self.idlers.spacing), si(self.idlers.sag)
+        self.belt_mass = conveyor.belt.line_mass
+        self.gravity = si(conveyor.calculation.gravity)
+        self.full = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed))
+        self.flow_shares = conveyor.route.flow_shares
+        self.set_mass = _set_mass(self.idlers)
+        self.set_loads = SetLoads(conveyor, self.idlers)
+        self.set_drags = SetDrags(conveyor, self.idlers, strand)
+        self.flexure = FlexureLaw(conveyor, self.set_loads)
+
+    def stretch(self, section: Section) -> Stretch:
+        """One section."""
+        own = section.carry_spacing if self.carrying else section.return_spacing
+        spacing = self.spacing if own is None else si(own)
+        flow = self.full if self.carrying and section.loaded else 0.0
+        flow *= self.flow_shares[section.name]
+        pressing = self.pressing.get((section.name, self.strand), 0.0)
+        belt_on_rolls, bulk_on_rolls = roll_masses(
+            self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
+        )
+        length = si(section.length)
+        rise = section.rise if self.carrying else -section.rise
+        inclination = math.asin(rise / length)
+        loads = self.set_loads.of(
+            spacing=spacing,
+            inclination=inclination,
+            belt_mass=belt_on_rolls,
+            bulk_mass=bulk_on_rolls,
+            flow_mass=flow,
+        )
+        least = sag_tension(
+            self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
+        )
+        return Stretch(
+            section=section.name,
+            strand=self.strand,
+            length=length,
+            rise=rise,
+            spacing=spacing,
+            idlers=self.idlers,
+            belt_mass=self.belt_mass,
+            bulk_mass=flow,
+            loads=loads,
+            least_tension=least,
+            drags=self.set_drags.of(loads),
+            set_mass=self.set_mass,
+            span_flexure=self._span(flow, spacing, inclination, least),
+        )
+
+    def _span(self, flow: float, spacing: float, inclination: float, least: float) -> float | None:
+        if not self.flexure.given:
+            return None
+        return self.flexure.span(
+            belt_mass=self.belt_mass,
+            bulk_mass=flow,
+            spacing=spacing,
+            inclination=inclination,
+            least_tension=least,
+        )
+
+
+@dataclass(frozen=True)
+class FixedForces:
+    """Forces of a stretch that no rubber changes [N]."""
+
+    rotation: float
+    tilt: float
+    lift: float
+    unit_main: float
+    flexure: float | None
+    """By laws; None where a share of the main resistance stands in."""
+
+    @classmethod
+    def of(cls, stretch: Stretch, gravity: float) -> FixedForces:
+        """Forces of a stretch under gravity [m/s²]."""
+        return cls(
+            rotation=_rotation(stretch),
+            tilt=_tilt(stretch, gravity),
+            lift=slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity),
+            unit_main=section_main_resistance(
+                friction_factor=1.0,
+                length=stretch.length,
+                roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
+                belt_mass=stretch.belt_mass,
+                bulk_mass=stretch.bulk_mass,
+                inclination=stretch.inclination,
+                gravity=gravity,
+            ),
+            flexure=None if stretch.span_flexure is None else stretch.sets * stretch.span_flexure,
+        )
+
+
+def _set_mass(idlers: IdlerSet) -> float:
+    """Rotating mass of one set [kg]."""
+    return math.fsum(si(roll_at(idlers, place).rotating_mass) for place in range(idlers.rolls))
+
+
+def _rotation(stretch: Stretch) -> float:
+    """Drag of all rolls of the stretch [N]."""
+    total = 0.0
+    for drag in stretch.drags:
+        total += idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
+    return total
+
+
+def _tilt(stretch: Stretch, gravity: float) -> float:
+    """Resistance of wings tilted forward [N]; zero where they are not."""
+    angle = si(stretch.idlers.tilt_angle)
+    if angle == 0.0:
+        return 0.0
+    steep = si(stretch.idlers.trough_angle) > _TILT_STEEP
+    return idler_tilt_resistance(
+        tilt_coefficient=(TILT_COEFFICIENT_45 if steep else TILT_COEFFICIENT_30).value,
+        roll_friction=ROLL_ON_BELT_FRICTION.value,
+        length=stretch.length,
+        belt_mass=stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        inclination=stretch.inclination,
+        tilt_angle=angle,
+        gravity=gravity,
+    )

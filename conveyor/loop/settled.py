@@ -1,0 +1,209 @@
+"""Settles the loop: wraps and pulley bearings depend on the tensions they add to, and one setting serves all states."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from conveyor.errors import NoSolutionError
+from conveyor.loop.single_forces import SingleForce
+from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, Singles, State
+
+_LOOP_STEPS = 200
+_LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
+_EXTRAPOLATED = 3  # steps that show a ratio
+_SHRINKS = 0.5  # ratio below which the steps are a geometric row
+
+Bends = tuple[float, ...]
+"""Wrap and bearings of every pulley together [N]."""
+
+START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
+    "start",
+    "braking",
+    "least friction",
+    "braking, least friction",
+    "brakes on",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """The loop at rest with itself.
+
+    Attributes
+    ----------
+    loop : Loop
+        What was settled.
+    bends : tuple of float
+        Wrap and bearings of every pulley together [N].
+    singles : tuple of SingleForce
+        Every force at a single place.
+    force, least_force : float
+        Drive force in steady running, as computed and with the least certain friction [N].
+    motions : tuple of Motion
+        The states that decide the take-up's setting.
+    setting, needed : float
+        Tension the take-up holds, and the least it should [N].
+    governed_by : Condition
+        What asks for the least setting.
+    """
+
+    loop: Loop
+    bends: Bends
+    singles: tuple[SingleForce, ...]
+    force: float
+    least_force: float
+    motions: tuple[Motion, ...]
+    setting: float
+    needed: float
+    governed_by: Condition
+
+    @cached_property
+    def states(self) -> dict[str, State]:
+        """Tensions in every state that decides the setting."""
+        return {motion.name: self.loop.state(motion, self.setting) for motion in self.motions}
+
+    @property
+    def steady(self) -> State:
+        """Steady running."""
+        return self.states[STEADY]
+
+    @property
+    def unsteady(self) -> State:
+        """Start, or a regenerative conveyor's braking, at the start factor."""
+        return self.states[START if self.force >= 0.0 else BRAKING]
+
+    def condition_name(self, condition: Condition) -> str:
+        """Write a condition for people."""
+        state, where = condition.where
+        if isinstance(where, str):
+            return f"grip, {where}, {state}"
+        motion = next(motion for motion in self.motions if motion.name == state)
+        stretch = self.loop.geometry.stretches[self.loop.slackest(motion, where)]
+        return f"sag, {stretch.strand}, {stretch.section}, {state}"
+
+    @cached_property
+    def conditions(self) -> dict[str, float]:
+        """Setting of the take-up that each condition asks for [N], by its name."""
+        return {
+            self.condition_name(condition): condition.setting
+            for motion in self.motions
+            for condition in self.loop.conditions(motion)
+        }
+
+
+def settle(loop: Loop) -> Settled:
+    """Close the loop of tensions around the forces along the belt.
+
+    Parameters
+    ----------
+    loop : Loop
+        The forces along the belt.
+
+    Raises
+    ------
+    NoSolutionError
+        The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack at a
+        pulley.
+    """
+    data = loop.data
+    history: list[Bends] = [(0.0,) * len(data.bends)]
+    drive = math.nan
+    for _ in range(_LOOP_STEPS):
+        bends = history[-1]
+        singles = loop.singles(bends)
+        before, drive = drive, loop.resistance(singles)
+        motions = _motions(loop, bends, singles, drive)
+        governing = max(
+            (condition for motion in motions for condition in loop.conditions(motion)),
+            key=lambda c: c.setting,
+        )
+        given = data.take_up.tension
+        setting = governing.setting if given is None else given
+        if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
+            break
+        sides = loop.at_bends(motions[0], setting)
+        found = tuple(
+            math.fsum(bend.forces(*side, data.gravity)) for bend, side in zip(data.bends, sides, strict=True)
+        )
+        history.append(found)
+        if len(history) == _EXTRAPOLATED:
+            history = [_extrapolated(*history)]
+    else:
+        raise NoSolutionError(
+            "the tensions round the belt do not settle: check pulley diameters and drive friction"
+        )
+    sides = loop.at_bends(motions[0], setting)
+    return Settled(
+        loop=loop,
+        bends=bends,
+        singles=(
+            *(placed.single for placed in loop.fixed),
+            *(
+                single
+                for bend, side in zip(data.bends, sides, strict=True)
+                for single in bend.singles(*side, data.gravity)
+            ),
+        ),
+        force=drive,
+        least_force=loop.resistance(loop.singles(bends, data.least_friction), data.least_friction),
+        motions=motions,
+        setting=setting,
+        needed=governing.setting,
+        governed_by=governing,
+    )
+
+
+def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
+    """Where three steps lead to (Aitken); the last of them where they do not shrink."""
+    found = []
+    for a, b, c in zip(first, second, third, strict=True):
+        ratio = (c - b) / (b - a) if b != a else 0.0
+        found.append(c + (c - b) * ratio / (1.0 - ratio) if abs(ratio) < _SHRINKS else c)
+    return tuple(found)
+
+
+def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
+    """Steady running and every state that the grip of the drives has to hold in."""
+    data, factor, mass = loop.data, loop.data.start_factor, loop.masses.whole
+
+    def shared(name: str, force: float, friction: float, over: float) -> Motion:
+        forces = [drive.share * over * force for drive in data.drives]
+        push = (over - 1.0) * force / mass
+        here = singles if friction == 1.0 else loop.singles(bends, friction)
+        return loop.motion(name, forces, here, acceleration=push, friction=friction, may_sag=over != 1.0)
+
+    found = [
+        shared(STEADY, drive, 1.0, 1.0),
+        shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor),
+    ]
+    certain = data.least_friction
+    least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
+    if least < 0.0 and certain < 1.0:
+        found += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
+    brakes = braked(loop, bends, certain)
+    return tuple(found if brakes is None else [*found, brakes])
+
+
+def braked(loop: Loop, bends: Bends, friction: float) -> Motion | None:
+    """All brakes on, drives off; None without brakes, or where they do not stop the belt."""
+    data = loop.data
+    held = math.fsum(drive.brake for drive in data.drives)
+    if held == 0.0:
+        return None
+    return coasting(loop, bends, friction, [drive.brake for drive in data.drives], BRAKES)
+
+
+def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float], name: str) -> Motion | None:
+    """Drives off, brakes of given forces on [N]; None where the belt does not slow down."""
+    data = loop.data
+    rotating = [drive.reduced_mass for drive in data.drives]
+    singles = loop.singles(bends, friction)
+    retarding = loop.resistance(singles, friction) + math.fsum(brakes)
+    if retarding <= 0.0:
+        return None
+    slowing = retarding / (loop.masses.whole + math.fsum(rotating))
+    forces = [mass * slowing - brake for mass, brake in zip(rotating, brakes, strict=True)]
+    return loop.motion(name, forces, singles, acceleration=-slowing, friction=friction, may_sag=True)

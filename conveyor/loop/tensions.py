@@ -1,0 +1,324 @@
+"""Tensions round the belt: offsets from resistances, masses and drives, and the level the take-up gives them.
+
+The tension at a place in a state of motion is T = H + o - a: o the offset over the strand that leaves the head, a the
+offset of what the take-up holds (tension at its place, or the mean of the loop), H the setting, one for all states.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.laws.tension import grip_tension
+from conveyor.loop.data import Geometry, LoopData
+from conveyor.loop.single_forces import Placed
+
+Array = NDArray[np.float64]
+
+Singles = tuple[list[float], list[float]]
+"""Single forces before and behind the drives of every boundary in use [N]."""
+
+STEADY = "steady"
+
+
+@dataclass(frozen=True)
+class DriveSide:
+    """A drive pulley in a state: its force on the belt, and the tensions before and behind it [N]."""
+
+    name: str
+    force: float
+    arriving: float
+    leaving: float
+
+    @property
+    def slack(self) -> float:
+        """The lower of both [N]."""
+        return min(self.arriving, self.leaving)
+
+    @property
+    def tight(self) -> float:
+        """The higher of both [N]."""
+        return max(self.arriving, self.leaving)
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """A state of motion with the tensions in it.
+
+    Attributes
+    ----------
+    name : str
+        What moves how.
+    force : float
+        Sum of the forces of all drives and brakes on the belt [N].
+    acceleration : float
+        Of belt and bulk [m/s²].
+    friction : float
+        Friction over the computed one [-].
+    drives : tuple of DriveSide
+        Every drive pulley.
+    starts, ends : Array
+        Tension at both ends of every stretch, in loop order [N], shape (2n,).
+    leaving, arriving : float
+        At the head, behind and before all that stands there [N].
+    held : float
+        Tension at the take-up [N].
+    """
+
+    name: str
+    force: float
+    acceleration: float
+    friction: float
+    drives: tuple[DriveSide, ...]
+    starts: Array
+    ends: Array
+    leaving: float
+    arriving: float
+    held: float
+
+    @property
+    def largest(self) -> float:
+        """Highest tension round the loop [N]."""
+        sides = [drive.tight for drive in self.drives]
+        return max(float(self.starts.max()), float(self.ends.max()), self.leaving, self.arriving, *sides)
+
+    @property
+    def smallest(self) -> float:
+        """Lowest tension round the loop [N]."""
+        sides = [drive.slack for drive in self.drives]
+        return min(float(self.starts.min()), float(self.ends.min()), self.leaving, self.arriving, *sides)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What asks for tension ("grip" or "sag"), and the setting H of the take-up it needs [N]."""
+
+    kind: str
+    where: tuple[str, str | int]
+    """State, and drive or run of stretches."""
+    setting: float
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A state of motion before the level of its tensions is known: offsets at the boundaries [N].
+
+    `sagging` are the settings that the sag of each run of stretches asks for; None where it may sag.
+    """
+
+    name: str
+    force: float
+    acceleration: float
+    friction: float
+    before: tuple[float, ...]
+    """At each boundary, before all that stands there."""
+    past: tuple[float, ...]
+    """Past its drives."""
+    behind: tuple[float, ...]
+    """Behind all that stands there."""
+    drives: tuple[tuple[float, float, float], ...]
+    """Force, offset before, offset behind of every drive."""
+    shifts: tuple[float, ...]
+    """Offset of every run over the running sum of forces."""
+    anchor: float
+    sagging: tuple[float, ...] | None = None
+
+
+class Sums:
+    """Running sums of one kind of force round the loop: everywhere, at the boundaries in use, and their mean."""
+
+    def __init__(self, forces: Array, data: LoopData, geometry: Geometry) -> None:
+        self.along = np.concatenate([np.zeros(1), np.cumsum(forces)])
+        self.at: list[float] = self.along[data.boundaries].tolist()
+        self.mean = float((self.along[:-1] + self.along[1:]) @ geometry.length) / (
+            2.0 * float(geometry.way[-1])
+        )
+        self.whole = self.at[-1]
+
+
+class Loop:
+    """The loop of one conveyor under the forces of one analysis.
+
+    Parameters
+    ----------
+    data : LoopData
+        SI numbers of the conveyor.
+    geometry : Geometry
+        Its stretches.
+    fixed : tuple of Placed
+        Single forces that no tension changes.
+    total, lift : Array
+        Force along each stretch and the lift in it, in loop order [N], shape (2n,).
+    """
+
+    def __init__(
+        self, data: LoopData, geometry: Geometry, fixed: tuple[Placed, ...], total: Array, lift: Array
+    ) -> None:
+        self.data, self.geometry, self.fixed = data, geometry, fixed
+        self.totals = Sums(total, data, geometry)
+        self.lifts = Sums(lift, data, geometry)
+        self.masses = Sums(geometry.mass, data, geometry)
+        at = {b: k for k, b in enumerate(data.boundaries)}
+        self._fixed = [(at[p.spot.boundary], p.spot.behind, p.single.force, p.certain) for p in fixed]
+        self._bends = [(at[bend.spot.boundary], bend.spot.behind) for bend in data.bends]
+        self._drives: list[list[int]] = [[] for _ in at]
+        for i, drive in enumerate(data.drives):
+            self._drives[at[drive.boundary]].append(i)
+        spot = data.take_up.spot
+        self._anchor_at = None if spot is None else at[spot.boundary]
+        self._run_shares = (np.diff(geometry.way[data.boundaries]) / geometry.way[-1]).tolist()
+        self._sagging: dict[float, tuple[float, ...]] = {}
+
+    def along(self, friction: float, acceleration: float) -> Array:
+        """Running sum of the forces along the belt in a state [N], shape (2n + 1,)."""
+        totals, lifts = self.totals.along, self.lifts.along
+        friction_only = totals if friction == 1.0 else lifts + friction * (totals - lifts)
+        return friction_only if acceleration == 0.0 else friction_only + acceleration * self.masses.along
+
+    def sagging(self, friction: float) -> tuple[float, ...]:
+        """Settings that the sag of each run asks for over its shift, in steady running [N]."""
+        found = self._sagging.get(friction)
+        if found is None:
+            along = self.along(friction, 0.0)
+            needed = self.geometry.least - np.minimum(along[:-1], along[1:])
+            found = tuple(np.maximum.reduceat(needed, self.data.boundaries[:-1]).tolist())
+            self._sagging[friction] = found
+        return found
+
+    def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
+        """Single forces before and behind the drives of every boundary [N]."""
+        before, behind = [0.0] * len(self._drives), [0.0] * len(self._drives)
+        for k, back, force, certain in self._fixed:
+            (behind if back else before)[k] += force if certain else friction * force
+        for (k, back), force in zip(self._bends, bends, strict=True):
+            (behind if back else before)[k] += friction * force
+        return before, behind
+
+    def resistance(self, singles: Singles, friction: float = 1.0) -> float:
+        """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
+        before, behind = singles
+        lift = self.lifts.whole
+        return math.fsum((lift, friction * (self.totals.whole - lift), *before, *behind))
+
+    def motion(
+        self,
+        name: str,
+        forces: Sequence[float],
+        singles: Singles,
+        *,
+        acceleration: float = 0.0,
+        friction: float = 1.0,
+        may_sag: bool = False,
+    ) -> Motion:
+        """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
+        before, behind = singles
+        sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
+        ins, pasts, outs, shifts = [], [], [], []
+        level, passed = 0.0, 0.0
+        for k, (total, lift, mass) in enumerate(
+            zip(self.totals.at, self.lifts.at, self.masses.at, strict=True)
+        ):
+            here = (
+                lift + friction * (total - lift) + acceleration * mass
+                if friction != 1.0
+                else total + acceleration * mass
+            )
+            level += here - passed
+            passed = here
+            ins.append(level)
+            level += before[k]
+            for i in self._drives[k]:
+                sides[i] = (forces[i], level, level - forces[i])
+                level -= forces[i]
+            pasts.append(level)
+            level += behind[k]
+            outs.append(level)
+            shifts.append(level - here)
+        anchor = self._anchor(sides[0], outs, shifts, friction, acceleration)
+        return Motion(
+            name, math.fsum(forces), acceleration, friction, tuple(ins), tuple(pasts), tuple(outs), tuple(sides),
+            tuple(shifts), anchor, None if may_sag else self.sagging(friction),
+        )  # fmt: skip
+
+    def _at(self, friction: float, acceleration: float) -> list[float]:
+        """Running sum of the forces along the belt at the boundaries [N]."""
+        at = self.totals.at
+        if friction != 1.0:
+            at = [lift + friction * (total - lift) for total, lift in zip(at, self.lifts.at, strict=True)]
+        if acceleration != 0.0:
+            at = [force + acceleration * mass for force, mass in zip(at, self.masses.at, strict=True)]
+        return at
+
+    def at_bends(self, steady: Motion, setting: float) -> list[tuple[float, float]]:
+        """Tensions on both sides of every pulley in steady running [N], of a driven one those of its drives."""
+        level, found = setting - steady.anchor, []
+        for k, back in self._bends:
+            if back:
+                here = (steady.past[k], steady.past[k])
+            elif self._drives[k]:
+                sides = [offset for i in self._drives[k] for offset in steady.drives[i][1:]]
+                here = (max(sides), min(sides))
+            else:
+                here = (steady.before[k], steady.before[k])
+            found.append((level + here[0], level + here[1]))
+        return found
+
+    def _anchor(
+        self,
+        drive: tuple[float, float, float],
+        outs: Sequence[float],
+        shifts: Sequence[float],
+        friction: float,
+        acceleration: float,
+    ) -> float:
+        """Offset of what the take-up holds [N]."""
+        if self.data.take_up.kind == "fixed":
+            totals, lifts = self.totals.mean, self.lifts.mean
+            steady = lifts + friction * (totals - lifts) + acceleration * self.masses.mean
+            return steady + math.fsum(
+                s * share for s, share in zip(shifts[:-1], self._run_shares, strict=True)
+            )
+        return min(drive[1:]) if self._anchor_at is None else outs[self._anchor_at]
+
+    def conditions(self, motion: Motion) -> Iterator[Condition]:
+        """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
+        for drive, (force, arriving, leaving) in zip(self.data.drives, motion.drives, strict=True):
+            needed = grip_tension(force, friction=drive.friction, wrap_angle=drive.wrap_angle)
+            yield Condition(
+                "grip", (motion.name, drive.name), needed - min(arriving, leaving) + motion.anchor
+            )
+        if motion.sagging is not None:
+            for k, needed in enumerate(motion.sagging):
+                yield Condition("sag", (motion.name, k), needed - motion.shifts[k] + motion.anchor)
+
+    def state(self, motion: Motion, setting: float) -> State:
+        """The tensions of a state at a setting of the take-up."""
+        level = setting - motion.anchor
+        along = self.along(motion.friction, motion.acceleration)
+        shifts = level + np.repeat(motion.shifts[:-1], self.data.runs)
+        return State(
+            name=motion.name,
+            force=motion.force,
+            acceleration=motion.acceleration,
+            friction=motion.friction,
+            drives=tuple(
+                DriveSide(drive.name, force, level + arriving, level + leaving)
+                for drive, (force, arriving, leaving) in zip(self.data.drives, motion.drives, strict=True)
+            ),
+            starts=along[:-1] + shifts,
+            ends=along[1:] + shifts,
+            leaving=level,
+            arriving=level + motion.before[-1],
+            held=setting,
+        )
+
+    def slackest(self, motion: Motion, run: int) -> int:
+        """Stretch of a run whose sag asks for most, as an index in loop order."""
+        low, high = self.data.boundaries[run : run + 2]
+        along = self.along(motion.friction, motion.acceleration)
+        needed = self.geometry.least - np.minimum(along[:-1], along[1:])
+        return low + int(np.argmax(needed[low:high]))

@@ -1,0 +1,253 @@
+"""What a reader must know of rolls, flexure, shares, ploughs and library entries: assumptions and warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from conveyor.figures import figure
+from conveyor.files.libraries import widest_spacings
+from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR, roll_drag
+from conveyor.line.roll_drags import bearing_viscosity
+from conveyor.line.roll_lives import roll_life
+from conveyor.line.stretches import Strand
+from conveyor.line.walk import StretchResult
+from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.listed import Listed, without
+from conveyor.models.rolls import BearingDrag, MakerDrag
+from conveyor.units import quantity, si, text
+
+ASKED_LIFE = 30e3
+"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
+COLD_OIL = (
+    1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
+)
+
+
+def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
+    """Shares, flexure, drag: what they rest on; entries of libraries with their sources."""
+    return (
+        _shares(conveyor),
+        _flexure(conveyor),
+        _drag(conveyor),
+        *_entries(conveyor),
+    )
+
+
+def _shares(conveyor: Conveyor) -> str:
+    sets = (conveyor.idlers.carry, conveyor.idlers.return_)
+    rule = "VDI 2341"
+    if conveyor.idlers.carry.load_shares is not None:
+        rule = "the spec (idlers.carry.load_shares)"
+    elif conveyor.idlers.carry.share_rule == "cross-section":
+        heap = "a parabola" if conveyor.material.surcharge_convention == "ISO 5048" else "a triangle"
+        rule = (
+            f"the area of bulk above each roll at the section's filling, the heap {heap} "
+            f"({conveyor.material.surcharge_convention}), vertical columns"
+        )
+    even = all(idlers.wing_load == "uniform" for idlers in sets)
+    outer = "and outer ones" if even else "triangular on outer ones"
+    joined = "bulk uniform on inner rolls " if even else "bulk uniform on inner rolls, "
+    return f"Load shares of the rolls after {rule}; {joined}{outer}."
+
+
+def _flexure(conveyor: Conveyor) -> str:
+    calculation = conveyor.calculation
+    if calculation.flexure is None:
+        return (
+            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance "
+            "(no model: share of the total measured at one overland site)."
+        )
+    laws = []
+    if calculation.flexure.belt is not None:
+        given = calculation.flexure.belt.tension
+        at = "the least tension that the sag allows, on the safe side" if given is None else text(given)
+        laws.append(f"of the belt as a tensioned beam with a constant loss tangent, at {at}")
+    if calculation.flexure.bulk is not None:
+        laws.append("of the bulk by Rankine's states at the opening angle given, an upper bound")
+    return f"Flexure {'; '.join(laws)}."
+
+
+def _drag(conveyor: Conveyor) -> str:
+    laws = {
+        strand: [roll.drag_law for _, roll in _rolls(idlers)]
+        for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
+    }
+    if not any(law is not None for found in laws.values() for law in found):
+        return "Roll drag does not depend on speed, load or temperature."
+    words = [f"{strand} {_law_in_words(found)}" for strand, found in laws.items()]
+    return f"Roll drag: {', '.join(words)}."
+
+
+def _law_in_words(laws: list[MakerDrag | BearingDrag | None]) -> str:
+    names = {
+        "constant"
+        if law is None
+        else "over load and speed by the maker's line"
+        if isinstance(law, MakerDrag)
+        else "over load, speed and air temperature by Palmgren's bearing friction, no warming but the given"
+        for law in laws
+    }
+    return " and ".join(sorted(names))
+
+
+def _rolls(idlers: IdlerSet) -> list[tuple[str, Roll]]:
+    """Rolls of a set by their field."""
+    found = [("roll", idlers.roll)]
+    return found if idlers.middle_roll is None else [*found, ("middle_roll", idlers.middle_roll)]
+
+
+def _listed(conveyor: Conveyor) -> Iterator[tuple[str, Listed]]:
+    yield "belt", conveyor.belt
+    yield "material", conveyor.material
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        for name, roll in _rolls(idlers):
+            yield f"idlers.{strand}.{name}", roll
+
+
+def _entries(conveyor: Conveyor) -> Iterator[str]:
+    for field, model in _listed(conveyor):
+        entry = model.entry
+        if entry is not None:
+            note = f"; {entry.note}" if entry.note else ""
+            yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
+
+
+def roll_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> tuple[str, ...]:
+    """Where a default stands in or a law is strained."""
+    return (
+        *_drag_warnings(conveyor),
+        *_flexure_warnings(conveyor),
+        *_library_warnings(conveyor),
+        *_cover_warnings(conveyor),
+        *_life_warnings(results),
+        *_set_warnings(conveyor, results),
+        *_other_warnings(conveyor),
+    )
+
+
+def _drag_warnings(conveyor: Conveyor) -> Iterator[str]:
+    air, units = si(conveyor.ambient.temperature), conveyor.report.units
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        for name, roll in _rolls(idlers):
+            law, field = roll.drag_law, f"idlers.{strand}.{name}"
+            if isinstance(law, BearingDrag):
+                yield from _bearing_warnings(field, law, air, text(conveyor.ambient.temperature))
+            elif law is None:
+                drag = roll_drag(
+                    None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter)
+                )
+                if drag.assumed:
+                    yield (
+                        f"idlers.{strand}: roll drag not given, {figure(drag.force, 'force', units)} a roll assumed "
+                        f"({drag.source}; an upper limit, give {field}.drag)"
+                    )
+
+
+def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[str]:
+    missing = [name for name in ("f0", "f1_factor", "f1_exponent") if name not in law.model_fields_set]
+    if missing:
+        yield (
+            f"{field}.drag_law: {', '.join(missing)} not given, upper ends for greased ball bearings assumed "
+            "(general knowledge, Palmgren's range); a measured drag goes before this law"
+        )
+    viscosity = bearing_viscosity(law, air)
+    if viscosity > COLD_OIL:
+        yield (
+            f"{field}.drag_law: the oil has {viscosity * 1e6:.4g} mm²/s at {temperature}: bearings warm themselves, "
+            "the drag is overestimated; give a measured drag or drag_law.warming"
+        )
+
+
+def _flexure_warnings(conveyor: Conveyor) -> Iterator[str]:
+    calculation = conveyor.calculation
+    flexure = calculation.flexure
+    if flexure is None:
+        if "flexure_share" not in calculation.model_fields_set:
+            share = f"{FLEXURE_SHARE.value:.0%}"
+            yield f"calculation.flexure_share not given: {share} assumed, measured at one overland site"
+        return
+    left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]
+    if left_out:
+        yield f"calculation.flexure.{left_out[0]} not given: flexure of the {left_out[0]} is not in the figures"
+    if flexure.belt is not None:
+        yield "calculation.flexure.belt: a derived law of the belt between its sets, not measured on a conveyor"
+    if flexure.bulk is not None:
+        yield "calculation.flexure.bulk: an upper bound; its opening angle is the spec's, no law computes it here"
+
+
+def _library_warnings(conveyor: Conveyor) -> Iterator[str]:
+    for field, model in _listed(conveyor):
+        entry = model.entry
+        if entry is None or not entry.general_knowledge:
+            continue
+        given = model.as_data()
+        taken = [name for name in entry.fields if name != "name" and name not in without(given, entry.fields)]
+        if taken:
+            spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
+            yield f'{field}: {", ".join(taken)} of "{entry.name}" are {entry.source}, in practice {spans}'
+
+
+def _cover_warnings(conveyor: Conveyor) -> Iterator[str]:
+    """A listed mass is that of the listed covers."""
+    belt = conveyor.belt
+    held = {} if belt.entry is None else belt.entry.fields
+    if belt.mass is None or text(belt.mass) != held.get("mass"):
+        return
+    for name, cover in (("top_cover", belt.top_cover), ("bottom_cover", belt.bottom_cover)):
+        listed = held.get(name, {}).get("thickness")
+        if listed is not None and si(quantity(listed)) != si(cover.thickness):
+            yield (
+                f"belt.mass {text(belt.mass)} is listed for a {name} of {listed}, the spec has "
+                f"{text(cover.thickness)}: give belt.mass"
+            )
+
+
+def _life_warnings(results: tuple[StretchResult, ...]) -> Iterator[str]:
+    shortest: dict[Strand, tuple[float, str, str]] = {}
+    seen: set[tuple[Strand, int, float, float]] = set()
+    for r in results:
+        if all(roll.bearing is None for _, roll in _rolls(r.stretch.idlers)):
+            continue
+        for place, load in enumerate(r.stretch.loads):
+            key = (r.stretch.strand, place, load.bulk_force, load.belt_force)
+            if key in seen:
+                continue
+            seen.add(key)
+            life = roll_life(r.stretch, place, r.rolls[place].curve.contact.speed)
+            if life is not None:
+                found = (life.both, load.name, r.stretch.section)
+                shortest[r.stretch.strand] = min(found, shortest.get(r.stretch.strand, found))
+    for strand, (hours, roll, section) in shortest.items():
+        if hours < ASKED_LIFE:
+            yield (
+                f"{strand} rolls: L10 of the {roll} in {section} is {hours:,.0f} h, less than the {ASKED_LIFE:,.0f} h "
+                "that light series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
+            )
+
+
+def _set_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
+    widest, units = widest_spacings(), conveyor.report.units
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        if si(idlers.tilt_angle) > 0.0:
+            yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
+        if si(idlers.offset) > 0.0:
+            yield f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane"
+        spacing = max(r.stretch.spacing for r in results if r.stretch.strand == strand)
+        if spacing > widest[strand]:
+            yield (
+                f"idlers.{strand}: sets {figure(spacing, 'length', units)} apart, the widest in use on overland "
+                f"conveyors are {figure(widest[strand], 'length', units)}"
+            )
+
+
+def _other_warnings(conveyor: Conveyor) -> Iterator[str]:
+    if any("scraping_factor" not in plough.model_fields_set for plough in conveyor.route.ploughs):
+        yield (
+            f"route.ploughs: scraping factor {SCRAPING_FACTOR.value:g} N/m assumed, normal value of ISO 5048 as "
+            "commonly reproduced: it knows neither density nor speed"
+        )
+    if conveyor.calculation.cema is not None:
+        yield (
+            "CEMA classic form: formulas as commonly reproduced, Ky, Kt and Ai from the spec, one Ky for the whole "
+            "conveyor; skirts, cleaners and ploughs are this calculation's"
+        )

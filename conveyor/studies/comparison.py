@@ -1,0 +1,276 @@
+"""Compounds, temperatures and speeds on one conveyor: what the better rubber saves.
+
+Loads and every force that no rubber changes are formed once for each compound and speed; all contacts of a compound are
+solved side by side. A scene that has no answer (a compound outside its data, a contact that splits) is listed with its
+reason, never filled in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from conveyor import shelf
+from conveyor.errors import InputError
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.studies.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
+from conveyor.units import Quantity, System, quantity, si
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from conveyor.report.files import FileKind
+    from conveyor.studies.drawing import ComparisonPlots
+
+__all__ = [
+    "Comparison",
+    "Coverage",
+    "Refusal",
+    "Scene",
+    "compare",
+    "compare_compounds",
+    "with_compound",
+]
+
+Progress = Callable[[int, int], None]
+
+RTOL = 1e-4
+"""Relative tolerance of the contacts: a hundredth of what any rubber is known to."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """All scenes of a comparison, in the order compound, speed, temperature.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        The spec that was varied.
+    compounds : tuple of RubberCompound
+        In the order given; the first is the base unless another was named.
+    base : str
+        Name of the compound that savings are counted against.
+    cover : {"bottom", "top", "both"}
+        Which cover took the compounds.
+    scenes, refused : tuple
+        What was answered, and what was not.
+    coverage : tuple of Coverage
+        For each compound and temperature, whether the data cover what the rolls ask for.
+    extra_costs : mapping
+        Price of a belt of each compound above the base's [currency of the spec].
+    """
+
+    conveyor: Conveyor
+    compounds: tuple[RubberCompound, ...]
+    base: str
+    cover: Cover
+    scenes: tuple[Scene, ...]
+    refused: tuple[Refusal, ...]
+    coverage: tuple[Coverage, ...]
+    extra_costs: Mapping[str, float]
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a scene; units in the names."""
+        from conveyor.report import comparing
+
+        return comparing.scenes(self)
+
+    @cached_property
+    def ranking(self) -> pd.DataFrame:
+        """One row a compound and speed, the least mean power first; savings and payback against the base."""
+        from conveyor.report import comparing
+
+        return comparing.ranking(self)
+
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the workbook.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Scenes too many for a
+            sheet go to a CSV file beside it.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
+
+        Raises
+        ------
+        InputError
+            The path cannot be written, or the system is neither SI nor US.
+        """
+        from conveyor.report.excel import write_comparison
+
+        return write_comparison(self, Path(path), system=system)
+
+    def to_tables(
+        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
+    ) -> tuple[Path, ...]:
+        """Write every table of the workbook as a file of its own; names as in docs/workbook.md.
+
+        Parameters
+        ----------
+        folder : str or Path
+            A folder that exists; older files of the same names are replaced.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
+        kind : {"csv", "parquet"}
+            Parquet needs the package pyarrow.
+
+        Raises
+        ------
+        InputError
+            No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
+        """
+        from conveyor.report.files import write_comparison
+
+        return write_comparison(self, Path(folder), system=system, kind=kind)
+
+    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the HTML report, one static page.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the page, ending in ``.html``; an older page there is replaced.
+        system : {"SI", "US"}, optional
+            Units of the tables; without it those of the spec's report.
+
+        Raises
+        ------
+        InputError
+            The path cannot be written, or the system is neither SI nor US.
+        """
+        from conveyor.report.html import write_comparison
+
+        return write_comparison(self, Path(path), system=system)
+
+    @property
+    def plots(self) -> ComparisonPlots:
+        """Figures: power over temperature and speed, loss tangents."""
+        from conveyor.studies.drawing import ComparisonPlots
+
+        return ComparisonPlots(self)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the ranking and what to know of it."""
+        from conveyor.report.representations import of_comparison
+
+        return of_comparison(self)
+
+
+def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
+    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+    >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
+    """
+    return compare_compounds(conveyor, compounds, **options).table
+
+
+def compare_compounds(
+    conveyor: Conveyor,
+    compounds: Iterable[str | RubberCompound],
+    *,
+    temperatures: Iterable[str | Quantity] | None = None,
+    speeds: Iterable[str | Quantity] | None = None,
+    cover: Cover = "bottom",
+    base: str | None = None,
+    extra_costs: Mapping[str, float] | None = None,
+    rtol: float = RTOL,
+    shelves: Iterable[str | Path] = (),
+    progress: Progress | None = None,
+) -> Comparison:
+    """Calculate a conveyor with every compound at every temperature and speed.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec; where temperatures or speeds are not given, its own.
+    compounds : iterable of str or RubberCompound
+        Shelf names, paths of compound files, or compounds.
+    temperatures, speeds : iterable of str or Quantity, optional
+        Of the belt, each with its unit ("-30 degC", "5 m/s").
+    cover : {"bottom", "top", "both"}
+        Which cover is made of the compounds: the bottom cover runs on the carry rolls.
+    base : str, optional
+        Name of the compound that the others are compared with; the first without it.
+    extra_costs : mapping of str to float, optional
+        What a belt of a compound costs more than one of the base, in the currency of the spec's energy price.
+    rtol : float
+        Relative tolerance of the contacts [-].
+    shelves : iterable of path
+        Further folders of compounds.
+    progress : callable, optional
+        Called with the number of compounds done and their total.
+
+    Returns
+    -------
+    Comparison
+        Scenes, ranking, refusals.
+
+    Raises
+    ------
+    InputError
+        No compound, one twice, an unknown base or name, a value without unit or outside its range.
+    """
+    chosen = _compounds(compounds, shelves)
+    at = [conveyor.ambient.belt] if temperatures is None else _quantities(temperatures, "temperature")
+    runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
+    costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
+    reference = chosen[0].name if base is None else _named(base, chosen)
+    found = Found([], [], [])
+    for done, compound in enumerate(chosen):
+        if progress is not None:
+            progress(done, len(chosen))
+        of_compound(conveyor, compound, Grid(tuple(at), tuple(runs), cover, rtol), found)
+    if progress is not None:
+        progress(len(chosen), len(chosen))
+    return Comparison(
+        conveyor,
+        chosen,
+        reference,
+        cover,
+        tuple(found.scenes),
+        tuple(found.refused),
+        tuple(found.coverage),
+        costs,
+    )
+
+
+def _compounds(
+    given: Iterable[str | RubberCompound], shelves: Iterable[str | Path]
+) -> tuple[RubberCompound, ...]:
+    extra = tuple(shelves)
+    chosen = tuple(
+        item if isinstance(item, RubberCompound) else shelf.compound(item, extra=extra) for item in given
+    )
+    if not chosen:
+        raise InputError("compounds: give at least one; `conveyor shelf` lists those at hand")
+    names = [compound.name for compound in chosen]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InputError(f'compounds: "{twice}" is given twice; each one once, under its own name')
+    return chosen
+
+
+def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
+    """Name of one of the compounds, in any case."""
+    for compound in compounds:
+        if compound.name.casefold() == name.casefold():
+            return compound.name
+    listed = ", ".join(compound.name for compound in compounds)
+    raise InputError(f'"{name}" is none of the compounds compared: {listed}')
+
+
+def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
+    found = [quantity(item, kind) for item in given]
+    if not found:
+        raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
+    return list({si(item): item for item in found}.values())

@@ -1,0 +1,194 @@
+"""Figures of results, to be reached from them: `analysis.plots.tensions()`, `comparison.plots.loss_tangents()`.
+
+Every one is a matplotlib figure, returned, never shown or saved; `conveyor.report.plots.save` writes one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from conveyor.errors import InputError
+from conveyor.line.stretches import Strand
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.report import analysis_plots, loop_plots, plots
+from conveyor.report.comparing import celsius
+from conveyor.report.unit_systems import chosen
+from conveyor.studies.compared import Coverage, Found, Grid, Scene, of_compound
+from conveyor.studies.variants import scaled
+from conveyor.units import Quantity, System, quantity, si
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from conveyor.analysis import Analysis
+    from conveyor.studies import Studies
+    from conveyor.studies.comparison import Comparison
+
+_WARMER: Final = tuple(range(-40, 41, 5))  # than the spec's belt [K]
+_FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # than the spec's belt, times
+_RTOL: Final = 1e-4  # of the contacts: less than a line's width
+_STRANDS: Final[tuple[Strand, ...]] = ("carry", "return")
+
+
+@dataclass(frozen=True, eq=False)
+class AnalysisPlots:
+    """Figures of one analysis; `system` is SI or US, that of the spec's report without it.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> result = conveyor.analyse(conveyor.load("examples/specs/overland.yaml"))  # doctest: +SKIP
+    >>> result.plots.tensions(system="US").savefig("tensions.png")  # doctest: +SKIP
+    """
+
+    analysis: Analysis
+
+    def resistances(self, *, system: System | None = None) -> Figure:
+        """Every kind of resistance, the classical estimates beside their sums."""
+        return analysis_plots.resistance_breakdown(self.analysis.balance, system=self._in(system))
+
+    def tensions(self, *, system: System | None = None) -> Figure:
+        """Tension round the loop in every state, and the least that the sag allows."""
+        found = self.analysis
+        return loop_plots.tension_diagram(found.balance, found.motions, system=self._in(system))
+
+    def profile(self, *, system: System | None = None) -> Figure:
+        """Height of the route over its length, with feeding points, drives and vertical curves."""
+        return loop_plots.route_profile(self.analysis.conveyor, system=self._in(system))
+
+    def pressure(self, *, system: System | None = None) -> Figure:
+        """Contact pressure under the highest line load of each strand."""
+        return analysis_plots.pressure_under_rolls(self.analysis.stretches, system=self._in(system))
+
+    def rubber(self, strand: Strand = "carry", *, system: System | None = None) -> Figure:
+        """Master curve of the rubber a strand's rolls run on, with the bands that all rolls on it excite."""
+        conveyor = self.analysis.conveyor
+        compounds = {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
+        chosen_one = compounds[strand]
+        on_it = tuple(each for each in _STRANDS if compounds[each].name == chosen_one.name)
+        at, results = si(conveyor.ambient.belt), self.analysis.stretches
+        return analysis_plots.rubber_at_work(chosen_one, at, results, on_it, system=self._in(system))
+
+    def power_against_temperature(
+        self, temperatures: Iterable[str | Quantity] | None = None, *, system: System | None = None
+    ) -> Figure:
+        """Motor power over the belt's temperature, everything else as in the spec.
+
+        Parameters
+        ----------
+        temperatures : iterable of str or Quantity, optional
+            Of the belt ("-20 degC"); without them every 5 K up to 40 K about the spec's, where there is an answer.
+        system : {"SI", "US"}, optional
+            Units of the axes.
+
+        Raises
+        ------
+        InputError
+            A temperature is refused, or none has an answer.
+        """
+        conveyor = self.analysis.conveyor
+        at = celsius(si(conveyor.ambient.belt))
+        around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
+        given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
+        found = _varied(conveyor, given, [conveyor.belt.speed])
+        return plots.power_against_temperature(found, system=self._in(system))
+
+    def power_against_speed(
+        self, speeds: Iterable[str | Quantity] | None = None, *, system: System | None = None
+    ) -> Figure:
+        """Motor power over belt speed at the spec's mass flow, everything else as in the spec.
+
+        Parameters
+        ----------
+        speeds : iterable of str or Quantity, optional
+            Of the belt ("5 m/s"); without them 0.6 to 1.4 of the spec's, where the bulk fits the belt.
+        system : {"SI", "US"}, optional
+            Units of the axes.
+
+        Raises
+        ------
+        InputError
+            A speed is refused, or none has an answer.
+        """
+        conveyor = self.analysis.conveyor
+        around = [scaled(conveyor.belt.speed, times) for times in _FASTER]
+        given = around if speeds is None else [quantity(v, "speed") for v in speeds]
+        found = _varied(conveyor, [conveyor.ambient.belt], given)
+        return plots.power_against_speed(found, system=self._in(system))
+
+    def every(self, studies: Studies | None = None, *, system: System | None = None) -> dict[str, Figure]:
+        """All of these by name, and those of the studies where they are given."""
+        conveyor = self.analysis.conveyor
+        rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
+        made = {
+            "resistances": self.resistances(system=system),
+            "tensions": self.tensions(system=system),
+            "profile": self.profile(system=system),
+            "pressure": self.pressure(system=system),
+            **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
+            "power-temperature": self.power_against_temperature(system=system),
+            "power-speed": self.power_against_speed(system=system),
+        }
+        return made if studies is None else made | dict(_of_studies(studies, self._in(system)))
+
+    def _in(self, system: System | None) -> System:
+        return chosen(self.analysis.conveyor, system)
+
+
+@dataclass(frozen=True)
+class _Alone:
+    """A conveyor with its own rubber at several temperatures and speeds."""
+
+    conveyor: Conveyor
+    compounds: tuple[RubberCompound, ...]
+    scenes: tuple[Scene, ...]
+    coverage: tuple[Coverage, ...]
+
+
+def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _Alone:
+    found = Found([], [], [])
+    compound = conveyor.carry_compound
+    grid = Grid(tuple(temperatures), tuple(speeds), "bottom", _RTOL)
+    of_compound(conveyor, compound, grid, found)
+    if not found.scenes:
+        why = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
+        raise InputError(f"nothing to draw: {why}")
+    return _Alone(conveyor, (compound,), tuple(found.scenes), tuple(found.coverage))
+
+
+def _of_studies(studies: Studies, system: System) -> Iterator[tuple[str, Figure]]:
+    cases = studies.cases
+    if cases is not None and len({result.temperature for result in cases.results}) > 1:
+        yield "cases-temperature", analysis_plots.case_power_against_temperature(cases, system=system)
+    if cases is not None and len({result.speed for result in cases.results}) > 1:
+        yield "cases-speed", analysis_plots.case_power_against_speed(cases, system=system)
+    if studies.uncertainty is not None:
+        yield "ranges", analysis_plots.tornado(studies.uncertainty, system=system)
+
+
+@dataclass(frozen=True, eq=False)
+class ComparisonPlots:
+    """Figures of a comparison; `system` is SI or US, that of the spec's report without it."""
+
+    comparison: Comparison
+
+    def power_against_temperature(
+        self, speed: float | None = None, *, system: System | None = None
+    ) -> Figure:
+        """Motor power of every compound over temperature at one speed [m/s], the slowest without."""
+        return plots.power_against_temperature(self.comparison, speed, system=self._in(system))
+
+    def power_against_speed(
+        self, temperature: float | None = None, *, system: System | None = None
+    ) -> Figure:
+        """Motor power of every compound over speed at one temperature [K], the coldest answered by all without."""
+        return plots.power_against_speed(self.comparison, temperature, system=self._in(system))
+
+    def loss_tangents(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
+        """Loss tangents at one temperature [K], the spec's without, and the band that the rolls excite."""
+        return plots.compared_loss_tangents(self.comparison, temperature, system=self._in(system))
+
+    def _in(self, system: System | None) -> System:
+        return chosen(self.comparison.conveyor, system)

@@ -1,0 +1,391 @@
+"""How far the power may be off: every uncertain input at both ends of its range, calculated anew, and their sum.
+
+Ranges are taken to hold nine tenths of what may be, each input independent of the others. Bands hold nine tenths too:
+the root of the squares of all changes, and a Latin hypercube (McKay, Beckman, Conover 1979) on the first-order model
+P = P0 + Σ c_i(z_i), c_i a straight line from the middle to each end, z_i normal with its ends at the 5 % and 95 %
+quantiles. Both are exact for a power that is linear and inputs that are normal.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from conveyor.errors import InputError
+from conveyor.line.stretches import Strand
+from conveyor.loop.curved import Run
+from conveyor.models import Conveyor, RubberCompound, Uncertainty
+from conveyor.rubber import PronySeries
+from conveyor.studies.cases import shaft_power
+from conveyor.studies.scenes import NoAnswer, Progress, Scene, runs
+from conveyor.studies.variants import scaled, with_temperature
+from conveyor.units import Quantity, display, from_si, si, text
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Array = NDArray[np.float64]
+
+COVERED: Final = 0.9
+"""Share of what may be that a range or a band holds."""
+END: Final = float(ndtri(0.5 + 0.5 * COVERED))
+"""Standard deviations from the middle of a range to its ends, normal."""
+SAMPLES: Final = 4096
+"""Of the hypercube: its quantiles are then good to about 1 % of the band."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What one input does to the power.
+
+    Attributes
+    ----------
+    name : str
+        The input.
+    low, given, high : str
+        Its values, in words.
+    motor_low, motor_high : float
+        Power at the motors' shafts at both [W]; for rubber the 5 % and 95 % quantiles of its replicas.
+    """
+
+    name: str
+    low: str
+    given: str
+    high: str
+    motor_low: float
+    motor_high: float
+
+    @property
+    def swing(self) -> float:
+        """Change of the power between both ends [W]."""
+        return abs(self.motor_high - self.motor_low)
+
+
+@dataclass(frozen=True, eq=False)
+class UncertaintyStudy:
+    """The power with its band, and which input matters.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        The spec.
+    motor : float
+        Power at the motors' shafts as the spec says [W].
+    effects : tuple of Effect
+        One an input, the largest swing first.
+    band, sampled : tuple of float
+        Between which nine tenths lie: by the root of the squares, and by the hypercube [W].
+    notes : tuple of str
+        What was left out, and why.
+    """
+
+    conveyor: Conveyor
+    motor: float
+    effects: tuple[Effect, ...]
+    band: tuple[float, float]
+    sampled: tuple[float, float]
+    notes: tuple[str, ...]
+
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """Share of each input in the variance of the power, first order [-]; zero where nothing matters."""
+        squares = [effect.swing**2 for effect in self.effects]
+        whole = math.fsum(squares)
+        return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """The tornado: one row an input, the largest swing first; units in the names."""
+        from conveyor.report import case_tables
+
+        return case_tables.tornado(self)
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.representations import of_uncertainty
+
+        return of_uncertainty(self)
+
+
+@dataclass(frozen=True)
+class _Variation:
+    """An input at both ends of its range."""
+
+    name: str
+    low: str
+    given: str
+    high: str
+    scenes: tuple[Scene, ...]
+    """The low and the high end, or replicas of which quantiles are taken."""
+    replicas: bool = False
+
+
+def study(
+    conveyor: Conveyor,
+    ranges: Uncertainty | None = None,
+    *,
+    rtol: float | None = None,
+    samples: int = SAMPLES,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> UncertaintyStudy:
+    """Calculate a conveyor at both ends of every uncertain input.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    ranges : Uncertainty, optional
+        Ranges; those of the spec without it.
+    rtol : float, optional
+        Relative tolerance of the contacts [-]; that of the spec without it.
+    samples : int
+        Points of the hypercube, at least 2.
+    seed : int
+        Of the hypercube.
+    progress : callable, optional
+        Called with what is done and the whole.
+
+    Returns
+    -------
+    UncertaintyStudy
+        Tornado and bands.
+
+    Raises
+    ------
+    InputError
+        There is no range, or an end of one is refused (bulk that does not fit, a temperature without data).
+    NoSolutionError, RangeError
+        The conveyor, or an end of a range, has no answer.
+
+    Notes
+    -----
+    Contacts are solved side by side; a range that does not change them (roll drag, flexure, cleaners) costs none.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland_duty.yaml")  # doctest: +SKIP
+    >>> conveyor.uncertainty.study(line).table  # doctest: +SKIP
+    """
+    given = conveyor.uncertainty if ranges is None else ranges
+    notes: list[str] = []
+    variations = [] if given is None else list(_variations(conveyor, given, notes))
+    if not variations:
+        why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
+        raise InputError(f"{why}: nothing to vary")
+    scenes = [Scene(conveyor), *(scene for variation in variations for scene in variation.scenes)]
+    powers = [_power(scene, found) for scene, found in zip(scenes, runs(scenes, rtol, progress), strict=True)]
+    motor, at = powers[0], 1
+    effects = []
+    for variation in variations:
+        mine = powers[at : at + len(variation.scenes)]
+        at += len(variation.scenes)
+        low, high = _ends(mine) if variation.replicas else (mine[0], mine[1])
+        effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
+    effects.sort(key=lambda effect: -effect.swing)
+    return UncertaintyStudy(
+        conveyor=conveyor,
+        motor=motor,
+        effects=tuple(effects),
+        band=root_of_squares(motor, effects),
+        sampled=hypercube_band(motor, effects, samples=samples, seed=seed),
+        notes=tuple(notes),
+    )
+
+
+def _power(scene: Scene, found: Run | NoAnswer) -> float:
+    if not isinstance(found, Run):
+        raise found
+    return shaft_power(scene.conveyor, found.balance.forces.total)
+
+
+def _ends(powers: Sequence[float]) -> tuple[float, float]:
+    """Quantiles of the replicas' powers."""
+    low, high = np.quantile(powers, (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
+    return float(low), float(high)
+
+
+def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, float]:
+    """Band of independent inputs: the roots of the squares of all changes down and of all up [W].
+
+    Parameters
+    ----------
+    motor : float
+        Power as given [W].
+    effects : sequence of Effect
+        What each input does.
+
+    Examples
+    --------
+    >>> root_of_squares(100.0, [Effect("a", "", "", "", 97.0, 103.0), Effect("b", "", "", "", 104.0, 96.0)])
+    (95.0, 105.0)
+    """
+    changes = [(effect.motor_low - motor, effect.motor_high - motor) for effect in effects]
+    down = math.hypot(*(min(*pair, 0.0) for pair in changes))
+    up = math.hypot(*(max(*pair, 0.0) for pair in changes))
+    return motor - down, motor + up
+
+
+def hypercube_band(
+    motor: float, effects: Sequence[Effect], *, samples: int, seed: int
+) -> tuple[float, float]:
+    """Band of the first-order model on a seeded Latin hypercube of normal inputs [W].
+
+    Parameters
+    ----------
+    motor : float
+        Power as given [W].
+    effects : sequence of Effect
+        What each input does.
+    samples : int
+        Points, at least 2.
+    seed : int
+        Of the random numbers.
+
+    Raises
+    ------
+    InputError
+        Fewer than 2 points.
+    """
+    if samples < 2:
+        raise InputError(f"samples = {samples}: at least 2 are needed")
+    rng = np.random.default_rng(seed)
+    power = np.full(samples, motor)
+    for effect in effects:
+        strata = (rng.permutation(samples) + rng.random(samples)) / samples
+        z: Array = ndtri(strata) / END
+        power += np.where(z < 0.0, z * (motor - effect.motor_low), z * (effect.motor_high - motor))
+    low, high = np.quantile(power, (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
+    return float(low), float(high)
+
+
+def _variations(conveyor: Conveyor, ranges: Uncertainty, notes: list[str]) -> Iterator[_Variation]:
+    if ranges.roll_drag is not None:
+        half = si(ranges.roll_drag)
+        scenes = (Scene(conveyor, drag=1.0 - half), Scene(conveyor, drag=1.0 + half))
+        yield _Variation("roll drag", f"-{half:.3g}", "as computed", f"+{half:.3g}", scenes)
+    if ranges.flexure_share is not None:
+        yield _flexure(conveyor, ranges.flexure_share)
+    for name, change in _CHANGES.items():
+        half_width: Quantity | None = getattr(ranges, name)
+        if half_width is not None:
+            yield _scaled(conveyor, name, si(half_width), change, notes)
+    if ranges.temperature is not None:
+        yield _temperature(conveyor, si(ranges.temperature))
+    if ranges.rubber:
+        yield from _rubber(conveyor, notes)
+
+
+def _refused(name: str, change: Callable[[], Conveyor]) -> Conveyor:
+    """A changed conveyor; a refusal names the range."""
+    try:
+        return change()
+    except InputError as error:
+        raise InputError(f"uncertainty.{name}: an end of the range is refused: {error}") from None
+
+
+def _flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
+    calculation = conveyor.calculation
+    scenes = tuple(
+        Scene(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends
+    )
+    low, high = (text(share) for share in ends)
+    return _Variation("flexure share", low, text(calculation.flexure_share), high, scenes)
+
+
+def _temperature(conveyor: Conveyor, change: float) -> _Variation:
+    at = si(conveyor.ambient.belt)
+    ends = [from_si(float(f"{at + sign * change:.9g}"), "temperature", "K") for sign in (-1.0, 1.0)]
+    scenes = [Scene(_refused("temperature", partial(with_temperature, conveyor, end))) for end in ends]
+    low, given, high = (display(si(t), "temperature") for t in (ends[0], conveyor.ambient.belt, ends[1]))
+    return _Variation("temperature of the belt", low, given, high, tuple(scenes))
+
+
+def _with_flow(conveyor: Conveyor, factor: float) -> Conveyor:
+    material = conveyor.material
+    return conveyor.replace(material=material.replace(flow=scaled(material.flow, factor)))
+
+
+def _with_density(conveyor: Conveyor, factor: float) -> Conveyor:
+    material = conveyor.material
+    return conveyor.replace(material=material.replace(density=scaled(material.density, factor)))
+
+
+def _with_belt_mass(conveyor: Conveyor, factor: float) -> Conveyor:
+    mass = from_si(factor * conveyor.belt.line_mass, "line mass", "kg/m")
+    return conveyor.replace(belt=conveyor.belt.replace(mass=mass))
+
+
+def _with_cover(conveyor: Conveyor, factor: float) -> Conveyor:
+    belt = conveyor.belt
+    cover = belt.bottom_cover.replace(thickness=scaled(belt.bottom_cover.thickness, factor))
+    return conveyor.replace(belt=belt.replace(bottom_cover=cover))
+
+
+def _with_cleaners(conveyor: Conveyor, factor: float) -> Conveyor:
+    route = conveyor.route
+    cleaners = [c.replace(pressure=scaled(c.pressure, factor)) for c in route.cleaners]
+    return conveyor.replace(route=route.replace(cleaners=cleaners))
+
+
+def _with_skirts(conveyor: Conveyor, factor: float) -> Conveyor:
+    route = conveyor.route
+    points = [p.replace(skirt_friction=p.skirt_friction * factor) for p in route.feeding_points]
+    if not points:
+        return conveyor
+    return conveyor.replace(route=route.replace(feeding=points[0], further_feeding=points[1:]))
+
+
+_CHANGES: Final[dict[str, Callable[[Conveyor, float], Conveyor]]] = {
+    "flow": _with_flow,
+    "density": _with_density,
+    "belt_mass": _with_belt_mass,
+    "cover_thickness": _with_cover,
+    "cleaner_pressure": _with_cleaners,
+    "skirt_friction": _with_skirts,
+}
+
+
+def _scaled(
+    conveyor: Conveyor,
+    name: str,
+    half: float,
+    change: Callable[[Conveyor, float], Conveyor],
+    notes: list[str],
+) -> _Variation:
+    ends = [_refused(name, partial(change, conveyor, factor)) for factor in (1.0 - half, 1.0 + half)]
+    if all(end == conveyor for end in ends):
+        notes.append(f"uncertainty.{name}: the conveyor has none of it")
+    scenes = tuple(Scene(end) for end in ends)
+    return _Variation(name.replace("_", " "), f"-{half:.3g}", "as given", f"+{half:.3g}", scenes)
+
+
+def _rubber(conveyor: Conveyor, notes: list[str]) -> Iterator[_Variation]:
+    """Replicas of each compound on the strands that run on it."""
+    at = si(conveyor.ambient.belt)
+    compounds: dict[Strand, RubberCompound] = {
+        "carry": conveyor.carry_compound,
+        "return": conveyor.return_compound,
+    }
+    for compound in dict.fromkeys(compound.name for compound in compounds.values()):
+        strands = [strand for strand, c in compounds.items() if c.name == compound]
+        replicas: tuple[PronySeries, ...] = compounds[strands[0]].replicas(at)
+        if not replicas:
+            notes.append(f'compound "{compound}" has no replicas: its rubber is taken as certain')
+            continue
+        scenes = tuple(Scene(conveyor, dict.fromkeys(strands, replica)) for replica in replicas)
+        yield _Variation(
+            f'rubber "{compound}"',
+            "5 % of the replicas",
+            "as fitted",
+            "95 % of the replicas",
+            scenes,
+            replicas=True,
+        )

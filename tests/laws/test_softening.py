@@ -1,0 +1,129 @@
+"""Moduli at the strain the rolls work a cover at: consistent with the contact they make, visible in the report."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.contact import interior, solve
+from conveyor.errors import RangeError
+from conveyor.indentation import RollContact, to_problem
+from conveyor.laws.softening import losing_load, softened_cover
+from conveyor.models import RubberCompound
+from conveyor.studies.comparison import with_compound
+
+AT = 293.15
+LOAD = 2000.0
+
+
+@pytest.fixture(scope="module")
+def compound():
+    return shelf.compound("s100")
+
+
+@pytest.fixture(scope="module")
+def contact(compound):
+    return RollContact(0.0795, 1.2, 5e-3, 5.0, compound.series(AT))
+
+
+@pytest.fixture(scope="module")
+def softened(compound, contact):
+    return softened_cover(contact, LOAD, compound.amplitude_factors(), AT)
+
+
+@pytest.fixture(scope="module")
+def line():
+    spec = conveyor.load("examples/specs/overland.yaml")
+    return with_compound(spec, shelf.compound("s100"), "bottom")
+
+
+def test_strain_is_that_of_the_contact_it_makes(contact, softened):
+    series, found = softened
+    again = RollContact(contact.radius, contact.spacing, contact.cover_thickness, contact.speed, series)
+    inside = interior(solve(to_problem(again, LOAD), 1e-6))
+    # the iteration stops at a hundredth of the strain
+    assert inside.working_strain == pytest.approx(found.strain, rel=0.01)
+    frequency = inside.wave_number * contact.speed / contact.spacing
+    assert frequency == pytest.approx(found.frequency, rel=0.02)
+
+
+def test_factors_are_the_compounds_at_that_strain(compound, contact, softened):
+    series, found = softened
+    factors = compound.amplitude_factors()
+    # factors were taken at the trial strain, a hundredth from the last
+    assert found.storage_factor == pytest.approx(float(factors.storage(found.strain, AT)), rel=0.01)
+    assert found.loss_factor == pytest.approx(float(factors.loss(found.strain, AT)), rel=0.01)
+    omega = 2.0 * math.pi * found.frequency
+    assert float(series.storage(omega)) == pytest.approx(
+        found.storage_factor * float(contact.rubber.storage(omega)), rel=2e-3
+    )
+    assert float(series.loss(omega)) == pytest.approx(
+        found.loss_factor * float(contact.rubber.loss(omega)), rel=1e-12
+    )
+
+
+def test_heavier_rolls_work_it_harder(compound, contact):
+    factors = compound.amplitude_factors()
+    found = [softened_cover(contact, load, factors, AT)[1] for load in (1000.0, 2000.0, 4000.0)]
+    assert all(np.diff([f.strain for f in found]) > 0.0)
+    assert all(np.diff([f.storage_factor for f in found]) < 0.0)
+    # wider contacts are passed more slowly
+    assert all(np.diff([f.frequency for f in found]) < 0.0)
+
+
+def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
+    strain = softened[1].strain
+    data = compound.as_data()
+    data["strain_dependence"]["reference_strain"] = f"{100.0 * strain:.12g} %"
+    # not quite: the contact of the unsoftened series works at a little less strain
+    series, found = softened_cover(contact, LOAD, RubberCompound.from_data(data).amplitude_factors(), AT)
+    assert found.strain < strain
+    assert found.storage_factor == pytest.approx(1.0, abs=0.06)
+    assert found.storage_factor > 1.0
+    assert float(series.equilibrium) == pytest.approx(contact.rubber.equilibrium, rel=0.1)
+
+
+def test_strains_beyond_the_sweeps_are_refused(compound, contact):
+    with pytest.raises(RangeError, match=r"strain"):
+        softened_cover(contact, 5e6, compound.amplitude_factors(), AT)
+
+
+def test_losing_load():
+    assert losing_load(np.full(3, 700.0), np.array([0.1, 0.2, 0.3])) == pytest.approx(700.0)
+    # two rolls of one weight: (w1^(7/3) + w2^(7/3))/(w1^(4/3) + w2^(4/3))
+    low, high = 1000.0, 3000.0
+    expected = (low ** (7 / 3) + high ** (7 / 3)) / (low ** (4 / 3) + high ** (4 / 3))
+    assert losing_load(np.array([low, high]), np.ones(2)) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_report_says_which_strain(line):
+    result = conveyor.analyse(line)
+    carry, back = (result.rubber.set_index("strand").loc[s] for s in ("carry", "return"))
+    assert 0.004 < carry["working strain [-]"] < 0.03
+    assert carry["E' factor of strain [-]"] < 1.0
+    assert math.isnan(back["working strain [-]"])
+    assert back["E' factor of strain [-]"] == 1.0
+    assert any("work it at" in warning and "strain" in warning for warning in result.warnings)
+    (row, _) = result.to_dict()["rubber"]
+    assert row["working_strain"] == carry["working strain [-]"]
+
+
+def test_off_is_the_linear_rubber(line):
+    linear = line.replace(calculation=line.calculation.replace(strain="off"))
+    on, off = conveyor.analyse(line), conveyor.analyse(linear)
+    assert on.balance.forces.indentation > 1.05 * off.balance.forces.indentation
+    plain = shelf.compound("s100").replace(strain_dependence=None)
+    same = conveyor.analyse(with_compound(line, plain, "bottom"))
+    assert off.balance.forces.indentation == same.balance.forces.indentation
+    assert any("calculation.strain is off" in warning for warning in off.warnings)
+
+
+def test_outside_the_sweeps_it_is_linear_and_says_so(line):
+    cold = line.replace(ambient=line.ambient.replace(temperature="-20 degC"))
+    result = conveyor.analyse(cold)
+    assert any("do not reach -20 degC: taken as linear" in warning for warning in result.warnings)
+    assert result.rubber["working strain [-]"].isna().all()

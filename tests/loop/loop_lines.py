@@ -1,0 +1,101 @@
+"""Conveyors for the tests of the loop: forces along the belt by f, without a contact, so that a case costs no time."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+from typing import Any
+
+from conveyor.line.stretches import FixedForces, stretches
+from conveyor.line.walk import StretchResult, Surface
+from conveyor.loop.balance import Balance, balance
+from conveyor.models import Conveyor
+from conveyor.rubber import PronySeries
+from conveyor.spec import from_data
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+SURFACE = Surface(5e-3, PronySeries(8e6, [2e6], [1e-3]), 0.5)
+FRICTION = 0.011  # of indentation over the load, of the size real belts have
+
+DATA: dict[str, Any] = {
+    "name": "loop",
+    "belt": {
+        "width": "1000 mm", "speed": "4 m/s", "mass": "20 kg/m^2",
+        "top_cover": {"thickness": "6 mm"}, "bottom_cover": {"thickness": "4 mm", "compound": "s100"},
+        "carcass": {"kind": "steel cord", "thickness": "5 mm", "strength": "2000 N/mm"},
+    },
+    "idlers": {
+        "carry": {"rolls": 3, "spacing": "1.2 m", "trough_angle": "35 deg",
+                  "roll": {"diameter": "133 mm", "length": "380 mm", "rotating_mass": "4 kg", "drag": "1.5 N"}},
+        "return": {"rolls": 1, "spacing": "3 m",
+                   "roll": {"diameter": "133 mm", "length": "1150 mm", "rotating_mass": "9 kg", "drag": "1.5 N"}},
+    },
+    "material": {"name": "ore", "density": "1.6 t/m^3", "flow": "1200 t/h", "surcharge_angle": "15 deg"},
+    "route": {
+        "sections": [
+            {"name": "a", "length": "120 m"}, {"name": "b", "length": "400 m", "lift": "25 m"},
+            {"name": "c", "length": "300 m", "lift": "-8 m"}, {"name": "d", "length": "180 m", "lift": "6 m"},
+        ],
+        "feeding": {"speed": "1 m/s", "skirt_length": "4 m", "skirt_width": "600 mm"},
+        "cleaners": [{"count": 2, "width": "900 mm", "thickness": "8 mm"}],
+        "pulleys": [
+            {"name": "head", "position": "head", "diameter": "1000 mm", "shaft_diameter": "200 mm", "mass": "2 t"},
+            {"name": "bend", "position": "take-up", "diameter": "800 mm", "shaft_diameter": "160 mm", "mass": "1 t"},
+            {"name": "tail", "position": "tail", "diameter": "800 mm", "shaft_diameter": "160 mm", "mass": "1 t"},
+            {"name": "snub", "position": "return", "section": "c", "diameter": "630 mm",
+             "shaft_diameter": "120 mm", "mass": "0.5 t", "wrap_angle": "20 deg"},
+        ],
+    },
+    "drive": {"wrap_angle": "200 deg", "friction": 0.35, "efficiency": "94 %", "installed_power": "400 kW"},
+    "ambient": {"temperature": "20 degC"},
+}  # fmt: skip
+
+BOOSTER = {
+    "name": "booster", "position": "carry", "section": "b", "wrap_angle": "190 deg", "friction": 0.3,
+    "installed_power": "200 kW",
+}  # fmt: skip
+TAIL_DRIVE = {
+    "name": "tail drive", "position": "tail", "wrap_angle": "180 deg", "friction": 0.3, "installed_power": "100 kW",
+}  # fmt: skip
+SECOND = {"name": "second", "wrap_angle": "180 deg", "friction": 0.3, "installed_power": "400 kW"}
+DOWN = [{"name": "a", "length": "100 m"}, {"name": "b", "length": "900 m", "lift": "-110 m"},
+        {"name": "c", "length": "80 m"}]  # fmt: skip
+
+
+def data(**changes: dict[str, Any]) -> dict[str, Any]:
+    """The plain data, with parts of each group replaced."""
+    made = copy.deepcopy(DATA)
+    for group, values in changes.items():
+        made[group] = made.get(group, {}) | values
+    return made
+
+
+def line(**changes: dict[str, Any]) -> Conveyor:
+    return from_data(data(**changes))
+
+
+def forced(conveyor: Conveyor, friction: float = FRICTION) -> tuple[StretchResult, ...]:
+    """Forces along the belt with an indentation of `friction` times the load."""
+    gravity = 9.81
+    found = []
+    for stretch in stretches(conveyor):
+        fixed = FixedForces.of(stretch, gravity)
+        found.append(
+            StretchResult(
+                stretch=stretch,
+                surface=SURFACE,
+                rolls=(),
+                indentation=friction * fixed.unit_main,
+                rotation=fixed.rotation,
+                flexure=0.002 * fixed.unit_main,
+                tilt=fixed.tilt,
+                lift=fixed.lift,
+                unit_main=fixed.unit_main,
+            )
+        )
+    return tuple(found)
+
+
+def balanced(**changes: dict[str, Any]) -> Balance:
+    conveyor = line(**changes)
+    return balance(conveyor, forced(conveyor))

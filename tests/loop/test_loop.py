@@ -1,0 +1,321 @@
+"""The loop closes in every state; every drive grips; take-ups hold; nothing depends on how it is written."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws import drive as drive_laws
+from conveyor.laws import tension
+from conveyor.loop.balance import balance
+from conveyor.loop.starting import motions
+from conveyor.remarks.loop import loop_warnings
+from conveyor.units import quantity, si
+from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, balanced, forced, line
+
+CLOSED = 1e-9
+"""Of the largest tension: the figure the package promises; rounding alone leaves about 1e-14."""
+
+ROUTE, DRIVE = DATA["route"], DATA["drive"]
+CASES = {
+    "one drive": {},
+    "tail drive alone": {"drive": {"position": "tail"}},
+    "drive on the return strand": {"drive": {"position": "return", "section": "d"}},
+    "two at the head": {"drive": {"further_drives": [SECOND]}},
+    "head, booster, tail": {"drive": {"further_drives": [BOOSTER, TAIL_DRIVE]}},
+    "gravity at the tail": {"route": {"take_up": {"kind": "gravity", "position": "tail"}}},
+    "fixed": {"route": {"take_up": {"kind": "fixed"}}, "drive": {"further_drives": [BOOSTER]}},
+    "winch on the return strand": {"route": {"take_up": {"kind": "winch", "position": "return", "section": "b"}}},
+    "downhill": {"route": {"sections": DOWN, "pulleys": ROUTE["pulleys"][:3]}, "drive": {"brake_force": "120 kN"}},
+    "downhill, head and tail": {
+        "route": {
+            "sections": DOWN, "pulleys": ROUTE["pulleys"][:3],
+            "take_up": {"kind": "gravity", "position": "head"},
+        },
+        "drive": {"further_drives": [TAIL_DRIVE | {"brake_force": "90 kN"}], "reduced_mass": "8 t"},
+    },
+    "two feeding points": {
+        "route": {
+            "feeding": ROUTE["feeding"] | {"share": 0.7},
+            "further_feeding": [ROUTE["feeding"] | {"section": "c", "share": 0.3}],
+        },
+    },
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=CASES, ids=list(CASES))
+def case(request):
+    conveyor = line(**CASES[request.param])
+    results = forced(conveyor)
+    return conveyor, results, balance(conveyor, results)
+
+
+def _boundary(conveyor, position, section):
+    names = [s.name for s in conveyor.route.sections]
+    n = len(names)
+    return {"head": 2 * n, "tail": n, "carry": n + 1 + names.index(section or names[0]),
+            "return": n - names.index(section or names[0])}[position]  # fmt: skip
+
+
+def test_the_loop_closes_in_every_state(case):
+    """Resistances, masses and drives, summed anew from what went in, bring the tension back to where it began."""
+    conveyor, results, found = case
+    moving = motions(conveyor, results, found)
+    n = len(results) // 2
+    order = (*results[n:], *results[:n])
+    for state in (*found.settled.states.values(), *moving.states.values()):
+        level = state.leaving
+        for i, result in enumerate(order):
+            roll_mass = 12.0 / 1.2 if result.stretch.strand == "carry" else 9.0 / 3.0
+            mass = result.stretch.length * (result.stretch.line_mass + roll_mass)
+            step = result.lift + state.friction * (result.total - result.lift) + state.acceleration * mass
+            assert state.ends[i] - state.starts[i] == pytest.approx(
+                step, rel=CLOSED, abs=CLOSED * state.largest
+            )
+            level += step
+        level += sum(
+            single.force * (1.0 if "acceleration" in single.name else state.friction)
+            for single in found.singles
+        )
+        level -= sum(side.force for side in state.drives)
+        assert level == pytest.approx(state.leaving, abs=CLOSED * state.largest), state.name
+        assert state.force == pytest.approx(sum(side.force for side in state.drives), rel=1e-14)
+
+
+def test_drives_give_what_the_conveyor_takes(case):
+    conveyor, results, found = case
+    sides = found.settled.steady.drives
+    along = math.fsum(r.total for r in results) + math.fsum(s.force for s in found.singles)
+    assert found.forces.total == pytest.approx(along, rel=1e-12)
+    assert sum(side.force for side in sides) == pytest.approx(found.forces.total, rel=1e-12)
+    assert found.power.belt == pytest.approx(sum(s.force for s in sides) * si(conveyor.belt.speed), rel=1e-12)
+    for side in sides:
+        assert side.arriving - side.leaving == pytest.approx(side.force, rel=1e-9)
+
+
+def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
+    _, _, found = case
+    settled = found.settled
+    data = settled.loop.data
+    for state in settled.states.values():
+        for drive, side in zip(data.drives, state.drives, strict=True):
+            assert side.tight / side.slack <= math.exp(drive.friction * drive.wrap_angle) * (1.0 + 1e-12)
+        if state.acceleration == 0.0:
+            lowest = np.minimum(state.starts, state.ends)
+            assert np.all(lowest >= settled.loop.geometry.least * (1.0 - 1e-12))
+    # the least setting: one condition holds exactly, and the figure is that condition's
+    margins = [settled.setting - needed for needed in settled.conditions.values()]
+    assert min(margins) == pytest.approx(0.0, abs=1e-9 * settled.setting)
+    assert settled.conditions[settled.condition_name(settled.governed_by)] == settled.needed
+
+
+def test_the_take_up_holds_what_it_holds(case):
+    conveyor, results, found = case
+    settled = found.settled
+    take_up = conveyor.route.take_up
+    geometry = settled.loop.geometry
+    for state in (*settled.states.values(), *motions(conveyor, results, found).states.values()):
+        if take_up is None:
+            held = state.drives[0].slack
+        elif take_up.kind == "fixed":
+            held = float((0.5 * (state.starts + state.ends)) @ geometry.length / geometry.length.sum())
+        else:
+            boundary = _boundary(conveyor, take_up.position, take_up.section)
+            held = float(state.starts[boundary % len(state.starts)])
+        assert held == pytest.approx(settled.setting, rel=1e-12), state.name
+
+
+def test_one_drive_is_the_law():
+    found = balanced()
+    law = tension.drive_tensions(
+        found.forces.total, friction=0.35, wrap_angle=math.radians(200.0), start_factor=1.3, slack_for_sag=0.0
+    )
+    assert (found.tensions.slack, found.tensions.tight_start) == pytest.approx(
+        (law.slack, law.tight), rel=1e-12
+    )
+    assert found.tensions.governed_by == "grip"
+    assert found.settled.condition_name(found.settled.governed_by) == "grip, drive, start"
+
+
+def test_two_drives_at_the_head_are_the_law_of_the_row():
+    found = balanced(drive={"further_drives": [SECOND]})
+    force = found.forces.total
+    index, slack = drive_laws.tandem_slack(
+        [1.3 * 0.5 * force] * 2, frictions=[0.35, 0.3], wrap_angles=[math.radians(200.0), math.pi]
+    )
+    assert index == 1
+    assert found.settled.condition_name(found.settled.governed_by) == "grip, second, start"
+    # without a take-up the first drive's slack side, the second's tight one, is held
+    start = found.settled.states["start"]
+    assert start.drives[1].leaving == pytest.approx(slack, rel=1e-12)
+
+
+def test_force_is_shared_by_power_or_as_told():
+    by_power = balanced(drive={"further_drives": [BOOSTER, TAIL_DRIVE]})
+    forces = [side.force for side in by_power.settled.steady.drives]
+    assert forces == pytest.approx([by_power.forces.total * s for s in (4 / 7, 2 / 7, 1 / 7)], rel=1e-12)
+    told = balanced(drive={"share": 0.25, "further_drives": [BOOSTER | {"share": "75 %"}]})
+    assert told.settled.steady.drives[0].force == pytest.approx(0.25 * told.forces.total, rel=1e-12)
+
+
+def test_a_booster_takes_tension_out_of_the_belt():
+    alone, helped = balanced(), balanced(drive={"further_drives": [BOOSTER]})
+    assert helped.tensions.largest < alone.tensions.largest
+    # its wrap apart, which the lower tension changes, the force is that of the conveyor
+    assert helped.forces.main == alone.forces.main
+    assert helped.forces.total == pytest.approx(alone.forces.total, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", list(CASES))
+def test_splitting_a_section_renaming_and_units_change_nothing(name):
+    conveyor = line(**CASES[name])
+    before = balance(conveyor, forced(conveyor))
+    old = conveyor.route.sections[0]
+    halves = [old.replace(name=n, length=quantity("60 m" if len(conveyor.route.sections) == 4 else "50 m"))
+              for n in ("new one", "new two")]  # fmt: skip
+    route = conveyor.route.replace(sections=[*halves, *conveyor.route.sections[1:]])
+    belt = conveyor.belt.replace(width="1 m", speed="14.4 km/h")
+    split = conveyor.replace(route=route, belt=belt, material=conveyor.material.replace(flow="1200000 kg/h"))
+    after = balance(split, forced(split))
+    assert after.forces.total == pytest.approx(before.forces.total, rel=1e-12)
+    assert after.settled.setting == pytest.approx(before.settled.setting, rel=1e-11)
+    assert after.tensions.largest == pytest.approx(before.tensions.largest, rel=1e-11)
+    for state, same in zip(after.settled.states.values(), before.settled.states.values(), strict=True):
+        assert state.acceleration == pytest.approx(same.acceleration, rel=1e-10, abs=1e-15)
+        assert state.smallest == pytest.approx(same.smallest, rel=1e-11)
+
+
+def test_a_belt_that_drives_gives_its_motor_what_the_train_leaves():
+    found = balanced(**CASES["downhill"] | {"drive": {"regeneration_efficiency": "88 %"}})
+    assert found.power.motor == pytest.approx(0.88 * found.power.belt, rel=1e-14)
+    same = balanced(**CASES["downhill"] | {"drive": {}}).power
+    assert same.motor == pytest.approx(0.94 * found.power.belt, rel=1e-14)
+    assert balanced(drive={"regeneration_efficiency": "88 %"}).power.motor == balanced().power.motor
+
+
+def test_bulk_lies_behind_its_feeding_points_only():
+    conveyor = line(**CASES["two feeding points"])
+    whole = 1200.0 / 3.6 / 4.0
+    carry = forced(conveyor)[:4]
+    assert [r.stretch.bulk_mass / whole for r in carry] == pytest.approx([0.7, 0.7, 1.0, 1.0], rel=1e-15)
+    found = balance(conveyor, forced(conveyor))
+    inertia = {s.name: s.force for s in found.singles if "acceleration" in s.name}
+    one = next(s.force for s in balanced().singles if "acceleration" in s.name)
+    assert inertia["acceleration of the bulk, first"] == pytest.approx(0.7 * one, rel=1e-14)
+    assert inertia["acceleration of the bulk, c"] == pytest.approx(0.3 * one, rel=1e-14)
+    late = line(route={"feeding": ROUTE["feeding"] | {"section": "c"}})
+    assert [r.stretch.bulk_mass for r in forced(late)[:4]] == pytest.approx(
+        [0.0, 0.0, whole, whole], rel=1e-15
+    )
+
+
+def test_least_friction_is_on_the_safe_side():
+    conveyor = line(**CASES["downhill"])
+    results = forced(conveyor)
+    found = balance(conveyor, results)
+    lift = math.fsum(r.lift for r in results)
+    certain = next(s.force for s in found.singles if "acceleration" in s.name)
+    expected = lift + certain + 0.6 * (found.forces.total - lift - certain)
+    assert found.settled.least_force == pytest.approx(expected, rel=1e-12)
+    assert found.settled.least_force < found.forces.total < 0.0
+    full = balanced(**CASES["downhill"] | {"drive": {"least_friction": 1.0}})
+    assert full.tensions.slack < found.tensions.slack
+    assert set(full.settled.states) == {"steady", "braking"}
+
+
+def test_a_given_take_up_is_held_and_judged():
+    needed = balanced(route={"take_up": {"kind": "gravity", "position": "head"}}).settled.needed
+    for factor, short in ((1.05, False), (0.9, True)):
+        conveyor = line(
+            route={"take_up": {"kind": "gravity", "position": "head", "tension": f"{factor * needed} N"}}
+        )
+        results = forced(conveyor)
+        found = balance(conveyor, results)
+        assert found.settled.steady.starts[0] == pytest.approx(factor * needed, rel=1e-12)
+        told = [w for w in loop_warnings(conveyor, results, found) if w.startswith("the take-up holds")]
+        assert bool(told) == short
+        if short:
+            assert any("grip, drive, start asks for" in w for w in told)
+    mass = line(route={"take_up": {"kind": "gravity", "position": "head", "mass": "10 t", "reeving": 2.0}})
+    assert balance(mass, forced(mass)).settled.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
+
+
+def test_too_little_tension_for_a_pulley_has_no_answer():
+    conveyor = line(route={"take_up": {"kind": "winch", "position": "tail", "tension": "100 N"}})
+    with pytest.raises(NoSolutionError, match=r'the belt is slack at pulley ".*raise the take-up'):
+        balance(conveyor, forced(conveyor, 0.03))
+
+
+def test_the_numbers_follow_the_conveyor_not_its_predecessor():
+    """Numbers kept for a conveyor serve that one only, and stretches made anew are read anew."""
+    one, other = line(), line(drive={"friction": 0.2})
+    first = balance(one, forced(one)).tensions.slack
+    assert balance(other, forced(other)).tensions.slack > first
+    assert balance(one, forced(one)).tensions.slack == first
+
+
+def test_start_and_stop_are_newton():
+    conveyor = line(drive={"reduced_mass": "20 t", "torque_factor": 1.5, "start_factor": 1.4})
+    results = forced(conveyor)
+    found = balance(conveyor, results)
+    moving = motions(conveyor, results, found)
+    mass = sum(
+        r.stretch.length * (r.stretch.line_mass + (10.0 if r.stretch.strand == "carry" else 3.0))
+        for r in results
+    )
+    assert moving.moving_mass == pytest.approx(mass, rel=1e-12)
+    force = found.forces.total
+    assert moving.start.acceleration == pytest.approx(0.4 * force / mass, rel=1e-12)
+    motors = (1.4 * force + 20e3 * moving.start.acceleration) * 4.0 / (0.94 * 400e3)
+    assert moving.start.torque_factor == pytest.approx(motors, rel=1e-12)
+    assert moving.coasting is not None
+    assert moving.coasting.deceleration == pytest.approx(force / (mass + 20e3), rel=1e-12)
+    # energy: what moved is spent on the way
+    kinetic = 0.5 * (mass + 20e3) * 4.0**2
+    assert force * moving.coasting.distance == pytest.approx(kinetic, rel=1e-12)
+    # the drives' masses push the belt while it slows down
+    push = moving.states["drives off"].drives[0].force
+    assert push == pytest.approx(20e3 * moving.coasting.deceleration, rel=1e-12)
+
+
+def test_brakes_hold_and_stop_a_downhill_conveyor():
+    none = line(**CASES["downhill"] | {"drive": {"stop_deceleration": "0.2 m/s^2"}})
+    results = forced(none)
+    moving = motions(none, results, balance(none, results))
+    assert moving.coasting is None
+    assert moving.coasting_least is None
+    assert not moving.rolls_back
+    assert moving.brake_to_stop is not None
+    told = list(loop_warnings(none, results, balance(none, results)))
+    assert any(w.startswith("the conveyor does not stop by itself and has no brake") for w in told)
+    assert any("needs a brake of" in w for w in told)
+    held = line(
+        **CASES["downhill"]
+        | {"drive": {"brake_force": f"{moving.brake_to_stop} N", "stop_deceleration": "0.2 m/s^2"}}
+    )
+    stopped = motions(held, forced(held), balance(held, forced(held))).braked
+    assert stopped is not None
+    # the brake's own grip asks for tension, wraps for 1e-4 of force with it
+    assert stopped.deceleration == pytest.approx(0.2, rel=1e-3)
+    weak = line(**CASES["downhill"] | {"drive": {"brake_force": "10 kN"}})
+    told = list(loop_warnings(weak, forced(weak), balance(weak, forced(weak))))
+    assert any(w == "brakes of 10,000 N do not stop the conveyor" for w in told)
+
+
+def test_bulk_slides_where_friction_ends():
+    steep = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "20 deg"}], "pulleys": []},
+                 drive={"start_factor": 2.5})  # fmt: skip
+    results = forced(steep)
+    found = balance(steep, results)
+    slip = motions(steep, results, found).slip
+    assert slip is not None
+    grip, pull = 0.5 * 9.81 * math.cos(math.radians(20.0)), 9.81 * math.sin(math.radians(20.0))
+    assert (slip.braking, slip.starting) == pytest.approx((-grip - pull, grip - pull), rel=1e-9)
+    assert any(w.startswith("the bulk slides at the start") for w in loop_warnings(steep, results, found))
+    steeper = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "30 deg"}], "pulleys": []})
+    results = forced(steeper)
+    told = list(loop_warnings(steeper, results, balance(steeper, results)))
+    assert 'the bulk slides on the belt in section "s" at any speed: too steep for its friction' in told

@@ -1,0 +1,415 @@
+"""Load cases: the figures of `analyse` in bulk, sums of loadings, safe side of friction, governing cases, motors."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import conveyor
+from conveyor.errors import InputError
+from conveyor.laws.energy import MOTOR_SERIES
+from conveyor.models import Conveyor, LoadCase, standard_cases
+from conveyor.models.cases import STANDARD_LOADINGS
+from conveyor.report import case_tables
+from conveyor.studies.cases import CaseStudy, analyse_cases, mains_power, shaft_power
+from conveyor.studies.scenes import Scene, runs
+from conveyor.studies.variants import with_case, with_temperature
+from conveyor.units import quantity, si
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+RTOL = 1e-6
+"""Of the contacts: curves over different ranges of load differ by no more than twice it."""
+
+
+def spec(name: str) -> Conveyor:
+    return conveyor.load(SPECS / f"{name}.yaml")
+
+
+@pytest.fixture(scope="module")
+def line() -> Conveyor:
+    return spec("overland")
+
+
+@pytest.fixture(scope="module")
+def downhill() -> Conveyor:
+    return spec("downhill")
+
+
+@pytest.fixture(scope="module")
+def found(line) -> CaseStudy:
+    return analyse_cases(line, standard_cases(["0 degC", "20 degC"], ["4.5 m/s", "5 m/s"]))
+
+
+def result(study, case, celsius=20.0, speed=5.0):
+    (one,) = [
+        r
+        for r in study.results
+        if r.case == case and abs(r.temperature - 273.15 - celsius) < 1e-9 and r.speed == speed
+    ]
+    return one
+
+
+# figures of analyse -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["overland", "downhill", "in_plant_us", "downhill_brakes", "shuttle"])
+def test_the_case_as_given_is_the_analysis_to_the_last_bit(name):
+    given = spec(name)
+    alone = conveyor.analyse(given).balance
+    (one,) = analyse_cases(given, [LoadCase(name="as given")]).results
+    assert (one.indentation, one.effective, one.motor) == (
+        alone.forces.indentation, alone.forces.total, alone.power.motor,
+    )  # fmt: skip
+    assert (one.tight, one.slack, one.largest, one.smallest) == (
+        alone.tensions.tight, alone.tensions.slack, alone.tensions.largest, alone.tensions.smallest,
+    )  # fmt: skip
+    assert one.friction_factor == alone.friction_factor
+    assert one.energy_per_tonne_km == alone.power.energy_per_tonne_km
+
+
+@pytest.mark.parametrize("loading", STANDARD_LOADINGS)
+def test_every_case_is_the_analysis_of_a_conveyor_loaded_so(line, found, loading):
+    bears = {"full": {-1, 0, 1}, "empty": set(), "inclines only": {1}, "declines only": {-1}}[loading]
+    sections = [section.replace(loaded=np.sign(section.rise) in bears) for section in line.route.sections]
+    # the first section is level: where it bears nothing, nothing lands on it
+    feeding = line.route.feeding if loading == "full" else None
+    loaded = line.replace(
+        route=line.route.replace(sections=sections, feeding=feeding),
+        belt=line.belt.replace(speed="4.5 m/s"),
+        ambient=line.ambient.replace(temperature="0 degC"),
+    )
+    alone, one = conveyor.analyse(loaded).balance, result(found, loading, 0.0, 4.5)
+    for name, value in (
+        ("indentation", alone.forces.indentation),
+        ("effective", alone.forces.total),
+        ("motor", alone.power.motor),
+        ("largest", alone.tensions.largest),
+        ("slack", alone.tensions.slack),
+    ):
+        assert getattr(one, name) == pytest.approx(value, rel=2.0 * RTOL), name
+
+
+def test_scenes_side_by_side_settle_on_vertical_curves_as_alone():
+    curved = spec("downhill_brakes")
+    empty = with_case(curved, LoadCase(name="e", loading="empty"))
+    for scene, done in zip((curved, empty), runs([Scene(curved), Scene(empty)]), strict=True):
+        alone = conveyor.analyse(scene)
+        assert done.convergence.steps == alone.convergence.steps
+        assert done.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=2.0 * RTOL)
+
+
+def test_cases_of_one_temperature_share_their_load_curves(line):
+    loadings = [LoadCase(name=name, loading=name) for name in ("full", "empty", "declines only")]
+    variants = [
+        with_temperature(with_case(line, case), quantity(celsius))
+        for case in loadings
+        for celsius in ("0 degC", "20 degC")
+    ]
+    done = runs([Scene(variant) for variant in variants], 1e-4)
+    curves = {id(roll.curve) for run in done for stretch in run.stretches for roll in stretch.rolls}
+    assert len(curves) == 2 * 2  # strands, temperatures
+
+
+def test_one_result_a_case_speed_and_temperature(found):
+    keys = [(r.case, r.speed, r.temperature) for r in found.results]
+    assert len(set(keys)) == len(keys) == 4 * 2 * 2
+    assert not found.refused
+
+
+# loadings ---------------------------------------------------------------------------------------------------------
+
+
+def lift(study, case):
+    return result(study, case).balance.forces.lift
+
+
+def test_bulk_on_inclines_and_declines_lifts_what_bulk_everywhere_does(found):
+    assert lift(found, "inclines only") > 0.0 > lift(found, "declines only")
+    together = lift(found, "inclines only") + lift(found, "declines only")
+    assert together == pytest.approx(lift(found, "full"), rel=1e-12)
+    # the belt goes up and down: what it lifts on one strand it lowers on the other
+    assert lift(found, "empty") == pytest.approx(0.0, abs=1e-12 * lift(found, "inclines only"))
+
+
+def test_a_loading_point_resists_only_where_bulk_lands(found):
+    fed = {
+        case: sum(
+            s.force for s in result(found, case).balance.singles if "skirts" in s.name or "bulk" in s.name
+        )
+        for case in STANDARD_LOADINGS
+    }
+    assert fed["full"] > 0.0
+    assert fed["empty"] == fed["inclines only"] == fed["declines only"] == 0.0
+
+
+def test_part_load_is_the_flow_times_its_share(line):
+    half = with_case(line, LoadCase(name="half", loading="part load", share="50 %"))
+    assert half == line.replace(material=line.material.replace(flow="1200 t/h"))
+    whole = with_case(line, LoadCase(name="whole", loading="part load", share="100 %"))
+    assert si(whole.material.flow) == pytest.approx(si(line.material.flow), rel=1e-15)
+
+
+def test_part_load_leaves_unloaded_sections_unloaded(line):
+    first, *others = line.route.sections
+    given = line.replace(
+        route=line.route.replace(sections=[first, *(s.replace(loaded=False) for s in others)])
+    )
+    part = with_case(given, LoadCase(name="half", loading="part load", share=0.5))
+    assert [s.loaded for s in part.route.sections] == [s.loaded for s in given.route.sections]
+    assert all(s.loaded for s in with_case(given, LoadCase(name="full", loading="full")).route.sections)
+
+
+def test_power_falls_with_the_share_to_that_of_the_empty_belt(line):
+    shares = [1.0, 0.5, 1e-6]
+    cases = [LoadCase(name=f"{s}", loading="part load", share=s) for s in shares]
+    study = analyse_cases(line, [*cases, LoadCase(name="empty", loading="empty")], rtol=1e-5)
+    powers = [r.motor for r in study.results]
+    assert powers == sorted(powers, reverse=True)
+    assert powers[2] == pytest.approx(powers[3], rel=1e-4)
+
+
+def test_the_air_keeps_its_distance_to_the_covers(downhill):
+    warmer = with_temperature(downhill, quantity("28 degC"))
+    assert si(warmer.ambient.belt) == pytest.approx(301.15, abs=1e-9)
+    assert si(warmer.ambient.temperature) == pytest.approx(298.15, abs=1e-6)
+    assert with_temperature(downhill, downhill.ambient.belt) is downhill
+
+
+def test_bearings_follow_the_temperature_of_a_case(line):
+    # stiff grease when cold: a track shared between temperatures would miss it
+    law = {
+        "law": "bearing", "mean_diameter": "36 mm", "static_rating": "11 kN", "first_viscosity": "110 mm^2/s",
+        "second_viscosity": "12 mm^2/s", "seal_moment": "0.05 N*m",
+    }  # fmt: skip
+    carry = line.idlers.carry
+    greased = line.replace(
+        idlers=line.idlers.replace(carry=carry.replace(roll=carry.roll.replace(drag_law=law)))
+    )
+    cold, warm = analyse_cases(greased, [LoadCase(name="a", temperatures=("0 degC", "20 degC"))]).results
+    for one, celsius in ((cold, 0), (warm, 20)):
+        alone = conveyor.analyse(greased.replace(ambient={"temperature": f"{celsius} degC"})).balance.forces
+        assert one.balance.forces.idler_rotation == pytest.approx(alone.idler_rotation, rel=1e-12)
+        assert one.effective == pytest.approx(alone.total, rel=2.0 * RTOL)
+    assert cold.balance.forces.idler_rotation > 1.2 * warm.balance.forces.idler_rotation
+
+
+# friction on the safe side ----------------------------------------------------------------------------------------
+
+
+def test_friction_scales_all_but_lift_and_acceleration(downhill):
+    (one,) = analyse_cases(
+        downhill, [LoadCase(name="full", loading="full")], friction_band=(0.5, 2.0)
+    ).results
+    forces = one.balance.forces
+    certain = forces.lift + sum(
+        s.force for s in one.balance.singles if s.name.startswith("acceleration of the bulk")
+    )
+    for friction, force in ((0.5, one.effective_low), (1.0, one.effective), (2.0, one.effective_high)):
+        assert force == pytest.approx(certain + friction * (forces.total - certain), rel=1e-11)
+
+
+def test_downhill_the_low_friction_feeds_back_most(downhill):
+    study = analyse_cases(downhill)
+    full = next(r for r in study.results if r.case == "full")
+    assert full.motor_low < full.motor == full.motor_high < 0.0
+    assert full.belt < full.motor  # the train's losses are on the way to the motor
+    worst = {g.figure: g for g in study.governing}["least motor power, friction low"]
+    assert worst.result.case == "declines only"
+    assert study.friction_band == (pytest.approx(0.6), 1.0)
+
+
+@pytest.mark.parametrize("band", [(0.0, 1.0), (0.5, 0.9), (1.1, 1.2), (0.5, math.inf)])
+def test_a_band_that_does_not_hold_the_computed_friction_is_refused(line, band):
+    with pytest.raises(InputError, match="0 < low <= 1 <= high"):
+        analyse_cases(line, friction_band=band)
+
+
+# governing cases and motors ---------------------------------------------------------------------------------------
+
+
+def test_governing_cases_are_the_extremes_of_the_table(found):
+    table = found.table
+    by_figure = {row.figure: row for row in found.governing}
+    columns = {
+        "largest motor power, friction high": ("motor power, 1 x friction [kW]", "max", 1e3),
+        "least motor power, friction low": ("motor power, 0.6 x friction [kW]", "min", 1e3),
+        "largest belt tension": ("largest tension [N]", "max", 1.0),
+        "least belt tension": ("smallest tension [N]", "min", 1.0),
+        "largest tension asked of the take-up": ("take-up tension asked for [N]", "max", 1.0),
+        "largest roll load": ("largest roll load [N]", "max", 1.0),
+        "largest indentation": ("indentation [N]", "max", 1.0),
+    }
+    for figure, (column, which, unit) in columns.items():
+        row = by_figure[figure]
+        assert row.value == pytest.approx(getattr(table[column], which)() * unit, rel=1e-12), figure
+        place = getattr(table[column], f"idx{which}")()
+        assert (row.result.case, row.result.speed) == (table["case"][place], table["belt speed [m/s]"][place])
+    assert case_tables.governing(found)["figure"].tolist() == list(by_figure)
+
+
+def test_cold_inclines_need_the_largest_motor(found):
+    row = found.governing[0]
+    assert (row.result.case, row.result.temperature, row.result.speed) == ("inclines only", 273.15, 5.0)
+
+
+def test_the_largest_roll_load_is_that_of_the_rolls_table(line, found):
+    rolls = conveyor.analyse(line).rolls
+    heaviest = rolls.loc[rolls["force [N]"].idxmax()]
+    one = result(found, "full")
+    assert one.largest_roll == heaviest["force [N]"]
+    assert one.largest_roll_at == f"{heaviest['section']}, {heaviest['strand']}, {heaviest['roll']}"
+
+
+def test_motors_give_the_governing_power_with_their_reserve(found):
+    needed = max(max(abs(r.motor_low), abs(r.motor_high)) for r in found.results)
+    for reserve in (1.0, 1.1, 1.5):
+        (motor,) = found.motors(reserve)
+        assert abs(motor.needed) == needed
+        assert motor.count * motor.rated >= reserve * needed
+        assert (motor.count - 1) * MOTOR_SERIES[-1] < reserve * needed  # no fewer of the largest would do
+        assert "inclines only, 0 degC" in motor.case
+    table = case_tables.motors(found.motors())
+    assert table["installed [kW]"].sum() * 1e3 >= 1.1 * needed
+
+
+def test_each_of_several_drives_has_its_share_of_the_motors(line):
+    drive = line.drive.replace(
+        share="60 %",
+        further_drives=[
+            {
+                "name": "second",
+                "wrap_angle": "180 deg",
+                "friction": 0.35,
+                "share": "40 %",
+                "installed_power": "1 MW",
+            }
+        ],
+    )
+    study = analyse_cases(line.replace(drive=drive), [LoadCase(name="full", loading="full")])
+    first, second = study.motors(1.0)
+    assert (first.drive, second.drive) == ("drive", "second")
+    assert second.needed / first.needed == pytest.approx(2.0 / 3.0, rel=1e-12)
+    assert first.needed + second.needed == pytest.approx(study.results[0].motor, rel=1e-12)
+
+
+def test_a_brake_is_sized_by_its_amount(downhill):
+    study = analyse_cases(downhill, [LoadCase(name="full", loading="full")])
+    (motor,) = study.motors(1.0)
+    assert motor.needed == study.results[0].motor_low < 0.0
+    assert motor.rated >= -motor.needed / motor.count
+
+
+def test_the_train_multiplies_on_both_sides_of_the_motor(line):
+    data = line.as_data()
+    del data["drive"]["efficiency"]
+    data["drive"]["train"] = [
+        {"name": "motor", "efficiency": "95 %", "side": "mains"},
+        {"name": "coupling", "efficiency": "98 %"},
+        {"name": "gear", "efficiency": 0.97},
+    ]
+    data["drive"]["regeneration_efficiency"] = "90 %"
+    made = conveyor.Conveyor.from_data(data)
+    assert si(made.drive.efficiency) == pytest.approx(0.98 * 0.97, rel=1e-15)
+    assert shaft_power(made, 1e5) == pytest.approx(1e5 * 5.0 / (0.98 * 0.97), rel=1e-14)
+    assert mains_power(made, 1e5) == pytest.approx(1e5 * 5.0 / (0.95 * 0.98 * 0.97), rel=1e-14)
+    assert mains_power(made, -1e5) == pytest.approx(-1e5 * 5.0 * 0.9 * 0.95, rel=1e-14)
+    assert conveyor.Conveyor.from_data(made.as_data()) == made
+    assert conveyor.analyse(made).balance.power.motor == shaft_power(
+        made, conveyor.analyse(made).balance.forces.total
+    )
+
+
+# refusals ---------------------------------------------------------------------------------------------------------
+
+
+def test_cases_without_an_answer_are_listed_with_their_reason(line):
+    study = analyse_cases(
+        line,
+        [
+            LoadCase(name="hot", temperatures=("190 degC", "20 degC")),
+            LoadCase(name="surge", loading="part load", share="200 %"),
+            LoadCase(name="slow", speeds=("1 m/s",)),
+        ],
+    )
+    assert [(r.case, r.temperature) for r in study.results] == [("hot", 293.15)]
+    assert [r.case for r in study.refused] == ["hot", "surge", "slow"]
+    hot, surge, slow = (r.reason for r in study.refused)
+    assert "190 degC" in hot
+    assert "the belt holds" in surge
+    assert "the belt holds" in slow
+    assert case_tables.refused_cases(study)["reason"].tolist() == [hot, surge, slow]
+
+
+def test_refusals_name_what_is_wrong(line, found):
+    with pytest.raises(InputError, match='cases: "one" is given twice'):
+        analyse_cases(line, [LoadCase(name="one"), LoadCase(name="one")])
+    with pytest.raises(InputError, match="give at least one"):
+        analyse_cases(line, [])
+    with pytest.raises(InputError, match=r"reserve = 0\.9: at least 1"):
+        found.motors(0.9)
+    none = analyse_cases(line, [LoadCase(name="hot", temperatures=("190 degC",))])
+    assert none.governing == ()
+    with pytest.raises(InputError, match="no case has an answer"):
+        none.motors()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"cases": [{"name": "a", "loading": "part load"}]}, r"cases\[0\].share: missing"),
+        (
+            {"cases": [{"name": "a", "loading": "full", "share": "50 %"}]},
+            'got 50 % with loading "full"; remove it',
+        ),
+        (
+            {"cases": [{"name": "a"}, {"name": "a"}]},
+            r'cases\[1\].name: got "a", already the name of cases\[0\]',
+        ),
+        ({"cases": [{"name": "a", "loading": "half"}]}, "inclines only"),
+        ({"cases": [{"name": "a", "speeds": ["30 m/s"]}]}, "got 30 m/s, allowed: > 0 m/s and <= 20 m/s"),
+        ({"cases": [{"name": "a", "temperatures": ["300 degC"]}]}, "allowed: >= -100 degC"),
+    ],
+)
+def test_specs_with_wrong_cases_are_refused(line, change, message):
+    with pytest.raises(InputError, match=message):
+        line.replace(**change)
+
+
+def test_a_train_that_contradicts_the_efficiency_is_refused(line):
+    train = [{"name": "gear", "efficiency": "90 %"}]
+    with pytest.raises(
+        InputError, match=r"got 94 %, the parts of train from motor shaft to belt give 0\.9; leave"
+    ):
+        line.drive.replace(train=train)
+    assert si(line.drive.replace(train=train, efficiency=None).efficiency) == 0.9
+    with pytest.raises(InputError, match="efficiency"):
+        line.drive.replace(train=[], efficiency=None)
+
+
+# the spec ---------------------------------------------------------------------------------------------------------
+
+
+def test_cases_of_the_spec_are_read_back_and_calculated():
+    given = spec("overland_10km")
+    assert conveyor.Conveyor.from_data(given.as_data()) == given
+    study = analyse_cases(given.replace(calculation=given.calculation.replace(strain="off")), rtol=1e-3)
+    assert len(study.results) == 4 * 3 + 2
+    table = study.table
+    assert np.isnan(table.loc[table["loading"] == "inclines only", "energy [kWh/(t km)]"]).all()
+    assert table.loc[table["case"] == "half", "belt speed [m/s]"].tolist() == [3.5, 5.5]
+
+
+def test_without_cases_the_standard_ones(line):
+    assert [case.loading for case in analyse_cases(line, rtol=1e-4).cases] == list(STANDARD_LOADINGS)
+
+
+def test_plain_data_for_json(found):
+    data = json.loads(json.dumps(case_tables.cases_data(found), allow_nan=False))
+    assert len(data["cases"]) == len(found.results)
+    assert data["friction_band"] == [pytest.approx(0.6), 1.0]
+    assert data["cases"][-1]["energy [kWh/(t km)]"] is None  # declines only
+    assert data["motors"][0]["drive"] == "drive"

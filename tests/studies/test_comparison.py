@@ -1,0 +1,256 @@
+"""Compounds on one conveyor: the figures of `analyse`, in bulk; ranking, band, coverage, refusals."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.errors import InputError
+from conveyor.models import RubberCompound
+from conveyor.report import comparing, plots
+from conveyor.studies.comparison import compare_compounds, with_compound
+from conveyor.units import quantity, si
+
+SPEC = "examples/specs/overland.yaml"
+NAMES = ["standard-cover", "low-rolling-resistance-cover", "s100"]
+TEMPERATURES = ["-10 degC", "0 degC", "20 degC"]
+SPEEDS = ["4.5 m/s", "5 m/s"]
+COSTS = {"low-rolling-resistance-cover": 10_000.0, "S100": 50_000.0}
+
+
+@pytest.fixture(scope="module")
+def line():
+    return conveyor.load(SPEC)
+
+
+@pytest.fixture(scope="module")
+def found(line):
+    return compare_compounds(
+        line, NAMES, temperatures=TEMPERATURES, speeds=SPEEDS, base="standard-cover", extra_costs=COSTS
+    )
+
+
+def scene(found, name, temperature, speed):
+    (one,) = [
+        s
+        for s in found.scenes
+        if (s.compound, s.speed) == (name, speed) and s.temperature == pytest.approx(temperature, abs=1e-9)
+    ]
+    return one
+
+
+@pytest.mark.parametrize(("name", "celsius", "speed"), [("standard-cover", 20, 5.0), ("S100", 0, 4.5)])
+def test_scenes_are_analyses(line, found, name, celsius, speed):
+    changed = with_compound(line, shelf.compound(name), "bottom")
+    alone = conveyor.analyse(
+        changed.replace(
+            belt=changed.belt.replace(speed=f"{speed} m/s"),
+            ambient=changed.ambient.replace(temperature=f"{celsius} degC"),
+        )
+    )
+    one = scene(found, name, celsius + 273.15, speed)
+    # contacts to 1e-4 here, to 1e-6 there
+    assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=one.error)
+    assert one.motor == pytest.approx(alone.balance.power.motor, rel=one.error)
+    assert one.largest_tension == pytest.approx(alone.balance.tensions.largest, rel=one.error)
+    assert one.cost_per_year == pytest.approx(alone.balance.power.cost_per_year, rel=one.error)
+
+
+def test_every_scene_is_answered_once(found):
+    assert len(found.scenes) == len(NAMES) * len(TEMPERATURES) * len(SPEEDS)
+    assert not found.refused
+    keys = [(s.compound, s.speed, s.temperature) for s in found.scenes]
+    assert len(set(keys)) == len(keys)
+    assert max(s.error for s in found.scenes) <= 1e-4
+
+
+def test_the_table_is_the_scenes(line, found):
+    table = conveyor.compare(line, NAMES, temperatures=TEMPERATURES, speeds=SPEEDS)
+    pd.testing.assert_frame_equal(table, found.table)
+    assert table["temperature [degC]"].unique().tolist() == [-10.0, 0.0, 20.0]
+    assert table["motor power [kW]"].to_numpy() == pytest.approx([s.motor / 1e3 for s in found.scenes])
+
+
+def test_without_temperatures_and_speeds_those_of_the_spec(line):
+    (one,) = compare_compounds(line, ["standard-cover"]).scenes
+    assert (one.temperature, one.speed) == (si(line.ambient.belt), si(line.belt.speed))
+
+
+def test_ranking_is_the_mean_of_the_scenes(found):
+    ranking = found.ranking
+    for speed in (4.5, 5.0):
+        rows = ranking[ranking["belt speed [m/s]"] == speed]
+        means = rows["mean motor power [kW]"].tolist()
+        assert means == sorted(means)
+        for _, row in rows.iterrows():
+            group = [s for s in found.scenes if s.compound == row["compound"] and s.speed == speed]
+            assert row["mean motor power [kW]"] == pytest.approx(np.mean([s.motor for s in group]) / 1e3)
+            assert row["peak motor power [kW]"] == pytest.approx(max(s.motor for s in group) / 1e3)
+            assert row["temperatures averaged"] == 3
+
+
+def test_savings_and_payback(found):
+    rows = found.ranking.set_index(["compound", "belt speed [m/s]"])
+    base = rows.loc[("standard-cover", 5.0)]
+    for name, extra in COSTS.items():
+        row = rows.loc[(name, 5.0)]
+        saved = base["cost per year [EUR]"] - row["cost per year [EUR]"]
+        assert row["saving per year [EUR]"] == pytest.approx(saved)
+        if saved > 0.0:
+            assert row["payback [a]"] == pytest.approx(extra / saved)
+        else:
+            assert math.isnan(row["payback [a]"])
+    assert base["motor power against base [-]"] == 0.0
+
+
+def test_band_is_what_the_replicas_make_of_the_power(line, found):
+    # the band is formed from the roll that loses most; all rolls of every replica are the full calculation
+    one = scene(found, "S100", 293.15, 5.0)
+    compound = shelf.compound("s100")
+    powers = []
+    for band in compound.replicas(si(compound.reference_temperature)):
+        prony = compound.prony.replace(
+            equilibrium=quantity(f"{band.equilibrium} Pa"),
+            terms=[
+                {"modulus": f"{e} Pa", "time": f"{t} s"} for e, t in zip(band.moduli, band.times, strict=True)
+            ],
+            band=None,
+        )
+        other = compound.replace(prony=prony)
+        (replica,) = compare_compounds(line, [other], temperatures=["20 degC"], speeds=["5 m/s"]).scenes
+        powers.append(replica.motor)
+    low, high = np.quantile(powers, (0.05, 0.95))
+    assert one.motor_low < one.motor < one.motor_high
+    width = high - low
+    # other rolls and the softening at each replica's own strain move the ends by a part of the band
+    assert one.motor_low == pytest.approx(low, abs=0.15 * width)
+    assert one.motor_high == pytest.approx(high, abs=0.15 * width)
+
+
+def test_no_replicas_no_band(found):
+    assert scene(found, "standard-cover", 293.15, 5.0).motor_low is None
+    assert "motor power, low [kW]" in found.table
+
+
+def test_coverage_is_the_excited_band_of_the_analysis(line, found):
+    changed = with_compound(line, shelf.compound("standard-cover"), "bottom")
+    bands = []
+    for speed in SPEEDS:
+        result = conveyor.analyse(changed.replace(belt=changed.belt.replace(speed=speed)))
+        carry = result.rubber.set_index("strand").loc["carry"]
+        bands.append((carry["excited from [Hz]"], carry["excited to [Hz]"]))
+    (row,) = [
+        c for c in found.coverage if c.compound == "standard-cover" and abs(c.temperature - 293.15) < 1e-9
+    ]
+    # curves of 1e-4 are sampled at other half widths than those of 1e-6
+    assert row.excited == pytest.approx((bands[0][0], bands[1][1]), rel=0.02)
+    assert row.covered
+
+
+def test_data_that_do_not_reach_are_said(line):
+    compound = shelf.compound("standard-cover").as_data()
+    compound["range"]["frequency"] = ["1 Hz", "100 Hz"]
+    narrow = RubberCompound.from_data(compound)
+    found = compare_compounds(line, [narrow])
+    assert not found.coverage[0].covered
+    assert any("do not cover what the rolls excite at 20 degC" in line for line in comparing.remarks(found))
+
+
+def test_refused_scenes_have_their_reasons(line):
+    found = compare_compounds(
+        line, ["s100", "standard-cover"], temperatures=["-45 degC", "20 degC"], speeds=["1 m/s", "5 m/s"]
+    )
+    reasons = {(r.compound, r.speed, round(r.temperature - 273.15)): r.reason for r in found.refused}
+    assert "is known from -29.7409 degC" in reasons["S100", 5.0, -45]
+    assert "needs a cross-section" in reasons["standard-cover", 1.0, 20]
+    assert {(s.compound, round(s.temperature - 273.15)) for s in found.scenes} == {
+        ("S100", 20),
+        ("standard-cover", -45),
+        ("standard-cover", 20),
+    }
+    # the means are over the one temperature that both answer
+    assert set(found.ranking["temperatures averaged"]) == {1}
+    assert len(comparing.refused(found)) == len(found.refused)
+
+
+@pytest.mark.parametrize(("cover", "carry", "back"), [("bottom", 1, 0), ("top", 0, 1), ("both", 1, 1)])
+def test_covers(line, cover, carry, back):
+    changed = with_compound(line, shelf.compound("s120"), cover)
+    assert (changed.carry_compound.name == "S120") == bool(carry)
+    assert (changed.return_compound.name == "S120") == bool(back)
+
+
+def test_a_top_cover_that_followed_the_bottom_keeps_its_rubber(line):
+    belt = line.belt
+    plain = line.replace(belt=belt.replace(top_cover={"thickness": belt.top_cover.thickness}))
+    assert plain.return_compound.name == plain.carry_compound.name
+    changed = with_compound(plain, shelf.compound("s120"), "bottom")
+    assert changed.return_compound.name == plain.carry_compound.name
+
+
+def test_softened_compounds_are_compared_softened(line):
+    on = compare_compounds(line, ["s100"]).scenes[0]
+    linear = line.replace(calculation=line.calculation.replace(strain="off"))
+    off = compare_compounds(linear, ["s100"]).scenes[0]
+    assert on.indentation > 1.05 * off.indentation
+
+
+@pytest.mark.parametrize(
+    ("names", "options", "message"),
+    [
+        ([], {}, "give at least one"),
+        (["s100", "S100"], {}, '"S100" is given twice'),
+        (["s100"], {"base": "s120"}, '"s120" is none of the compounds compared: S100'),
+        (["s100"], {"extra_costs": {"x": 1.0}}, '"x" is none of the compounds compared'),
+        (["s100"], {"temperatures": ["20"]}, "20"),
+        (["s100"], {"temperatures": []}, "temperatures: give at least one"),
+        (["s100"], {"speeds": ["20 degC"]}, "speed"),
+        (["nope"], {}, 'unknown compound "nope"'),
+    ],
+)
+def test_refusals(line, names, options, message):
+    with pytest.raises(InputError, match=message):
+        compare_compounds(line, names, **options)
+
+
+def test_progress_counts_the_compounds(line):
+    seen = []
+    compare_compounds(line, NAMES[:2], progress=lambda done, total: seen.append((done, total)))
+    assert seen == [(0, 2), (1, 2), (2, 2)]
+
+
+def test_workbook_and_figures(found, tmp_path):
+    import openpyxl
+
+    book = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))
+    assert book.sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
+    assert book["Scenes"].max_row == 2 + len(found.scenes)
+    header = [cell.value for cell in book["Scenes"][2]]
+    column = 1 + header.index("motor power [kW]")
+    written = [book["Scenes"].cell(3 + k, column).value for k in range(len(found.scenes))]
+    assert written == pytest.approx([s.motor / 1e3 for s in found.scenes])
+    assert len(book["Power"]._charts) == len(SPEEDS)
+    for make in (plots.power_against_temperature, plots.power_against_speed):
+        figure = make(found)
+        assert len(figure.axes[0].lines) == len(NAMES)
+        assert plots.save(figure, tmp_path / "p.svg").stat().st_size > 5000
+    with pytest.raises(InputError, match=r"ends in \.png, \.svg or \.pdf"):
+        plots.save(figure, tmp_path / "p.xyz")
+
+
+@pytest.mark.parametrize("spec", ["examples/specs/downhill_brakes.yaml", "examples/specs/in_plant_us.yaml"])
+def test_curves_and_regeneration_are_those_of_the_analysis(spec):
+    line = conveyor.load(spec)
+    name = line.carry_compound.name
+    (one,) = compare_compounds(line, [line.carry_compound], cover="bottom").scenes
+    alone = conveyor.analyse(line)
+    assert one.compound == name
+    # tensions in the curves are iterated to the tolerance of the contacts
+    assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=3e-4)
+    assert one.motor == pytest.approx(alone.balance.power.motor, rel=3e-4)
+    assert one.largest_tension == pytest.approx(alone.balance.tensions.largest, rel=3e-4)
