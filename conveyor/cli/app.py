@@ -12,7 +12,6 @@ from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any
-from uuid import uuid4
 
 import typer
 import typer.core
@@ -127,51 +126,16 @@ _MOST_VALUES = 1000
 _PATIENCE = 1.0  # seconds before a bar appears
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a text under a temporary name beside its own, then rename.
-
-    Raises
-    ------
-    InputError
-        The path cannot be written; nothing half-written is left, and an older file is untouched.
-    """
-    writable(path)
-    partial = path.with_name(f".{uuid4().hex}.part")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with suppress(OSError):  # gone after the rename; a folder that went away has nothing to clean
-            partial.unlink(missing_ok=True)
-
-
-def writable(path: Path) -> None:
-    """Refuse a path that cannot be written before any time is spent on what would be in it.
-
-    Raises
-    ------
-    InputError
-        A folder, a device, a read-only file, or in a folder that does not exist.
-    """
-    if path.is_dir():
-        raise InputError(f"{path}: is a folder; give the name of a file in it")
-    if not path.absolute().parent.is_dir():
-        raise InputError(f"{path}: its folder does not exist; create it or choose another")
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: is no ordinary file (a pipe or a device); give the name of a file")
-    if path.exists() and not os.access(path, os.W_OK):
-        raise InputError(f"{path}: is read-only; change that or choose another name")
-    if not os.access(path.absolute().parent, os.W_OK):
-        raise InputError(f"{path}: its folder is read-only; choose another")
-
-
 def print_json(data: object) -> None:
     """Print one JSON object in UTF-8, whatever the terminal's encoding: RFC 8259, section 8.1."""
+    print_text(json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+
+
+def print_text(text: str) -> None:
+    """Print text that programs read, in UTF-8 whatever the terminal's encoding."""
     with suppress(AttributeError):  # a stream that a test put there
         sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
-    print(json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False))
+    print(text, end="")
 
 
 @contextmanager

@@ -27,10 +27,10 @@ from conveyor.cli.app import (
     print_json,
     progress,
     values,
-    write_text,
 )
 from conveyor.cli.completion import compound_names
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.files import saving
 
 if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison
@@ -185,9 +185,10 @@ def _written(found: Comparison, to: Outputs, system: System) -> list[str]:
         )
         written.append(f"tables: {len(made)} in {to.tables}")
     if to.table is not None:
+        from conveyor.report.files import csv
         from conveyor.report.unit_systems import converted
 
-        write_text(to.table, converted(found.table, system).to_csv(index=False, lineterminator="\n"))
+        saving.save({to.table: csv(converted(found.table, system))})
         written.append(f"table: {to.table}")
     figures = (
         (to.plot, found.plots.power_against_temperature),

@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Quiet, app, examples, write_text
+from conveyor.cli.app import Quiet, app, examples
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 
 
 class Kind(StrEnum):
@@ -50,6 +51,6 @@ def new(
         raise InputError(f"{spec}: exists; choose another name, or replace it with --force")
     from conveyor.starter import quoted, written
 
-    write_text(spec, written(kind.value, units.value, file=spec.name))
+    save({spec: written(kind.value, units.value, file=spec.name).encode()})
     if not quiet:
         print(f"spec: {spec}\nnext: conveyor power {quoted(str(spec))}")

@@ -6,8 +6,8 @@ import os
 from importlib.util import find_spec
 from pathlib import Path
 
-from conveyor.cli.app import writable
 from conveyor.errors import InputError
+from conveyor.files.saving import writable
 
 
 def file(option: str, path: Path | None, *endings: str) -> None:

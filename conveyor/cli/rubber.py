@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from conveyor.cli import outputs
-from conveyor.cli.app import Quiet, Shelves, app, examples, one_of, write_text
+from conveyor.cli.app import Quiet, Shelves, app, examples, one_of
 from conveyor.cli.completion import compound_names
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -109,7 +110,7 @@ def fit(
 
         lines.append(f"figure: {plots.save(fitting.figure(found), plot)}")
     if output is not None:
-        write_text(output, compound_file.dump(found.compound, "Written by conveyor fit"))
+        save({output: compound_file.dump(found.compound, "Written by conveyor fit").encode()})
         lines.append(f"compound file: {output}")
     if not quiet:
         print("\n".join(lines))

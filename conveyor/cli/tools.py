@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import sys
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import AsJson, Quiet, Shelves, app, examples, print_json
+from conveyor.cli.app import AsJson, Quiet, Shelves, app, examples, print_json, print_text
 from conveyor.errors import InputError, NoSolutionError
 
 
@@ -102,9 +100,7 @@ def schema(
     if markdown:
         from conveyor.reference import markdown as written
 
-        with suppress(AttributeError):  # a stream that a test put there
-            sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
-        print(written(), end="")
+        print_text(written())
         return
     from conveyor.spec import schema as build
 

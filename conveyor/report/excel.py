@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from openpyxl import Workbook
 
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 from conveyor.report import comparing_sheets, cover, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.comparison_contents import of_comparison
 from conveyor.report.contents import CHECKS_AND_NOTES, Contents, of_analysis
 from conveyor.report.files import csv
 from conveyor.report.places import MOST_ROWS, Page, file_name
-from conveyor.report.saving import save
 from conveyor.report.unit_systems import chosen
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Final, Literal
 import pandas as pd
 
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 from conveyor.report import comparison_contents, contents
 from conveyor.report.contents import Contents
-from conveyor.report.saving import save
 from conveyor.report.unit_systems import chosen
 
 if TYPE_CHECKING:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
-from uuid import uuid4
 
 from conveyor.errors import InputError
+from conveyor.files.saving import save, writable
 from conveyor.markup import Html, joined
 from conveyor.models.report import Paper
 from conveyor.report import html_sections as sections
@@ -138,17 +137,6 @@ def _saved(path: Path, made: Callable[[], Html]) -> Path:
     """Write a page under a temporary name beside its own, then rename."""
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
-    partial = path.with_name(f".{uuid4().hex}.part")
-    try:
-        if path.is_dir():
-            raise InputError(f"{path}: is a folder; give the name of a page in it")
-        if not path.absolute().parent.is_dir():
-            raise InputError(f"{path}: its folder does not exist; create it or choose another")
-        partial.write_bytes(made().encode())
-        partial.replace(path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with suppress(OSError):  # no such file after the rename; a folder that went away has nothing to clean
-            partial.unlink(missing_ok=True)
+    writable(path)
+    save({path: made().encode()})
     return path

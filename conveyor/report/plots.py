@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
-from uuid import uuid4
 
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.files import saving
 from conveyor.report.axes import scale
 from conveyor.units import System, display, si
 
@@ -92,17 +91,10 @@ def save(figure: Figure, path: str | Path) -> Path:
     known = figure.canvas.get_supported_filetypes()
     if where.suffix.lower().removeprefix(".") not in known:
         raise InputError(f'{where}: a figure\'s name ends in .png, .svg or .pdf, got "{where.suffix}"')
-    partial = where.with_name(f".{uuid4().hex}.part")
-    try:
-        content = BytesIO()
-        figure.savefig(content, format=where.suffix.lower().removeprefix("."), dpi=150)
-        partial.write_bytes(content.getbuffer())
-        partial.replace(where)
-    except OSError as error:
-        raise InputError(f"{where}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with suppress(OSError):  # no such file after the rename; a folder that went away has nothing to clean
-            partial.unlink(missing_ok=True)
+    saving.writable(where)
+    content = BytesIO()
+    figure.savefig(content, format=where.suffix.lower().removeprefix("."), dpi=150)
+    saving.save({where: content.getbuffer()})
     return where
 
 

@@ -13,10 +13,10 @@ import pytest
 
 import conveyor
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 from conveyor.report import files, places
 from conveyor.report.contents import Contents, of_analysis
 from conveyor.report.excel import _saved, build
-from conveyor.report.saving import save
 from conveyor.studies.comparison import compare_compounds
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

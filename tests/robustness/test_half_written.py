@@ -12,8 +12,8 @@ import pytest
 
 import conveyor
 from conveyor import compound_file, shelf, starter
-from conveyor.cli.app import write_text
 from conveyor.errors import InputError
+from conveyor.files.saving import save
 from conveyor.report import plots
 from conveyor.template.write import write_template
 from tests.robustness.arrange import SPEC, full
@@ -50,12 +50,14 @@ OUTPUTS: dict[str, Callable[[Path], object]] = {
     "report.xlsx": lambda path: _analysis().to_excel(path),
     "report.html": lambda path: _analysis().to_html(path),
     "compounds.xlsx": lambda path: _comparison().to_excel(path),
-    "scenes.csv": lambda path: write_text(path, _comparison().table.to_csv(index=False) * 20),
+    "scenes.csv": lambda path: save({path: (_comparison().table.to_csv(index=False) * 20).encode()}),
     "figure.png": _figure,
     "figure.svg": _figure,
-    "compound.yaml": lambda path: write_text(path, compound_file.dump(shelf.compound("s100"), "From a test")),
+    "compound.yaml": lambda path: save(
+        {path: compound_file.dump(shelf.compound("s100"), "From a test").encode()}
+    ),
     "template.xlsx": lambda path: write_template(path, _line()),
-    "starter.yaml": lambda path: write_text(path, starter.written("overland")),
+    "starter.yaml": lambda path: save({path: starter.written("overland").encode()}),
 }
 CHEAP = ["scenes.csv", "figure.svg", "compound.yaml", "starter.yaml"]
 """Those that take no second, and no temporary files elsewhere."""
