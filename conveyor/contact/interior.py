@@ -267,7 +267,10 @@ def path_amplitude(*, difference: Array, shear: Array, dilatation: Array) -> Arr
     """
     path = np.stack([difference / math.sqrt(3.0), shear / math.sqrt(3.0), dilatation / 3.0], axis=2)
     square = np.einsum("zxi,zxi->zx", path, path)
-    distance = square[:, :, None] + square[:, None, :] - 2.0 * (path @ path.swapaxes(1, 2))
+    distance = path @ path.swapaxes(1, 2)
+    distance *= -2.0
+    distance += square[:, :, None]
+    distance += square[:, None, :]
     out: Array = 0.5 * np.sqrt(np.maximum(distance.max(axis=(1, 2)), 0.0))
     return out
 
