@@ -99,6 +99,8 @@ def _forces(result: Analysis, system: System) -> Table:
         power(classical.motor, system),
         style="bold",
     )
+    if drive.mains != drive.motor:
+        made.add_row("mains power", power(drive.mains, system))
     made.add_row("friction factor f", f"{found.friction_factor:.4f}", "", f"{classical.friction_factor:.4f}")
     return made
 

@@ -44,7 +44,7 @@ _KEY_FIGURES: Final = (
     "motor_power", "belt_power", "effective_tension", "equivalent_f", "indentation_share", "specific_energy",
 )  # fmt: skip
 _TENSION_AND_POWER: Final = (
-    "motor_power", "belt_power", "effective_tension", "tight_side_tension", "slack_side_tension",
+    "motor_power", "belt_power", "mains_power", "effective_tension", "tight_side_tension", "slack_side_tension",
     "tight_side_tension_at_start", "smallest_tension", "belt_safety_at_start", "take_up_setting", "equivalent_f",
     "specific_energy", "energy_per_year", "cost_per_year", "classical_motor_power", "contact_error_estimate",
 )  # fmt: skip

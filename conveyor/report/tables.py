@@ -33,6 +33,7 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
         "mass flow [t/h]": si(conveyor.material.flow) * 3.6,
         "motor power [kW]": power.motor / 1e3,
         "belt power [kW]": power.belt / 1e3,
+        "mains power [kW]": power.mains / 1e3,
         "effective tension [N]": forces.total,
         "indentation [N]": forces.indentation,
         "idler rotation [N]": forces.idler_rotation,
