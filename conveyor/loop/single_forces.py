@@ -82,7 +82,8 @@ class Bend:
         """
         if min(tight, slack) < 0.0:
             raise NoSolutionError(
-                f'the belt is slack at pulley "{self.name}" ({min(tight, slack):.6g} N): raise the take-up\'s tension'
+                f'the belt is slack at pulley "{self.name}" ({min(tight, slack):.6g} N): raise the take-up\'s tension '
+                "(route.take_up.tension), or look for a resistance far too large among the forces before it"
             )
         base, slope = self.wrap
         bend = base + slope * 0.5 * (tight + slack)
