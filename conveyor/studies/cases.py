@@ -64,7 +64,7 @@ class CaseResult:
     largest_roll_at : str
         Where that roll is.
     energy_per_tonne_km : float or None
-        Energy at the shaft [kWh/(t km)], where the whole route carries.
+        Energy from the mains [kWh/(t km)], where the whole route carries.
     error : float
         Largest relative error estimate of the contacts [-].
     balance : Balance
