@@ -143,6 +143,7 @@ class Analysis:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""
         forces, power = self.balance.forces, self.balance.power
+        even = self.conveyor.operation is None or not self.conveyor.operation.duty
         return {
             "name": self.conveyor.name,
             "forces_N": {**asdict(forces), "total": forces.total},
@@ -158,8 +159,8 @@ class Analysis:
             },
             "energy": {
                 "kWh_per_tonne_km": power.energy_per_tonne_km,
-                "kWh_per_year": power.energy_per_year,
-                "cost_per_year": power.cost_per_year,
+                "kWh_per_year": power.energy_per_year if even else None,
+                "cost_per_year": power.cost_per_year if even else None,
                 "currency": power.currency,
             },
             "classical": {

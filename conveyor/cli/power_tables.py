@@ -28,7 +28,7 @@ def show(result: Analysis, asked: Studies, system: System) -> None:
     screen.print(_forces(result, system))
     screen.print()
     screen.print(_sums(result, system))
-    _checks(screen, result, system)
+    _checks(screen, result, asked, system)
     if asked.cases is not None:
         screen.print()
         screen.print(_cases(asked.cases, system))
@@ -40,7 +40,11 @@ def show(result: Analysis, asked: Studies, system: System) -> None:
     if asked.uncertainty is not None:
         _ranges(screen, asked.uncertainty, system)
     notes.show(screen, result.warnings)
-    screen.print(f"\nrelative error of the contact solutions: at most {result.error_estimate:.0e}")
+    balance = max(roll.curve.curve.energy_error for each in result.stretches for roll in each.rolls)
+    screen.print(
+        f"\nrelative error of the contact solutions: at most {result.error_estimate:.0e}; "
+        f"their energy balance closes to {balance:.0e}"
+    )
 
 
 def _head(screen: Console, conveyor: Conveyor, system: System) -> None:
@@ -116,18 +120,19 @@ def _sums(result: Analysis, system: System) -> Table:
     )
     if drive.energy_per_tonne_km is not None:
         made.add_row("energy", f"{drive.energy_per_tonne_km:.4f} kWh/(t km)")
-    if drive.energy_per_year is not None:
+    operation = result.conveyor.operation
+    if drive.energy_per_year is not None and not (operation is not None and operation.duty):
         cost = "" if drive.cost_per_year is None else f", {drive.cost_per_year:,.0f} {drive.currency}"
         made.add_row("in a year", f"{drive.energy_per_year / 1e3:,.0f} MWh{cost}")
     return made
 
 
-def _checks(screen: Console, result: Analysis, system: System) -> None:
+def _checks(screen: Console, result: Analysis, asked: Studies, system: System) -> None:
     from rich.text import Text
 
     from conveyor.report.checks import checks
 
-    found = checks(result, system)
+    found = checks(result, system, asked)
     failed = [check for check in found if check.verdict == "FAIL"]
     counts = [
         f"{sum(check.verdict == word for check in found)} {word}" for word in ("pass", "FAIL", "not checked")

@@ -43,7 +43,7 @@ class DriveData:
 
 @dataclass(frozen=True)
 class TakeUpData:
-    """The take-up, SI; `spot` is None on the slack side of the drive, wherever that is."""
+    """The take-up, SI; `spot` is None on the slack side of the drives at the first one's place, whichever that is."""
 
     kind: str
     spot: Spot | None

@@ -168,6 +168,7 @@ class Loop:
         self._drives: list[list[int]] = [[] for _ in at]
         for i, drive in enumerate(data.drives):
             self._drives[at[drive.boundary]].append(i)
+        self._station = next(found for found in self._drives if 0 in found)
         spot = data.take_up.spot
         self._anchor_at = None if spot is None else at[spot.boundary]
         self._run_shares = (np.diff(geometry.way[data.boundaries]) / geometry.way[-1]).tolist()
@@ -238,7 +239,7 @@ class Loop:
             level += behind[k]
             outs.append(level)
             shifts.append(level - here)
-        anchor = self._anchor(sides[0], outs, shifts, friction, acceleration)
+        anchor = self._anchor(sides, outs, shifts, friction, acceleration)
         return Motion(
             name, math.fsum(forces), acceleration, friction, tuple(ins), tuple(pasts), tuple(outs), tuple(sides),
             tuple(shifts), anchor, None if may_sag else self.sagging(friction),
@@ -269,7 +270,7 @@ class Loop:
 
     def _anchor(
         self,
-        drive: tuple[float, float, float],
+        sides: Sequence[tuple[float, float, float]],
         outs: Sequence[float],
         shifts: Sequence[float],
         friction: float,
@@ -282,7 +283,9 @@ class Loop:
             return steady + math.fsum(
                 s * share for s, share in zip(shifts[:-1], self._run_shares, strict=True)
             )
-        return min(drive[1:]) if self._anchor_at is None else outs[self._anchor_at]
+        if self._anchor_at is not None:
+            return outs[self._anchor_at]
+        return min(offset for i in self._station for offset in sides[i][1:])
 
     def conditions(self, motion: Motion) -> Iterator[Condition]:
         """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""

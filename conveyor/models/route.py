@@ -187,7 +187,7 @@ class TakeUp(Model):
     kind: Literal["gravity", "fixed", "winch"]
     """Gravity and winch keep the tension at their place, a fixed one keeps the length of the belt."""
     position: Literal["drive", "head", "tail", "carry", "return"] = "drive"
-    """Slack side of the drive, right behind the head, tail, or behind a section in running direction."""
+    """Slack side of the drive and of those beside it, right behind the head or tail, or behind a section."""
     section: Name | None = None
     """The section, for position "carry" or "return"."""
     tension: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None

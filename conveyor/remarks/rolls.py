@@ -139,7 +139,7 @@ def _drag_warnings(conveyor: Conveyor) -> Iterator[str]:
                 if drag.assumed:
                     yield (
                         f"idlers.{strand}: roll drag not given, {figure(drag.force, 'force', units)} a roll assumed "
-                        f"({drag.source}; an upper limit, give {field}.drag)"
+                        f"({drag.source}; the limit of a new roll's test, give {field}.drag)"
                     )
 
 

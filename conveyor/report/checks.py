@@ -3,63 +3,40 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
+from conveyor.figures import belt_strength, figure
 from conveyor.line.roll_lives import set_life
 from conveyor.line.walk import excited_band
 from conveyor.models import Conveyor
 from conveyor.remarks import DEEP
 from conveyor.remarks.loop import HELD
 from conveyor.remarks.rolls import ASKED_LIFE
-from conveyor.units import System, display, is_quantity, si
+from conveyor.report.case_checks import case_checks
+from conveyor.report.verdicts import Check, verdict
+from conveyor.units import System, is_quantity, si
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.line.stretches import Strand
     from conveyor.loop.belt_duty import BeltDuty, CurveCheck
     from conveyor.loop.starting import Motions
+    from conveyor.studies import Studies
 
-_WHOLE = re.compile(r"^-?\d{4,}")  # grouped by thousands
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
-Verdict = Literal["pass", "FAIL", "not checked"]
 
-
-@dataclass(frozen=True)
-class Check:
-    """One check.
-
-    Attributes
-    ----------
-    subject : str
-        What is checked.
-    found, asked : str
-        What it is, and what it should be, with units.
-    verdict : {"pass", "FAIL", "not checked"}
-        "not checked" where the spec does not say what is needed for it.
-    """
-
-    subject: str
-    found: str
-    asked: str
-    verdict: Verdict
-
-
-def _verdict(*, holds: bool) -> Verdict:
-    return "pass" if holds else "FAIL"
-
-
-def checks(analysis: Analysis, system: System = "SI") -> tuple[Check, ...]:
-    """Check an analysis: drives, take-up, belt, pulleys, curves, start and stop, rolls, rubber.
+def checks(analysis: Analysis, system: System = "SI", studies: Studies | None = None) -> tuple[Check, ...]:
+    """Check an analysis: drives, take-up, belt, pulleys, curves, start and stop, rolls, rubber; its load cases.
 
     Parameters
     ----------
     analysis : Analysis
         What to check.
+    studies : Studies, optional
+        Whose load cases are checked, too.
     system : {"SI", "US"}
         Units of what was found and asked for.
 
@@ -80,17 +57,8 @@ def checks(analysis: Analysis, system: System = "SI") -> tuple[Check, ...]:
         *_bulk(moving, system),
         *_rolls(analysis),
         *_rubber(analysis, system),
+        *(() if studies is None or studies.cases is None else case_checks(studies.cases, system)),
     )
-
-
-def _shown(value: float, kind: str, system: System) -> str:
-    """As reports write it: thousands grouped, powers raised, degrees with their sign."""
-    written = _WHOLE.sub(lambda found: f"{int(found[0]):,}", display(value, kind, system))
-    return written.replace("^2", "²").replace("^3", "³").replace(" deg", " °")
-
-
-def _strength(value: float, system: System) -> str:
-    return f"{value / 1e3:,.0f} N/mm" if system == "SI" else _shown(value, "line force", system)
 
 
 def band_words(band: tuple[float, float]) -> str:
@@ -115,20 +83,20 @@ def _drives(analysis: Analysis, system: System) -> Iterator[Check]:
     data = analysis.balance.settled.loop.data
     for drive, side in zip(data.drives, analysis.balance.settled.steady.drives, strict=True):
         power = data.motor(side.force)
-        found = _shown(abs(power), "power", system) + (" (generating)" if power < 0.0 else "")
+        found = figure(abs(power), "power", system) + (" (generating)" if power < 0.0 else "")
         subject = f"motor power, {drive.name}"
         if drive.power is None:
             yield Check(subject, found, "installed power not given", "not checked")
         else:
             holds = abs(power) <= drive.power
             yield Check(
-                subject, found, f"at most {_shown(drive.power, 'power', system)}", _verdict(holds=holds)
+                subject, found, f"at most {figure(drive.power, 'power', system)}", verdict(holds=holds)
             )
 
 
 def _take_up(analysis: Analysis, system: System) -> Iterator[Check]:
     settled = analysis.balance.settled
-    found = _shown(settled.setting, "force", system)
+    found = figure(settled.setting, "force", system)
     governing = settled.condition_name(settled.governed_by)
     short = {
         name: asked
@@ -139,16 +107,16 @@ def _take_up(analysis: Analysis, system: System) -> Iterator[Check]:
         yield Check(
             f"tension of the take-up ({name})",
             found,
-            f"at least {_shown(asked, 'force', system)}",
-            _verdict(holds=not short),
+            f"at least {figure(asked, 'force', system)}",
+            verdict(holds=not short),
         )
     states = (*settled.states.values(), *analysis.motions.states.values())
     slackest = min(states, key=lambda state: state.smallest)
     yield Check(
         f"smallest tension of all states ({slackest.name})",
-        _shown(slackest.smallest, "force", system),
+        figure(slackest.smallest, "force", system),
         "not slack: at least 0",
-        _verdict(holds=slackest.smallest >= 0.0),
+        verdict(holds=slackest.smallest >= 0.0),
     )
 
 
@@ -159,13 +127,13 @@ def _belt(conveyor: Conveyor, duty: BeltDuty, system: System) -> Iterator[Check]
         yield Check("safety of the belt, steady", "strength not given", asked, "not checked")
         return
     holds = duty.safety_steady >= duty.safety_needed
-    yield Check("safety of the belt, steady", f"{duty.safety_steady:.2f}", asked, _verdict(holds=holds))
+    yield Check("safety of the belt, steady", f"{duty.safety_steady:.2f}", asked, verdict(holds=holds))
     if duty.strength_needed is not None:
         yield Check(
             "strength of the belt for its splice",
-            _strength(si(strength), system),
-            f"at least {_strength(duty.strength_needed, system)} (DIN 22101:2002)",
-            _verdict(holds=si(strength) >= duty.strength_needed),
+            belt_strength(si(strength), system),
+            f"at least {belt_strength(duty.strength_needed, system)} (DIN 22101:2002)",
+            verdict(holds=si(strength) >= duty.strength_needed),
         )
 
 
@@ -173,9 +141,9 @@ def _pulleys(duty: BeltDuty, system: System) -> Iterator[Check]:
     for pulley in duty.pulleys:
         yield Check(
             f"diameter, {pulley.name} pulley",
-            _shown(pulley.diameter, "thickness", system),
-            f"at least {_shown(pulley.least, 'thickness', system)} (DIN 22101, group {pulley.group})",
-            _verdict(holds=pulley.large_enough),
+            figure(pulley.diameter, "thickness", system),
+            f"at least {figure(pulley.least, 'thickness', system)} (DIN 22101, group {pulley.group})",
+            verdict(holds=pulley.large_enough),
         )
 
 
@@ -187,12 +155,12 @@ def _curve(curve: CurveCheck, system: System) -> Iterator[Check]:
         (curve.buckling, "no strip slack"),
     ):
         if least is not None:
-            asked = "no radius helps" if math.isinf(least) else f"at least {_shown(least, 'length', system)}"
+            asked = "no radius helps" if math.isinf(least) else f"at least {figure(least, 'length', system)}"
             yield Check(
                 f"{where}: {why}",
-                _shown(curve.radius, "length", system),
+                figure(curve.radius, "length", system),
                 asked,
-                _verdict(holds=curve.radius >= least),
+                verdict(holds=curve.radius >= least),
             )
 
 
@@ -200,49 +168,49 @@ def _start(moving: Motions, system: System) -> Iterator[Check]:
     start = moving.start
     if start.force <= 0.0:
         return
-    found = _shown(start.force, "force", system)
+    found = figure(start.force, "force", system)
     if start.available is not None:
         yield Check(
             "starting force, motors",
             found,
-            f"at most {_shown(start.available, 'force', system)}",
-            _verdict(holds=start.force <= start.available),
+            f"at most {figure(start.available, 'force', system)}",
+            verdict(holds=start.force <= start.available),
         )
     yield Check(
         "starting force after standstill",
         found,
-        f"at least {_shown(start.breakaway, 'force', system)}",
-        _verdict(holds=start.force >= start.breakaway),
+        f"at least {figure(start.breakaway, 'force', system)}",
+        verdict(holds=start.force >= start.breakaway),
     )
 
 
 def _stop(conveyor: Conveyor, moving: Motions, system: System) -> Iterator[Check]:
     given = [si(drive.brake_force) for drive in conveyor.drive.pulleys if is_quantity(drive.brake_force)]
     brakes = math.fsum(given)
-    found = _shown(brakes, "force", system) if given else "no brake or backstop given"
+    found = figure(brakes, "force", system) if given else "no brake or backstop given"
     stopping = moving.coasting_least if moving.braked is None else moving.braked
     yield Check(
         "comes to rest without power",
         "does not"
         if stopping is None
-        else f"in {stopping.time:,.1f} s, {_shown(stopping.distance, 'length', system)}",
+        else f"in {stopping.time:,.1f} s, {figure(stopping.distance, 'length', system)}",
         "a stop, least friction",
-        _verdict(holds=stopping is not None),
+        verdict(holds=stopping is not None),
     )
     if moving.brake_to_hold > 0.0:
         what = "backstop" if moving.rolls_back else "brake"
         yield Check(
             f"{what} that holds the loaded belt",
             found,
-            f"at least {_shown(moving.brake_to_hold, 'force', system)}",
-            _verdict(holds=brakes >= moving.brake_to_hold) if given else "not checked",
+            f"at least {figure(moving.brake_to_hold, 'force', system)}",
+            verdict(holds=brakes >= moving.brake_to_hold) if given else "not checked",
         )
     if moving.brake_to_stop is not None:
         yield Check(
             "brakes for the deceleration wanted",
             found,
-            f"at least {_shown(moving.brake_to_stop, 'force', system)}",
-            _verdict(holds=brakes >= moving.brake_to_stop),
+            f"at least {figure(moving.brake_to_stop, 'force', system)}",
+            verdict(holds=brakes >= moving.brake_to_stop),
         )
 
 
@@ -256,15 +224,15 @@ def _bulk(moving: Motions, system: System) -> Iterator[Check]:
     hardest, fastest = moving.hardest
     yield Check(
         f"bulk lies still while stopping, {slip.braking_at}",
-        _shown(-hardest, "acceleration", system),
-        f"at most {_shown(-slip.braking, 'acceleration', system)}",
-        _verdict(holds=hardest >= slip.braking),
+        figure(-hardest, "acceleration", system),
+        f"at most {figure(-slip.braking, 'acceleration', system)}",
+        verdict(holds=hardest >= slip.braking),
     )
     yield Check(
         f"bulk lies still at the start, {slip.starting_at}",
-        _shown(fastest, "acceleration", system),
-        f"at most {_shown(slip.starting, 'acceleration', system)}",
-        _verdict(holds=fastest <= slip.starting),
+        figure(fastest, "acceleration", system),
+        f"at most {figure(slip.starting, 'acceleration', system)}",
+        verdict(holds=fastest <= slip.starting),
     )
 
 
@@ -277,7 +245,7 @@ def _rolls(analysis: Analysis) -> Iterator[Check]:
             f"penetration of the cover, {strand} rolls",
             f"{deepest:.1%} of its thickness",
             f"at most {DEEP:.0%} (small strain)",
-            _verdict(holds=deepest <= DEEP),
+            verdict(holds=deepest <= DEEP),
         )
         lives = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
         known = [life for life in lives if life is not None]
@@ -286,7 +254,7 @@ def _rolls(analysis: Analysis) -> Iterator[Check]:
                 f"L10 life, {strand} idler sets",
                 f"{min(known):,.0f} h",
                 f"at least {ASKED_LIFE:,.0f} h",
-                _verdict(holds=min(known) >= ASKED_LIFE),
+                verdict(holds=min(known) >= ASKED_LIFE),
             )
 
 
@@ -300,9 +268,13 @@ def _rubber(analysis: Analysis, system: System) -> Iterator[Check]:
         subject = f"rubber data cover the excited band, {strand}"
         if band is None:
             continue
-        found = f"{band_words(band)} at {_shown(at, 'temperature', system)}"
+        if compound.kind == "illustrative":
+            found = f'"{compound.name}" is constructed, not measured'
+            yield Check(f"rubber, {strand}", found, "a measured compound", "not checked")
+            continue
+        found = f"{band_words(band)} at {figure(at, 'temperature', system)}"
         if data is None:
             yield Check(subject, found, "range of the data not stated", "not checked")
             continue
         asked = f"within {band_words(data)}"
-        yield Check(subject, found, asked, _verdict(holds=data[0] <= band[0] and band[1] <= data[1]))
+        yield Check(subject, found, asked, verdict(holds=data[0] <= band[0] and band[1] <= data[1]))

@@ -173,6 +173,15 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
+    elif not any(part.side == "mains" for part in comparison.conveyor.drive.train):
+        lines.append(
+            "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
+        )
+    if comparison.conveyor.operation is not None and comparison.conveyor.operation.duty:
+        lines.append(
+            "energy and cost here are hours_per_year at the spec's flow, operation.duty is not used: for the year of a "
+            "compound put it into the spec and run conveyor power"
+        )
     lines.append(
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )

@@ -164,7 +164,7 @@ def of_analysis(analysis: Analysis, studies: Studies | None = None) -> Contents:
         *_loop(analysis),
         *(() if studies is None else _studies(studies)),
         *_contacts(analysis),
-        *_known(analysis, system),
+        *_known(analysis, studies, system),
     )
     return gathered(parts, system)
 
@@ -282,8 +282,8 @@ def _contacts(analysis: Analysis) -> Iterator[Part]:
         yield Part("Rubber", f"moduli_{strand}", "Moduli at the belt's temperature", moduli)
 
 
-def _known(analysis: Analysis, system: System) -> Iterator[Part]:
-    checked = [(c.subject, c.found, c.asked, c.verdict) for c in checks(analysis, system)]
+def _known(analysis: Analysis, studies: Studies | None, system: System) -> Iterator[Part]:
+    checked = [(c.subject, c.found, c.asked, c.verdict) for c in checks(analysis, system, studies)]
     columns = ["check", "found", "asked for", "verdict"]
     yield Part(CHECKS_AND_NOTES, "checks", "Checks", pd.DataFrame(checked, columns=columns))
     said = [("warning", line) for line in analysis.warnings]

@@ -11,6 +11,7 @@ from openpyxl.styles import Alignment, Border, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.figures import belt_strength
 from conveyor.report import charts
 from conveyor.report.cells import (
     ACCENT,
@@ -31,7 +32,7 @@ from conveyor.report.contents import CHECKS_AND_NOTES
 from conveyor.report.formats import number_format
 from conveyor.report.places import Page
 from conveyor.spec import fingerprint
-from conveyor.units import Quantity, System, convert, display, si, unit_label
+from conveyor.units import Quantity, convert, display, si, unit_label
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
@@ -128,7 +129,7 @@ def _facts(sheet: Worksheet, conveyor: Conveyor, row: int) -> int:
         ("lift", "length", conveyor.route.rise),
         ("belt width", "thickness", si(belt.width)),
         ("belt speed", "speed", si(belt.speed)),
-        ("capacity", "mass flow", si(conveyor.material.flow)),
+        ("mass flow", "mass flow", si(conveyor.material.flow)),
         ("temperature of the covers", "temperature", si(conveyor.ambient.belt)),
     )
     for i, (name, kind, value) in enumerate(figures, start=row + 1):
@@ -147,7 +148,7 @@ def _words(conveyor: Conveyor) -> tuple[tuple[str, str], ...]:
         return display(si(value), kind, system).replace("^3", "³")
 
     carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
-    strength = "" if carcass.strength is None else f", {strength_words(si(carcass.strength), system)}"
+    strength = "" if carcass.strength is None else f", {belt_strength(si(carcass.strength), system)}"
     sets = [
         f"{idlers.rolls} x {shown(idlers.roll.diameter, 'thickness')}, every {shown(idlers.spacing, 'length')}"
         for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
@@ -161,17 +162,6 @@ def _words(conveyor: Conveyor) -> tuple[tuple[str, str], ...]:
         ("return idlers", sets[1]),
         ("material", f"{material.name}, {shown(material.density, 'density')}"),
     )
-
-
-def strength_words(value: float, system: System) -> str:
-    """Write a strength per width [N/m] as belts are named by it.
-
-    Examples
-    --------
-    >>> strength_words(2.5e6, "SI"), strength_words(2.5e6, "US")
-    ('2500 N/mm', '14275 lbf/in')
-    """
-    return f"{value / 1e3:.0f} N/mm" if system == "SI" else f"{convert(value, 'line force', 'US'):.0f} lbf/in"
 
 
 def _line(

@@ -76,8 +76,8 @@ def build(analysis: Analysis, studies: Studies | None = None, *, system: System 
     analysis = analysis.in_units(system)
     conveyor = analysis.conveyor
     parts: list[Part] = [
-        sections.key_figures(analysis, system),
-        sections.checked(analysis, system),
+        sections.key_figures(analysis, system, studies),
+        sections.checked(analysis, system, studies),
         sections.warned(analysis),
         sections.summed_up(analysis, system),
         sections.resistances(analysis, system),

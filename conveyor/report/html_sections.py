@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.line.stretches import Strand
     from conveyor.models import RubberCompound
+    from conveyor.studies import Studies
 
 KEY_FIGURES: Final = (
     "motor power [kW]", "effective tension [N]", "tight side tension [N]", "equivalent DIN f [-]",
@@ -72,9 +73,9 @@ def _plain(words: str) -> str:
     return words.replace("degC", "°C").replace("degF", "°F")
 
 
-def key_figures(analysis: Analysis, system: System) -> Part:
+def key_figures(analysis: Analysis, system: System, studies: Studies | None = None) -> Part:
     """What a designer looks for first, and how many checks failed."""
-    found = checks(analysis, system)
+    found = checks(analysis, system, studies)
     failed = [check for check in found if check.verdict == "FAIL"]
     count = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
     counted = joined(
@@ -90,12 +91,12 @@ def key_figures(analysis: Analysis, system: System) -> Part:
     return Part("key-figures", "Key figures", joined(content))
 
 
-def checked(analysis: Analysis, system: System) -> Part:
+def checked(analysis: Analysis, system: System, studies: Studies | None = None) -> Part:
     """Pass and fail of every check."""
     caption = (
         "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
     )
-    return Part("checks", "Checks", verdicts(checks(analysis, system), caption))
+    return Part("checks", "Checks", verdicts(checks(analysis, system, studies), caption))
 
 
 def warned(analysis: Analysis) -> Part:

@@ -128,7 +128,7 @@ def start_stop(moving: Motions) -> pd.Series:
     rows["brake for the deceleration wanted [N]"] = moving.brake_to_stop
     rows["backstop to hold [N]" if moving.rolls_back else "brake to hold [N]"] = moving.brake_to_hold
     if moving.slip is not None:
-        rows["hardest braking before the bulk slides [m/s²]"] = moving.slip.braking
+        rows["hardest braking before the bulk slides [m/s²]"] = -moving.slip.braking
         rows["highest acceleration before the bulk slides [m/s²]"] = moving.slip.starting
     given = {name: value for name, value in rows.items() if value is not None}
     return pd.Series(given, name="start and stop", dtype=float)

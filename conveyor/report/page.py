@@ -12,10 +12,10 @@ import pandas as pd
 
 from conveyor.markup import Html, element, joined
 from conveyor.models.report import Paper
-from conveyor.report.checks import Check
 from conveyor.report.formats import number_format
 from conveyor.report.page_style import style
 from conveyor.report.unit_systems import converted, converted_rows
+from conveyor.report.verdicts import Check
 from conveyor.units import System
 
 _UNIT = re.compile(r"^(.*?)\s*\[([^\]]*)\]$")

@@ -121,7 +121,7 @@ class Scenes(Protocol):
 def power_against_temperature(
     comparison: Scenes, speed: float | None = None, *, system: System = "SI"
 ) -> Figure:
-    """Motor power of every compound over temperature at one speed [m/s], the slowest without.
+    """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without.
 
     Bands of the fit's replicas are shaded; rings are where the rolls ask for frequencies beyond the rubber's data.
 
@@ -131,7 +131,9 @@ def power_against_temperature(
         No scene has an answer at that speed.
     """
     velocity = scale("speed", system)
-    chosen = min((scene.speed for scene in comparison.scenes), default=0.0) if speed is None else speed
+    spec = si(comparison.conveyor.belt.speed)
+    speeds = {scene.speed for scene in comparison.scenes}
+    chosen = min(speeds, key=lambda given: abs(given - spec), default=spec) if speed is None else speed
     found = [scene for scene in comparison.scenes if scene.speed == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.unit}: nothing to draw")
@@ -143,7 +145,7 @@ def power_against_temperature(
 def power_against_speed(
     comparison: Scenes, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
-    """Motor power of every compound over belt speed at one temperature [K], the coldest answered by all without.
+    """Motor power of every compound over belt speed at one temperature [K], that next to the spec's without.
 
     Rings are where the rolls ask for frequencies beyond the rubber's data at any of the speeds.
 
@@ -159,7 +161,8 @@ def power_against_speed(
     common = set.intersection(*answered)
     if temperature is None and not common:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
-    chosen = min(common) if temperature is None else temperature
+    spec = si(comparison.conveyor.ambient.belt)
+    chosen = min(common, key=lambda given: abs(given - spec)) if temperature is None else temperature
     found = [scene for scene in comparison.scenes if scene.temperature == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.unit}: nothing to draw")

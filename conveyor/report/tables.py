@@ -26,6 +26,9 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
     """Figures of the whole conveyor, one a row."""
     forces, power, tensions, classical = found.forces, found.power, found.tensions, found.classical
     strength = conveyor.belt.carcass.strength
+    even = (
+        conveyor.operation is None or not conveyor.operation.duty
+    )  # a duty has its own year (case_tables.year)
     rows: dict[str, float | None] = {
         "length [m]": conveyor.route.length,
         "lift [m]": conveyor.route.rise,
@@ -51,8 +54,10 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
             None if strength is None else si(strength) * si(conveyor.belt.width) / tensions.largest
         ),
         "energy [kWh/(t km)]": power.energy_per_tonne_km,
-        "energy per year [MWh]": None if power.energy_per_year is None else power.energy_per_year / 1e3,
-        f"cost per year [{power.currency or '-'}]": power.cost_per_year,
+        "energy per year [MWh]": power.energy_per_year / 1e3
+        if even and power.energy_per_year is not None
+        else None,
+        f"cost per year [{power.currency or '-'}]": power.cost_per_year if even else None,
         "classical f [-]": classical.friction_factor,
         "classical effective tension [N]": classical.total,
         "classical motor power [kW]": classical.motor / 1e3,

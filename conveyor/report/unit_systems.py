@@ -30,7 +30,7 @@ _KINDS: Final = {
 }
 """What a unit of the tables measures; others (Hz, s, MWh, ratios) are the same in both systems."""
 _SPELLED: Final = {"ft/s^2": "ft/s²"}
-_DIGITS = 12  # beyond them is the rounding of a conversion
+_DIGITS, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _PER_N_MM: Final = "N/mm"
 
 
@@ -101,7 +101,7 @@ def _value(value: Any, kind: str, unit: str, label: str) -> Any:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         return value
     factor, zero = _scale(kind, unit, label)
-    return float(f"{factor * value + zero:.{_DIGITS}g}")
+    return round(float(f"{factor * value + zero:.{_DIGITS}g}"), _DECIMALS) + 0.0  # no -0
 
 
 @cache

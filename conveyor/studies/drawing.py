@@ -177,13 +177,13 @@ class ComparisonPlots:
     def power_against_temperature(
         self, speed: float | None = None, *, system: System | None = None
     ) -> Figure:
-        """Motor power of every compound over temperature at one speed [m/s], the slowest without."""
+        """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without."""
         return plots.power_against_temperature(self.comparison, speed, system=self._in(system))
 
     def power_against_speed(
         self, temperature: float | None = None, *, system: System | None = None
     ) -> Figure:
-        """Motor power of every compound over speed at one temperature [K], the coldest answered by all without."""
+        """Motor power of every compound over speed at one temperature [K], that next to the spec's without."""
         return plots.power_against_speed(self.comparison, temperature, system=self._in(system))
 
     def loss_tangents(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
