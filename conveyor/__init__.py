@@ -65,13 +65,26 @@ __all__ = [
 ]
 
 
+# So are the modules that users reach as attributes.
+_MODULES = {
+    **{
+        name: f"conveyor.{name}"
+        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")
+    },
+    "libraries": "conveyor.files.libraries",
+    "uncertainty": "conveyor.studies.uncertainty",
+}
+
+
+def __dir__() -> list[str]:
+    return sorted({*__all__, *_MODULES})
+
+
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("conveyor")
-    if name == "libraries":
-        return import_module("conveyor.files.libraries")
     if name in _WHERE:
         return getattr(import_module(_WHERE[name]), name)
-    if name == "uncertainty":
-        return import_module("conveyor.studies.uncertainty")
+    if name in _MODULES:
+        return import_module(_MODULES[name])
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

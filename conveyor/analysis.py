@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from conveyor.errors import InputError
 from conveyor.line.walk import StretchResult
 from conveyor.loop.balance import Balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
@@ -39,18 +40,24 @@ def analyse(conveyor: Conveyor) -> Analysis:
 
     Raises
     ------
+    InputError
+        Something else than a Conveyor.
     NoSolutionError
         A roll's contact has no answer, or the tensions do not settle.
     RangeError
         A compound is not known at the belt's temperature.
     """
+    if not isinstance(conveyor, Conveyor):
+        raise InputError(
+            f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
+        )
     done = run(conveyor)
     stretches, found = done.stretches, done.balance
     remarks = warnings(conveyor, stretches, found)
     return Analysis(conveyor, stretches, found, assumptions(conveyor), remarks, done.convergence)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Analysis:
     """Everything calculated for one conveyor.
 
@@ -122,6 +129,8 @@ class Analysis:
 
     def in_units(self, system: System | None) -> Analysis:
         """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
+
+        Tables (`summary`, `sections` …) stay SI; `to_tables(system=)` and the reports convert them.
 
         Examples
         --------
@@ -292,6 +301,13 @@ class Analysis:
         from conveyor.studies.drawing import AnalysisPlots
 
         return AnalysisPlots(self)
+
+    def __repr__(self) -> str:
+        found = self.balance
+        return (
+            f'Analysis("{self.conveyor.name}": motor power {found.power.motor / 1e3:.1f} kW, effective tension '
+            f"{found.forces.total:.0f} N, f {found.friction_factor:.4f}, error {self.error_estimate:.0e})"
+        )
 
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""

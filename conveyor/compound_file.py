@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
-from conveyor.laboratory import DmaData, read_dma
+from conveyor.laboratory import DmaData
+from conveyor.laboratory.answered import read_answered
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     Isotherm,
@@ -26,6 +26,7 @@ from conveyor.rubber import (
     fit_prony,
     kramers_kronig,
     superpose,
+    testable,
 )
 from conveyor.rubber.band import METHOD
 from conveyor.units import quantity, si
@@ -100,7 +101,7 @@ class Fitted:
         As the shelf holds it.
     fit : PronyFit
         Series, errors, criterion.
-    consistency : KramersKronig
+    consistency : KramersKronig or None
         Whether E' and E'' belong together.
     superposition : Superposition or None
         Where isotherms were shifted.
@@ -114,7 +115,7 @@ class Fitted:
 
     compound: RubberCompound
     fit: PronyFit
-    consistency: KramersKronig
+    consistency: KramersKronig | None
     superposition: Superposition | None
     laws: tuple[ShiftComparison, ...]
     understood: tuple[str, ...]
@@ -140,7 +141,8 @@ def fit_file(data: Path, request: Request) -> Fitted:
     NoSolutionError
         No solid fits the data.
     """
-    read = read_dma(data, poisson_ratio=request.poisson_ratio, **request.reading)
+    several = request.shift is not None or request.strain is not None
+    read = read_answered(data, request.reading, poisson_ratio=request.poisson_ratio, several=several)
     reference = request.reference_temperature or _stated_temperature(data, read)
     if si(quantity(reference, "temperature")) <= 0.0:
         raise InputError(f"--at: got {reference}, a temperature above absolute zero is needed")
@@ -158,7 +160,7 @@ def fit_file(data: Path, request: Request) -> Fitted:
     return Fitted(
         compound=RubberCompound.from_data(described),
         fit=fit,
-        consistency=kramers_kronig(f, e1, e2),
+        consistency=kramers_kronig(f, e1, e2) if testable(f) else None,
         superposition=superposition,
         laws=_laws(superposition, shifts, si(quantity(reference, "temperature"))),
         understood=tuple(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
@@ -205,7 +207,7 @@ def _rows(data: Path, read: DmaData, found: Superposition | None) -> tuple[Array
 
 def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
     answers = {key: value for key, value in request.reading.items() if key not in {"kind", "sheet"}}
-    read = read_dma(path, poisson_ratio=request.poisson_ratio, **answers)
+    read = read_answered(path, answers, poisson_ratio=request.poisson_ratio, several=True)
     if read.kind != kind:
         raise InputError(f"{path}: holds {read.kind}, {kind} are needed here")
     return read
@@ -359,41 +361,3 @@ def _strain(request: Request, sweeps: DmaData) -> dict[str, Any]:
             for run in runs
         ],
     }
-
-
-def dump(compound: RubberCompound, heading: str = "") -> str:
-    """YAML text of a compound file, as the shelf reads it; lists of numbers and terms on one line each.
-
-    Parameters
-    ----------
-    compound : RubberCompound
-        What to write.
-    heading : str
-        A comment for the first line, without ``#``.
-    """
-    from ruamel.yaml import YAML
-    from ruamel.yaml.comments import CommentedMap, CommentedSeq
-
-    def laid(value: Any) -> Any:
-        if isinstance(value, Mapping):
-            made = CommentedMap({key: laid(item) for key, item in value.items()})
-            if set(made) == {"modulus", "time"}:
-                made.fa.set_flow_style()
-            return made
-        if isinstance(value, list):
-            row = CommentedSeq([laid(item) for item in value])
-            if not any(isinstance(item, Mapping | list) for item in value) and _short(value):
-                row.fa.set_flow_style()
-            return row
-        return value
-
-    writer = YAML(typ="rt", pure=True)
-    writer.width = 100_000  # one row of a table is one line
-    stream = io.StringIO()
-    writer.dump(laid(compound.as_data()), stream)
-    return (f"# {heading}\n" if heading else "") + stream.getvalue()
-
-
-def _short(items: list[Any]) -> bool:
-    """Quantities and numbers, no sentences."""
-    return all(not isinstance(item, str) or len(item) < 24 for item in items)

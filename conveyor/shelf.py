@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import io
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -16,7 +18,7 @@ from conveyor.files.document import listing, read_document
 from conveyor.files.shelves import ENVIRONMENT, SUFFIXES, built_in, files, folders
 from conveyor.models.compound import RubberCompound
 
-__all__ = ["ENVIRONMENT", "built_in", "compound", "folders", "names", "read_compound", "resolver"]
+__all__ = ["ENVIRONMENT", "built_in", "compound", "dump", "folders", "names", "read_compound", "resolver"]
 
 
 def names(extra: Iterable[str | Path] = ()) -> list[str]:
@@ -130,3 +132,41 @@ def resolver(
         return compound(name, extra=listed, base=base)
 
     return resolve
+
+
+def dump(compound: RubberCompound, heading: str = "") -> str:
+    """YAML text of a compound file, as the shelf reads it; lists of numbers and terms on one line each.
+
+    Parameters
+    ----------
+    compound : RubberCompound
+        What to write.
+    heading : str
+        A comment for the first line, without ``#``.
+    """
+    from ruamel.yaml import YAML
+    from ruamel.yaml.comments import CommentedMap, CommentedSeq
+
+    def laid(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            made = CommentedMap({key: laid(item) for key, item in value.items()})
+            if set(made) == {"modulus", "time"}:
+                made.fa.set_flow_style()
+            return made
+        if isinstance(value, list):
+            row = CommentedSeq([laid(item) for item in value])
+            if not any(isinstance(item, Mapping | list) for item in value) and _short(value):
+                row.fa.set_flow_style()
+            return row
+        return value
+
+    writer = YAML(typ="rt", pure=True)
+    writer.width = 100_000  # one row of a table is one line
+    stream = io.StringIO()
+    writer.dump(laid(compound.as_data()), stream)
+    return (f"# {heading}\n" if heading else "") + stream.getvalue()
+
+
+def _short(items: list[Any]) -> bool:
+    """Quantities and numbers, no sentences."""
+    return all(not isinstance(item, str) or len(item) < 24 for item in items)

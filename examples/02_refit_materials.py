@@ -23,8 +23,9 @@ from pathlib import Path
 
 import numpy as np
 
-from conveyor.compound_file import Fitted, Request, dump, fit_file
+from conveyor.compound_file import Fitted, Request, fit_file
 from conveyor.rubber import WLF, PronySeries
+from conveyor.shelf import dump
 
 ZERO_CELSIUS = 273.15
 SHELF = Path(__file__).resolve().parent.parent / "materials"

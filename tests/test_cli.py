@@ -142,7 +142,7 @@ def test_contact_that_splits_shows_its_strips() -> None:
     assert done.returncode == 0
     found = json.loads(done.stdout)
     assert found["friction"] == pytest.approx(0.35799886592, rel=1e-6)
-    assert found["strips"] == [
+    assert found["patches"] == [
         pytest.approx([-0.57405087749, 0.11803574191], abs=1e-6),
         pytest.approx([0.32586797997, 0.74153527656], abs=1e-6),
     ]

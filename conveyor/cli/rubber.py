@@ -75,6 +75,7 @@ def fit(
 ) -> None:
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
     from conveyor import compound_file
+    from conveyor import shelf as shelf_of
     from conveyor.units import quantity, si
 
     outputs.file("--output", output, ".yaml", ".yml")
@@ -110,7 +111,7 @@ def fit(
 
         lines.append(f"figure: {plots.save(fitting.figure(found), plot)}")
     if output is not None:
-        save({output: compound_file.dump(found.compound, "Written by conveyor fit").encode()})
+        save({output: shelf_of.dump(found.compound, "Written by conveyor fit").encode()})
         lines.append(f"compound file: {output}")
     if not quiet:
         print("\n".join(lines))

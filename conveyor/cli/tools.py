@@ -51,7 +51,7 @@ def contact(
     if as_json:
         about = {
             "pressure": solution.problem.pressure,
-            "strips": solution.patches.tolist(),
+            "patches": solution.patches.tolist(),
             "status": solution.status.name,
             "order": solution.stats.order,
             "way": solution.stats.way,

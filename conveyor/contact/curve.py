@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -39,8 +39,7 @@ Array = NDArray[np.float64]
 _DEGREES = (16, 32, 64, 128)
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
-_NEWTON_STEPS = 40
-SIGN_FLOOR = 1e-9
+_NEWTON_STEPS, SIGN_FLOOR = 40, 1e-9
 _SPLITS = (
     "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
     "or solve such loads one by one"
@@ -63,21 +62,20 @@ class LoadSolutions:
     energy_error: Array
     error_estimate: Array
     stats: SolveStats
-    _penetration: Callable[[], Array]
-    _peak: Callable[[], Array]
+    _later: Callable[[str], Array]  # a partial of a function at the top: solutions pickle
 
     @cached_property
     def penetration(self) -> Array:
         """Δ/R [-]."""
-        return self._penetration()
+        return self._later("penetration")
 
     @cached_property
     def peak_pressure(self) -> Array:
         """Largest p̃ [-]."""
-        return np.asarray(self._peak(), dtype=np.float64)
+        return self._later("peak_pressure")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LoadCurve:
     """Contact of one scene as a function of load, good between two mean pressures.
 
@@ -111,11 +109,9 @@ class LoadCurve:
         from conveyor.markup import listing
 
         ends = self.at([self.lowest, self.highest])
+        there = [("friction there", ends.friction), ("half_width there", ends.half_width)]
         rows = [("mean pressure p̃_m", f"{self.lowest:.6g} to {self.highest:.6g}")]
-        rows += [
-            (f"{name} there", " to ".join(f"{value:.6g}" for value in getattr(ends, name)))
-            for name in ("friction", "half_width")
-        ]
+        rows += [(name, " to ".join(f"{value:.6g}" for value in found)) for name, found in there]
         rows.append(("relative error of friction", f"{self.error:.1e}"))
         return listing("LoadCurve, lengths over R", rows)
 
@@ -149,9 +145,13 @@ class LoadCurve:
             energy_error=np.full(p.shape, self.energy_error),
             error_estimate=np.full(p.shape, self.error),
             stats=self.stats,
-            _penetration=lambda: chebyshev.chebval(t, self._depths) * (alpha / rho) ** 2,
-            _peak=lambda: np.asarray(chebyshev.chebval(t, self._peaks) * alpha / rho),
+            _later=partial(self._figure, t, alpha / rho),
         )
+
+    def _figure(self, t: Array, width: Array, name: str) -> Array:
+        if name == "penetration":
+            return np.asarray(chebyshev.chebval(t, self._depths) * width**2)
+        return np.asarray(chebyshev.chebval(t, self._peaks) * width)
 
     @cached_property
     def excitation_widest(self) -> Array:
@@ -306,10 +306,7 @@ def wraps(solution: ContactSolution) -> bool:
 
 def _one_by_one(problem: ContactProblem, pressures: Array, rtol: float) -> LoadSolutions:
     solved = [solve(replace(problem, pressure=float(p)), rtol) for p in pressures.ravel()]
-
-    def column(name: str) -> Array:
-        return np.array([getattr(s, name) for s in solved]).reshape(pressures.shape)
-
+    column = partial(_column, solved, pressures.shape)
     return LoadSolutions(
         pressure=pressures,
         friction=column("friction"),
@@ -319,9 +316,12 @@ def _one_by_one(problem: ContactProblem, pressures: Array, rtol: float) -> LoadS
         energy_error=column("energy_error"),
         error_estimate=column("error_estimate"),
         stats=max((s.stats for s in solved), key=lambda stats: stats.order),
-        _penetration=lambda: column("penetration"),
-        _peak=lambda: column("peak_pressure"),
+        _later=column,
     )
+
+
+def _column(solved: list[ContactSolution], shape: tuple[int, ...], name: str) -> Array:
+    return np.array([getattr(solution, name) for solution in solved]).reshape(shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,4 @@
-"""Walks the route: the contact of every roll, and from it the forces of every stretch of both strands.
-
-The only place, with stretches.py and balance.py, where models meet laws.
-"""
+"""Walks the route: the contact of every roll, and from it the forces of every stretch of both strands."""
 
 from __future__ import annotations
 
@@ -119,23 +116,6 @@ def fastest_excited(results: tuple[StretchResult, ...], strand: Strand) -> float
 
 def _curves(results: tuple[StretchResult, ...], strand: Strand) -> set[IndentationCurve]:
     return {roll.curve for r in results if r.stretch.strand == strand for roll in r.rolls}
-
-
-def walk(conveyor: Conveyor) -> tuple[StretchResult, ...]:
-    """Carry strand from tail to head, then return strand from head to tail.
-
-    Raises
-    ------
-    NoSolutionError
-        A roll's contact has no answer (it splits, or wraps the roll).
-    RangeError
-        A compound is not known at the belt's temperature.
-    """
-    track = Track(conveyor)
-    (found,) = indented([track], [worked_surfaces(track, surfaces(conveyor), si(conveyor.ambient.belt))])
-    if isinstance(found, NoSolutionError):
-        raise found
-    return found
 
 
 def indented(

@@ -101,6 +101,9 @@ def _consistency(found: Fitted) -> Iterator[str]:
         "contradict themselves"
     )
     known = found.consistency
+    if known is None:
+        yield "  Kramers-Kronig: not tested, the window has too few rows beyond a decade from its ends"
+        return
     for label, one, misfit in (("E''", "E'", known.loss), ("E'", "E''", known.storage)):
         yield (
             f"  Kramers-Kronig, {label} predicted from {one} over {known.judged[0]:.3g} to {known.judged[1]:.3g} Hz: "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from conveyor.rubber.band import ReplicaBand, bootstrap
 from conveyor.rubber.equivalent import EquivalentLinear, equivalent_linear, softened
 from conveyor.rubber.fit import PronyFit, fit_prony
-from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig
+from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
 from conveyor.rubber.prony import CreepSeries, PronySeries
@@ -54,4 +54,5 @@ __all__ = [
     "shifted",
     "softened",
     "superpose",
+    "testable",
 ]

@@ -95,6 +95,24 @@ class KramersKronig:
     predicted_storage: FloatArray = field(repr=False)
 
 
+def testable(frequency: ArrayLike) -> bool:
+    """Whether a window has rows enough beyond a decade from both of its ends to be judged by `kramers_kronig`.
+
+    Parameters
+    ----------
+    frequency : array_like
+        CYCLIC frequency, shape `(n,)`, any order [Hz].
+
+    Examples
+    --------
+    >>> testable(np.logspace(0, 2, 30)), testable(np.logspace(-2, 4, 30))
+    (False, True)
+    """
+    f = np.asarray(frequency, dtype=float)
+    inside = (f >= f.min() * 10.0**MARGIN) & (f <= f.max() / 10.0**MARGIN)
+    return bool(np.count_nonzero(inside) >= LEAST_ROWS)
+
+
 def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> KramersKronig:
     """Test a master curve for the relation that causality sets between E' and E''.
 

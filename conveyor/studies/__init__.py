@@ -15,7 +15,7 @@ from conveyor.studies.uncertainty import UncertaintyStudy, study
 Progress: TypeAlias = Callable[[str, int, int], None]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Studies:
     """Studies of one conveyor; None where the spec has nothing to study.
 
@@ -32,6 +32,17 @@ class Studies:
     cases: CaseStudy | None = None
     duty: DutyStudy | None = None
     uncertainty: UncertaintyStudy | None = None
+
+    def __repr__(self) -> str:
+        held = [name for name in ("cases", "duty", "uncertainty") if getattr(self, name) is not None]
+        return f"Studies({', '.join(held) or 'nothing asked for'})"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: what there is, one after the other."""
+        held = (self.cases, self.duty, self.uncertainty)
+        return (
+            "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, only of what there is; units in the keys."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor import compound_file, shelf, starter
+from conveyor import shelf, starter
 from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.report import plots
@@ -53,9 +53,7 @@ OUTPUTS: dict[str, Callable[[Path], object]] = {
     "scenes.csv": lambda path: save({path: (_comparison().table.to_csv(index=False) * 20).encode()}),
     "figure.png": _figure,
     "figure.svg": _figure,
-    "compound.yaml": lambda path: save(
-        {path: compound_file.dump(shelf.compound("s100"), "From a test").encode()}
-    ),
+    "compound.yaml": lambda path: save({path: shelf.dump(shelf.compound("s100"), "From a test").encode()}),
     "template.xlsx": lambda path: write_template(path, _line()),
     "starter.yaml": lambda path: save({path: starter.written("overland").encode()}),
 }
