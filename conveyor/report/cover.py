@@ -261,8 +261,8 @@ def _picture(page: Page, row: int) -> int:
             put(sheet.cell(i, 5), float(found["value"]), None, number_format(label))
             put(sheet.cell(i, 6), str(found["case"]))
             put(sheet.cell(i, 7), f"{found[at]:g} °{unit}")
-            sheet.cell(i, 6).alignment = Alignment(indent=1, shrink_to_fit=True)
-            sheet.cell(i, 7).alignment = Alignment(indent=1, shrink_to_fit=True)
+            for j in (6, 7):  # indents hold only where the side is named
+                sheet.cell(i, j).alignment = Alignment(horizontal="left", indent=1, shrink_to_fit=True)
             for j in range(4, 8):
                 sheet.cell(i, j).border = _HAIR
         end = max(end, row + 2 + len(cases.frame))

@@ -101,7 +101,9 @@ def _value(value: Any, kind: str, unit: str, label: str) -> Any:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         return value
     factor, zero = _scale(kind, unit, label)
-    return round(float(f"{factor * value + zero:.{_DIGITS}g}"), _DECIMALS) + 0.0  # no -0
+    if zero:
+        return round(factor * value + zero, _DECIMALS) + 0.0  # a difference of like figures; no -0
+    return float(f"{factor * value:.{_DIGITS}g}")
 
 
 @cache

@@ -36,7 +36,13 @@ def test_example_passes(all_of):
     assert failed(all_of) == []
     assert all_of["motor power, drive"].found == "103.8 kW"
     assert all_of["motor power, drive"].verdict == "pass"
-    assert "Hz" in all_of["rubber data cover the excited band, carry"].asked
+    rubber = all_of["rubber, carry"]  # of the shelf's constructed covers
+    assert (rubber.asked, rubber.verdict) == ("a measured compound", "not checked")
+
+
+def test_a_measured_rubber_is_held_to_its_data():
+    line = conveyor.load(SPECS / "overland_10km.yaml")
+    assert "Hz" in found(line)["rubber data cover the excited band, carry"].asked
 
 
 def test_us_units(line):
