@@ -65,11 +65,14 @@ def _like(length: float, idlers: IdlerSet) -> str:
     return text(from_si(float(f"{length:.6g}"), "length", unit))
 
 
-def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
-    """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
+def cross_sections(conveyor: Conveyor) -> tuple[float, float] | None:
+    """Cross-section of the bulk, and the largest one that the belt holds (ISO 5048) [m²].
+
+    None without bulk, and for 4 and 5 rolls, which have no rule there.
+    """
     carry, belt, material = conveyor.idlers.carry, conveyor.belt, conveyor.material
     if carry.rolls in {4, 5} or si(material.flow) == 0.0:
-        return
+        return None
     across = usable_width(si(belt.width))
     inner = {1: across, 2: 0.0, 3: min(si(carry.roll.length), across)}[carry.rolls]
     area = cross_section(
@@ -78,9 +81,15 @@ def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
         trough_angle=si(carry.trough_angle),
         surcharge_angle=material.surcharge,
     ).area
-    needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
-    if needed <= area:
+    return bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density), area
+
+
+def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
+    """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
+    found, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
+    if found is None or found[0] <= found[1]:
         return
+    needed, area = found
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
     yield Problem(

@@ -10,6 +10,7 @@ from conveyor.figures import belt_strength, figure
 from conveyor.line.roll_lives import set_life
 from conveyor.line.walk import excited_band
 from conveyor.models import Conveyor
+from conveyor.models.checks import cross_sections
 from conveyor.remarks import DEEP
 from conveyor.remarks.loop import HELD
 from conveyor.remarks.rolls import ASKED_LIFE
@@ -47,6 +48,7 @@ def checks(analysis: Analysis, system: System = "SI", studies: Studies | None = 
     """
     conveyor, duty, moving = analysis.conveyor, analysis.belt_duty, analysis.motions
     return (
+        *_filling(conveyor, system),
         *_drives(analysis, system),
         *_take_up(analysis, system),
         *_belt(conveyor, duty, system),
@@ -77,6 +79,17 @@ def _frequency(value: float) -> str:
         return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
     digit, exponent = f"{value:.0e}".split("e")
     return f"{digit}×10{str(int(exponent)).translate(RAISED)}"
+
+
+def _filling(conveyor: Conveyor, system: System) -> Iterator[Check]:
+    """A spec that overfills its belt is refused; how full it is remains to be said."""
+    sections = cross_sections(conveyor)
+    if sections is not None:
+        bulk, most = sections
+        found = f"{bulk / most:.0%} of the cross-section"
+        yield Check(
+            "filling of the belt", found, f"at most {figure(most, 'area', system)} (ISO 5048)", "pass"
+        )
 
 
 def _drives(analysis: Analysis, system: System) -> Iterator[Check]:

@@ -151,3 +151,16 @@ def test_units_of_tables():
 def test_factors(name, value, there, expected):
     """Exact by the international yard and pound; nine digits are printed here."""
     assert converted_figure(name, [value], "US") == (there, [pytest.approx(expected, rel=1e-9)])
+
+
+def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
+    """The flow raised by the inverse of the filling is the most that a spec may hold."""
+    filled = all_of["filling of the belt"]
+    assert filled.verdict == "pass"
+    share = float(filled.found.split()[0].rstrip("%")) / 100.0
+    flow = line.material.flow
+    line.replace(material={**line.material.as_data(), "flow": f"{flow.magnitude / (share + 0.005):.6g} stph"})
+    with pytest.raises(conveyor.InputError, match="needs a cross-section"):
+        line.replace(
+            material={**line.material.as_data(), "flow": f"{flow.magnitude / (share - 0.005):.6g} stph"}
+        )
