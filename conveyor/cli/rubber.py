@@ -102,7 +102,8 @@ def fit(
         found = compound_file.fit_file(data, request)
     except InputError as error:
         said = str(error)
-        raise InputError(said if said.startswith(str(data)) else f"{data}: {said}") from None
+        files = [str(file) for file in (data, shift, strain) if file is not None]
+        raise InputError(said if said.startswith((*files, "--")) else f"{data}: {said}") from None
     from conveyor.report import fitting
 
     lines = fitting.lines(found)
@@ -112,7 +113,7 @@ def fit(
         lines.append(f"figure: {plots.save(fitting.figure(found), plot)}")
     if output is not None:
         save({output: shelf_of.dump(found.compound, "Written by conveyor fit").encode()})
-        lines.append(f"compound file: {output}")
+        lines.append(f'compound file: {output}; specs and --compound name it "{output.stem}" or by its path')
     if not quiet:
         print("\n".join(lines))
 
