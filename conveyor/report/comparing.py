@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from conveyor.units import si
+
 if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison, Scene
 
@@ -92,7 +94,9 @@ def _row(
 ) -> dict[str, object]:
     name, speed = key
     currency = _currency(comparison)
-    cost, before = (_mean([s.cost_per_year for s in group]) for group in (at, base))
+    (energy, cost), (_, before) = (
+        _year(comparison, other, speed, group) for other, group in ((name, at), (comparison.base, base))
+    )
     saved = None if cost is None or before is None else before - cost
     extra = comparison.extra_costs.get(name)
     peak = max(found.values(), key=lambda scene: scene.motor)
@@ -108,12 +112,27 @@ def _row(
         "motor power against base [-]": None if not motor or not motor_before else motor / motor_before - 1.0,
         "peak motor power [kW]": peak.motor / 1e3,
         "at temperature [degC]": celsius(peak.temperature),
-        "energy per year [MWh]": _kilo(_mean([s.energy_per_year for s in at])),
+        "energy per year [MWh]": _kilo(energy),
         f"cost per year [{currency}]": cost,
         f"saving per year [{currency}]": saved,
         f"extra cost of the belt [{currency}]": extra,
         "payback [a]": None if extra is None or saved is None or saved <= 0.0 else extra / saved,
     }
+
+
+def _year(
+    comparison: Comparison, name: str, speed: float, at: list[Scene]
+) -> tuple[float | None, float | None]:
+    """Energy [kWh] and cost of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
+    if not _by_duty(comparison):
+        return _mean([s.energy_per_year for s in at]), _mean([s.cost_per_year for s in at])
+    study = comparison.years.get(name) if speed == si(comparison.conveyor.belt.speed) else None
+    return (None, None) if study is None else (study.year.net_kwh, study.cost)
+
+
+def _by_duty(comparison: Comparison) -> bool:
+    operation = comparison.conveyor.operation
+    return operation is not None and bool(operation.duty)
 
 
 def _mean(values: list[float] | list[float | None]) -> float | None:
@@ -177,11 +196,13 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         lines.append(
             "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
         )
-    if comparison.conveyor.operation is not None and comparison.conveyor.operation.duty:
-        lines.append(
-            "energy and cost here are hours_per_year at the spec's flow, operation.duty is not used: for the year of a "
-            "compound put it into the spec and run conveyor power"
-        )
+    if _by_duty(comparison):
+        lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
+        lines += [
+            f'compound "{compound.name}": a bar of operation.duty has no answer with it, so it has no year'
+            for compound in comparison.compounds
+            if compound.name not in comparison.years
+        ]
     lines.append(
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )

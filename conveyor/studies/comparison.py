@@ -8,15 +8,16 @@ reason, never filled in.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor import shelf
-from conveyor.errors import InputError
+from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.studies.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
+from conveyor.studies.duty import DutyStudy, analyse_duty
 from conveyor.units import Quantity, System, quantity, si
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ class Comparison:
         For each compound and temperature, whether the data cover what the rolls ask for.
     extra_costs : mapping
         Price of a belt of each compound above the base's [currency of the spec].
+    years : mapping
+        The year of `operation.duty` with each compound that has an answer for all its bars; empty without a duty.
     """
 
     conveyor: Conveyor
@@ -71,6 +74,7 @@ class Comparison:
     refused: tuple[Refusal, ...]
     coverage: tuple[Coverage, ...]
     extra_costs: Mapping[str, float]
+    years: Mapping[str, DutyStudy] = field(default_factory=dict)
 
     @cached_property
     def table(self) -> pd.DataFrame:
@@ -241,7 +245,22 @@ def compare_compounds(
         tuple(found.refused),
         tuple(found.coverage),
         costs,
+        _years(conveyor, chosen, cover, rtol),
     )
+
+
+def _years(
+    conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: Cover, rtol: float
+) -> dict[str, DutyStudy]:
+    """The year of a duty with each compound; none of one that a bar of it has no answer for."""
+    found: dict[str, DutyStudy] = {}
+    if conveyor.operation is not None and conveyor.operation.duty:
+        for compound in compounds:
+            try:
+                found[compound.name] = analyse_duty(with_compound(conveyor, compound, cover), rtol=rtol)
+            except ConveyorError:
+                continue  # its scenes say why; `conveyor.report.comparing.remarks` says that it has no year
+    return found
 
 
 def _compounds(

@@ -13,7 +13,8 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import RubberCompound
 from conveyor.report import comparing, plots
-from conveyor.studies.comparison import compare_compounds, with_compound
+from conveyor.studies.comparison import RTOL, compare_compounds, with_compound
+from conveyor.studies.duty import analyse_duty
 from conveyor.units import quantity, si
 
 SPEC = "examples/specs/overland.yaml"
@@ -254,3 +255,26 @@ def test_curves_and_regeneration_are_those_of_the_analysis(spec):
     assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=3e-4)
     assert one.motor == pytest.approx(alone.balance.power.motor, rel=3e-4)
     assert one.largest_tension == pytest.approx(alone.balance.tensions.largest, rel=3e-4)
+
+
+def test_a_duty_decides_the_year():
+    """Saving is the difference of two duty studies, not of full load at one temperature all year."""
+    line = conveyor.load(SPEC)
+    duty = [
+        {"hours": "3000 h", "share": "100 %"},
+        {"hours": "1500 h", "share": "60 %", "temperature": "0 degC"},
+    ]
+    held = {key: value for key, value in line.operation.as_data().items() if key != "hours_per_year"}
+    line = line.replace(operation={**held, "duty": duty})
+    names = ["standard-cover", "low-rolling-resistance-cover"]
+    found = conveyor.compare_compounds(line, names, speeds=["5 m/s", "5.5 m/s"])
+    ranked = found.ranking.set_index(["compound", "belt speed [m/s]"])
+    years = [
+        analyse_duty(with_compound(line, shelf.compound(name), "bottom"), rtol=RTOL).cost for name in names
+    ]
+    assert ranked.loc[(names[1], 5.0), "saving per year [EUR]"] == pytest.approx(
+        years[0] - years[1], rel=1e-12
+    )
+    assert ranked.loc[(names[0], 5.0), "cost per year [EUR]"] == pytest.approx(years[0], rel=1e-12)
+    assert pd.isna(ranked.loc[(names[1], 5.5), "cost per year [EUR]"])  # the duty is that of the spec's speed
+    assert any("operation.duty" in remark for remark in comparing.remarks(found))
