@@ -73,9 +73,7 @@ def _take_up(study: CaseStudy, most: Governing, system: System) -> Iterator[Chec
         holds = held >= most.value * (HELD if most.value > 0.0 else 1.0)
         yield Check(subject, figure(held, "force", system), asked, verdict(holds=holds))
     elif len(study.results) > 1:
-        yield Check(
-            subject, "set anew in each case: no tension or mass of route.take_up given", asked, "not checked"
-        )
+        yield Check(subject, "set anew in each case", asked, "not checked")
 
 
 def _belt(study: CaseStudy, system: System) -> Iterator[Check]:
