@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor.errors import InputError
-from conveyor.line.walk import StretchResult
+from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.balance import Balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curved import Convergence, run
@@ -147,12 +147,12 @@ class Analysis:
     @property
     def error_estimate(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
-        return max(roll.curve.curve.error for stretch in self.stretches for roll in stretch.rolls)
+        return worst_error(self.stretches)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""
         forces, power = self.balance.forces, self.balance.power
-        even = self.conveyor.operation is None or not self.conveyor.operation.duty
+        even = not self.conveyor.duty
         return {
             "name": self.conveyor.name,
             "forces_N": {**asdict(forces), "total": forces.total},

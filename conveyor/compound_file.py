@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
+from conveyor.figures import ZERO_CELSIUS
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.answered import read_answered
 from conveyor.models import RubberCompound
@@ -38,7 +39,6 @@ REPLICAS = 20
 _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
 _UNKNOWN = "not stated"
-_ZERO_CELSIUS = 273.15
 _SMALLEST_ERROR = (
     1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
 )
@@ -177,7 +177,7 @@ def _stated_temperature(data: Path, read: DmaData) -> str:
         return found[1]
     if read.kind == "isotherms":
         middle = sorted(sweep.temperature for sweep in read.isotherms())
-        return f"{middle[len(middle) // 2] - _ZERO_CELSIUS:.{_DIGITS}g} degC"
+        return f"{middle[len(middle) // 2] - ZERO_CELSIUS:.{_DIGITS}g} degC"
     raise InputError(
         f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
         '"# reference_temperature: 20 degC" into the file'
@@ -304,7 +304,7 @@ def _add_shift(
         described["missing"].append("temperature shift: known at the reference temperature only")
         return
     order = np.argsort(kelvin)
-    temperatures = [f"{t - _ZERO_CELSIUS:.{_DIGITS}g} degC" for t in kelvin[order]]
+    temperatures = [f"{t - ZERO_CELSIUS:.{_DIGITS}g} degC" for t in kelvin[order]]
     described["shift"] = {
         "law": "table",
         "temperature": temperatures,
@@ -351,7 +351,7 @@ def _strain(request: Request, sweeps: DmaData) -> dict[str, Any]:
         "source": Path(sweeps.source).name,
         "sweeps": [
             {
-                "temperature": f"{(run.temperature or 0.0) - _ZERO_CELSIUS:.6g} degC",
+                "temperature": f"{(run.temperature or 0.0) - ZERO_CELSIUS:.6g} degC",
                 "frequency": f"{run.frequency:.6g} Hz",
                 "strain": [_six(100.0 * strain) for strain in run.strain],
                 "unit": "MPa",

@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import re
+from typing import Final
 
 from conveyor.units import System, display
 
+ZERO_CELSIUS: Final = 273.15
+"""[K]."""
 _WHOLE = re.compile(r"^-?\d{4,}")
+
+
+def celsius(temperature: float) -> float:
+    """A temperature [K] in degC, without the rounding of the conversion."""
+    return round(temperature - ZERO_CELSIUS, 9)
 
 
 def figure(value: float, kind: str, system: System = "SI") -> str:

@@ -9,6 +9,7 @@ from rich.text import Text
 
 from conveyor.cli import notes
 from conveyor.cli.terminal import console, table
+from conveyor.figures import ZERO_CELSIUS
 from conveyor.report import comparing
 from conveyor.report.axes import scale
 from conveyor.units import System
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison
 
 Row = Mapping[Hashable, Any]
-_ZERO = 273.15  # degC in K
 
 
 def show(found: Comparison, system: System) -> None:
@@ -55,7 +55,9 @@ def _columns(rows: Sequence[Row], *, several_speeds: bool, system: System) -> di
         columns[f"90 % band\n[{power.unit}]"] = band
     columns["change"] = lambda row: _change(row["motor power against base [-]"])
     columns[f"peak\n[{power.unit}]"] = lambda row: watts(row["peak motor power [kW]"])
-    columns[f"at\n[{warmth.unit}]"] = lambda row: f"{float(warmth(row['at temperature [degC]'] + _ZERO)):g}"
+    columns[f"at\n[{warmth.unit}]"] = lambda row: (
+        f"{float(warmth(row['at temperature [degC]'] + ZERO_CELSIUS)):g}"
+    )
     if saving is not None:
         columns[saving.replace("saving per year", "saved/a\n")] = lambda row: _number(row[saving])
     if any(row.get("payback [a]") is not None for row in rows):

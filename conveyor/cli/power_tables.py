@@ -40,7 +40,9 @@ def show(result: Analysis, asked: Studies, system: System) -> None:
     if asked.uncertainty is not None:
         _ranges(screen, asked.uncertainty, system)
     notes.show(screen, result.warnings)
-    balance = max(roll.curve.curve.energy_error for each in result.stretches for roll in each.rolls)
+    from conveyor.line.walk import worst_energy_error
+
+    balance = worst_energy_error(result.stretches)
     screen.print(
         f"\nrelative error of the contact solutions: at most {result.error_estimate:.0e}; "
         f"their energy balance closes to {balance:.0e}"
@@ -120,8 +122,7 @@ def _sums(result: Analysis, system: System) -> Table:
     )
     if drive.energy_per_tonne_km is not None:
         made.add_row("energy", f"{drive.energy_per_tonne_km:.4f} kWh/(t km)")
-    operation = result.conveyor.operation
-    if drive.energy_per_year is not None and not (operation is not None and operation.duty):
+    if drive.energy_per_year is not None and not result.conveyor.duty:
         cost = "" if drive.cost_per_year is None else f", {drive.cost_per_year:,.0f} {drive.currency}"
         made.add_row("in a year", f"{drive.energy_per_year / 1e3:,.0f} MWh{cost}")
     return made

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-ZERO_CELSIUS = 273.15
-
 
 @app.command(
     short_help="Fit a compound to laboratory data.",
@@ -148,6 +146,7 @@ def shelf(
 
     from conveyor import shelf as store
     from conveyor.errors import RangeError
+    from conveyor.figures import celsius
     from conveyor.units import quantity, si, text
 
     kelvin, hertz = si(quantity(at, "temperature")), si(quantity(frequency, "frequency"))
@@ -190,7 +189,7 @@ def shelf(
     for known in store.names(shelves or ()):
         compound = store.compound(known, extra=shelves or ())
         span = () if compound.range is None else compound.range.temperature
-        limits = " to ".join(f"{si(t) - ZERO_CELSIUS:.0f}" for t in span)
+        limits = " to ".join(f"{celsius(si(t)):.0f}" for t in span)
         try:
             series = compound.series(kelvin)
         except RangeError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -35,11 +36,8 @@ def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: floa
     try:
         return read_dma(path, poisson_ratio=poisson_ratio, **answers)
     except InputError:
-        own = {key: value for key, value in answers.items() if key not in _UNITS or value is None}
-        if not several or own == dict(answers):
-            raise
-        try:
-            return read_dma(path, poisson_ratio=poisson_ratio, **own)
-        except InputError:
-            own = {}
+        own = {key: value for key, value in answers.items() if key not in _UNITS}
+        if several and own != answers:
+            with suppress(InputError):
+                return read_dma(path, poisson_ratio=poisson_ratio, **own)
         raise

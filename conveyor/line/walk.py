@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -100,6 +100,16 @@ def excited_band(results: tuple[StretchResult, ...], strand: Strand) -> tuple[fl
     """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
     low, high = slowest_excited(results, strand), fastest_excited(results, strand)
     return None if low is None or high is None else (low, high)
+
+
+def worst_error(results: Iterable[StretchResult]) -> float:
+    """Largest relative error estimate of any roll's indentation [-]."""
+    return max(roll.curve.curve.error for result in results for roll in result.rolls)
+
+
+def worst_energy_error(results: Iterable[StretchResult]) -> float:
+    """Largest relative difference of any roll's friction by geometry and by loss [-]."""
+    return max(roll.curve.curve.energy_error for result in results for roll in result.rolls)
 
 
 def slowest_excited(results: tuple[StretchResult, ...], strand: Strand) -> float | None:

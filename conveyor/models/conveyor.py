@@ -15,7 +15,7 @@ from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
 from conveyor.models.methods import Cema, Flexure
-from conveyor.models.operation import EarthTemperature, Operation
+from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
 from conveyor.models.report import Report
 from conveyor.models.route import Route
 from conveyor.models.uncertainty import Uncertainty
@@ -98,6 +98,11 @@ class Conveyor(Model):
 
         refuse("Conveyor", [*conflicts(self), *named_once(self.cases)])
         return self
+
+    @property
+    def duty(self) -> tuple[DutyEntry, ...]:
+        """Histogram of the year; empty where all hours are alike or there is no operation."""
+        return () if self.operation is None else self.operation.duty
 
     @property
     def carry_compound(self) -> RubberCompound:

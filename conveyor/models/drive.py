@@ -89,6 +89,11 @@ class Drive(DrivePulley):
         return self
 
     @property
+    def knows_mains(self) -> bool:
+        """Whether the train has a part between mains and motor shaft."""
+        return any(part.side == "mains" for part in self.train)
+
+    @property
     def mains_efficiency(self) -> float:
         """From the mains to the motor's shaft [-]; 1 where the train has no part there."""
         return product(self.train, "mains")

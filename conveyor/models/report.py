@@ -28,7 +28,6 @@ class Report(Model):
     paper: Paper | None = None
     """Paper that workbooks are set up for."""
 
-    @property
-    def sheet(self) -> Paper:
+    def sheet(self, system: System) -> Paper:
         """Paper to print on: Letter with US units, else A4, unless stated."""
-        return self.paper or ("Letter" if self.units == "US" else "A4")
+        return self.paper or ("Letter" if system == "US" else "A4")

@@ -38,7 +38,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 
 
 def _energy(conveyor: Conveyor) -> Iterator[str]:
-    if conveyor.operation is not None and not any(part.side == "mains" for part in conveyor.drive.train):
+    if conveyor.operation is not None and not conveyor.drive.knows_mains:
         yield (
             "Energy and cost are those of the motors' shafts: drive.train has no part between mains and motor shaft, "
             "such as the motor itself or a converter."

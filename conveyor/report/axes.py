@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.figures import ZERO_CELSIUS
 from conveyor.units import System, convert, unit_label
 
 _SI: Final = {
@@ -20,7 +21,6 @@ _SI: Final = {
     "line force": ("N/m", 1.0),
 }
 """Units of SI figures and what one of each is in SI."""
-_ZERO_CELSIUS: Final = 273.15
 _DIGITS: Final = 9  # beyond them is the rounding of 273.15
 
 
@@ -48,7 +48,7 @@ def scale(kind: str, system: System = "SI") -> Scale:
     """
     if system == "SI":
         if kind == "temperature":
-            return Scale("°C", 1.0, -_ZERO_CELSIUS)
+            return Scale("°C", 1.0, -ZERO_CELSIUS)
         unit, one = _SI[kind]
         return Scale(unit, 1.0 / one)
     zero = convert(0.0, kind, system)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from conveyor.report.comparing import celsius
+from conveyor.figures import celsius
 
 if TYPE_CHECKING:
     from conveyor.studies.cases import CaseStudy, MotorChoice

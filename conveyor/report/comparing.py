@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from conveyor.figures import celsius
 from conveyor.units import si
 
 if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison, Scene
-
-_ZERO_CELSIUS = 273.15
 
 
 def scenes(comparison: Comparison) -> pd.DataFrame:
@@ -38,11 +37,6 @@ def scenes(comparison: Comparison) -> pd.DataFrame:
         for scene in comparison.scenes
     ]
     return _answered(pd.DataFrame(rows))
-
-
-def celsius(temperature: float) -> float:
-    """A temperature [K] in degC, without the rounding of the conversion."""
-    return round(temperature - _ZERO_CELSIUS, 9)
 
 
 def _kilo(value: float | None) -> float | None:
@@ -124,15 +118,10 @@ def _year(
     comparison: Comparison, name: str, speed: float, at: list[Scene]
 ) -> tuple[float | None, float | None]:
     """Energy [kWh] and cost of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
-    if not _by_duty(comparison):
+    if not comparison.conveyor.duty:
         return _mean([s.energy_per_year for s in at]), _mean([s.cost_per_year for s in at])
     study = comparison.years.get(name) if speed == si(comparison.conveyor.belt.speed) else None
     return (None, None) if study is None else (study.year.net_kwh, study.cost)
-
-
-def _by_duty(comparison: Comparison) -> bool:
-    operation = comparison.conveyor.operation
-    return operation is not None and bool(operation.duty)
 
 
 def _mean(values: list[float] | list[float | None]) -> float | None:
@@ -192,11 +181,11 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
-    elif not any(part.side == "mains" for part in comparison.conveyor.drive.train):
+    elif not comparison.conveyor.drive.knows_mains:
         lines.append(
             "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
         )
-    if _by_duty(comparison):
+    if comparison.conveyor.duty:
         lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
         lines += [
             f'compound "{compound.name}": a bar of operation.duty has no answer with it, so it has no year'

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from openpyxl import Workbook
 
 from conveyor.errors import InputError
-from conveyor.files.saving import save
+from conveyor.files.saving import save, writable
 from conveyor.report import comparing_sheets, cover, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.comparison_contents import of_comparison
@@ -126,13 +126,7 @@ def _ready(path: Path) -> None:
     """Refuse a path that no workbook can stand at, before any time is spent on one."""
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
-    try:
-        if path.is_dir():
-            raise InputError(f"{path}: is a folder; give the name of a workbook in it")
-        if not path.absolute().parent.is_dir():
-            raise InputError(f"{path}: its folder does not exist; create it or choose another")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    writable(path)
 
 
 def _saved(path: Path, found: Contents, book: Workbook) -> Path:
@@ -168,7 +162,7 @@ def _book(
     book.remove(book.worksheets[0])
     book.properties.title = legible(conveyor.name)
     book.properties.creator = f"conveyor {version('conveyor')}"
-    paper = conveyor.report.paper or ("Letter" if contents.system == "US" else "A4")
+    paper = conveyor.report.sheet(contents.system)
     header = ", ".join(filter(None, (conveyor.report.project, conveyor.name)))
     for title, fill in fills.items():
         if title in contents.sheets or title not in _WHERE_ASKED:

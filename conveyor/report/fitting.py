@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.report.comparing import celsius
+from conveyor.figures import celsius
 from conveyor.report.plots import colour, stacked
 from conveyor.units import si, text
 

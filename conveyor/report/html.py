@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, joined
-from conveyor.models.report import Paper
 from conveyor.report import html_sections as sections
+from conveyor.report.checks import checks
 from conveyor.report.html_comparison import parts_of, top_of
 from conveyor.report.html_studies import studied
 from conveyor.report.page import Part, facts, page
@@ -75,9 +75,10 @@ def build(analysis: Analysis, studies: Studies | None = None, *, system: System 
     system = chosen(analysis.conveyor, system)
     analysis = analysis.in_units(system)
     conveyor = analysis.conveyor
+    found = checks(analysis, system, studies)
     parts: list[Part] = [
-        sections.key_figures(analysis, system, studies),
-        sections.checked(analysis, system, studies),
+        sections.key_figures(analysis, found, system),
+        sections.checked(found),
         sections.warned(analysis),
         sections.summed_up(analysis, system),
         sections.resistances(analysis, system),
@@ -98,7 +99,7 @@ def build(analysis: Analysis, studies: Studies | None = None, *, system: System 
         joined([titled(conveyor), sections.top(analysis, system)]),
         parts,
         stamp(conveyor),
-        paper=_paper(conveyor, system),
+        paper=conveyor.report.sheet(system),
     )
 
 
@@ -112,7 +113,7 @@ def build_comparison(comparison: Comparison, *, system: System | None = None) ->
         joined([titled(conveyor), top_of(comparison, system)]),
         parts_of(comparison, system),
         stamp(conveyor),
-        paper=_paper(conveyor, system),
+        paper=conveyor.report.sheet(system),
     )
 
 
@@ -122,10 +123,6 @@ def titled(conveyor: Conveyor) -> Html:
     said = {name: getattr(report, name) for name in ("project", "number", "client", "engineer", "revision")}
     given = [(name, value) for name, value in said.items() if value is not None]
     return facts(given, "facts document") if given else Html("")
-
-
-def _paper(conveyor: Conveyor, system: System) -> Paper:
-    return conveyor.report.paper or ("Letter" if system == "US" else "A4")
 
 
 def stamp(conveyor: Conveyor) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from datetime import date
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Final
@@ -13,9 +13,10 @@ import pandas as pd
 from conveyor.markup import Html, element, joined
 from conveyor.report import analysis_plots, loop_plots, loop_tables, tables
 from conveyor.report import inputs as fields
-from conveyor.report.checks import band_words, checks
+from conveyor.report.checks import band_words
 from conveyor.report.page import Part, bullets, facts, listed, table, tiles, verdict, verdicts
 from conveyor.report.svg import figure, inline
+from conveyor.report.verdicts import Check
 from conveyor.spec import fingerprint
 from conveyor.units import System, display, si, text
 
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from conveyor.analysis import Analysis
     from conveyor.line.stretches import Strand
     from conveyor.models import RubberCompound
-    from conveyor.studies import Studies
 
 KEY_FIGURES: Final = (
     "motor power [kW]", "effective tension [N]", "tight side tension [N]", "equivalent DIN f [-]",
@@ -73,9 +73,8 @@ def _plain(words: str) -> str:
     return words.replace("degC", "°C").replace("degF", "°F")
 
 
-def key_figures(analysis: Analysis, system: System, studies: Studies | None = None) -> Part:
+def key_figures(analysis: Analysis, found: Sequence[Check], system: System) -> Part:
     """What a designer looks for first, and how many checks failed."""
-    found = checks(analysis, system, studies)
     failed = [check for check in found if check.verdict == "FAIL"]
     count = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
     counted = joined(
@@ -91,12 +90,12 @@ def key_figures(analysis: Analysis, system: System, studies: Studies | None = No
     return Part("key-figures", "Key figures", joined(content))
 
 
-def checked(analysis: Analysis, system: System, studies: Studies | None = None) -> Part:
+def checked(found: Sequence[Check]) -> Part:
     """Pass and fail of every check."""
     caption = (
         "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
     )
-    return Part("checks", "Checks", verdicts(checks(analysis, system, studies), caption))
+    return Part("checks", "Checks", verdicts(found, caption))
 
 
 def warned(analysis: Analysis) -> Part:

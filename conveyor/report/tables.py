@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from conveyor.figures import celsius
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
-from conveyor.line.walk import StretchResult, excited_band
+from conveyor.line.walk import StretchResult, excited_band, worst_energy_error, worst_error
 from conveyor.loop.balance import Balance
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.units import si
 
 CURVE_POINTS = 25
-ZERO_CELSIUS = 273.15
 DECADES = (-3, 7)  # of frequency shown in the rubber table [Hz]
 PER_DECADE = 4
 
@@ -26,9 +26,7 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
     """Figures of the whole conveyor, one a row."""
     forces, power, tensions, classical = found.forces, found.power, found.tensions, found.classical
     strength = conveyor.belt.carcass.strength
-    even = (
-        conveyor.operation is None or not conveyor.operation.duty
-    )  # a duty has its own year (case_tables.year)
+    even = not conveyor.duty  # a duty has its own year (case_tables.year)
     rows: dict[str, float | None] = {
         "length [m]": conveyor.route.length,
         "lift [m]": conveyor.route.rise,
@@ -62,17 +60,10 @@ def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
         "classical effective tension [N]": classical.total,
         "classical motor power [kW]": classical.motor / 1e3,
         "largest error estimate of the contacts [-]": worst_error(results),
-        "largest energy error of the contacts [-]": max(
-            roll.curve.curve.energy_error for r in results for roll in r.rolls
-        ),
+        "largest energy error of the contacts [-]": worst_energy_error(results),
     }
     given = {name: value for name, value in rows.items() if value is not None}
     return pd.Series(given, name=conveyor.name, dtype=float)
-
-
-def worst_error(results: tuple[StretchResult, ...]) -> float:
-    """Largest relative error estimate of any roll's indentation."""
-    return max(roll.curve.curve.error for result in results for roll in result.rolls)
 
 
 def rubber(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> pd.DataFrame:
@@ -92,7 +83,7 @@ def rubber(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> pd.DataFra
                 "strand": strand,
                 "compound": compound.name,
                 "kind": compound.kind,
-                "temperature [degC]": round(at - ZERO_CELSIUS, 9),
+                "temperature [degC]": celsius(at),
                 "excited from [Hz]": band[0],
                 "excited to [Hz]": band[1],
                 "data from [Hz]": data[0],

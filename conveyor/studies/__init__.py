@@ -77,10 +77,9 @@ def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> Studies:
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
-    of_year = conveyor.operation is not None and conveyor.operation.duty
     return Studies(
         cases=analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None,
-        duty=analyse_duty(conveyor, progress=told("duty of a year")) if of_year else None,
+        duty=analyse_duty(conveyor, progress=told("duty of a year")) if conveyor.duty else None,
         uncertainty=None
         if conveyor.uncertainty is None
         else study(conveyor, progress=told("ranges of the inputs")),

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
 from conveyor.laws.power import motor_power
-from conveyor.line.walk import StretchResult
+from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.curved import Run
 from conveyor.loop.data import loop_data
 from conveyor.loop.settled import Settled
@@ -316,7 +316,7 @@ def _result(case: LoadCase, conveyor: Conveyor, done: Run, band: tuple[float, fl
         largest_roll=roll,
         largest_roll_at=where,
         energy_per_tonne_km=found.power.energy_per_tonne_km if carries else None,
-        error=max(r.curve.curve.error for stretch in done.stretches for r in stretch.rolls),
+        error=worst_error(done.stretches),
         balance=found,
     )
 

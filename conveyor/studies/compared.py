@@ -27,6 +27,7 @@ from conveyor.line.walk import (
     slowest_excited,
     surfaces,
     worked_surfaces,
+    worst_error,
 )
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.curved import Run
@@ -314,7 +315,7 @@ def _scene(
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=power.energy_per_year,
         cost_per_year=power.cost_per_year,
-        error=max(roll.curve.curve.error for result in one.stretches for roll in result.rolls),
+        error=worst_error(one.stretches),
     )
 
 

@@ -254,7 +254,7 @@ def _years(
 ) -> dict[str, DutyStudy]:
     """The year of a duty with each compound; none of one that a bar of it has no answer for."""
     found: dict[str, DutyStudy] = {}
-    if conveyor.operation is not None and conveyor.operation.duty:
+    if conveyor.duty:
         for compound in compounds:
             try:
                 found[compound.name] = analyse_duty(with_compound(conveyor, compound, cover), rtol=rtol)

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from conveyor.errors import InputError
+from conveyor.figures import celsius
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.report import analysis_plots, loop_plots, plots
-from conveyor.report.comparing import celsius
 from conveyor.report.unit_systems import chosen
 from conveyor.studies.compared import Coverage, Found, Grid, Scene, of_compound
 from conveyor.studies.variants import scaled

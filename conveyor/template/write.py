@@ -12,6 +12,7 @@ from uuid import uuid4
 
 from conveyor import shelf, spec
 from conveyor.errors import InputError
+from conveyor.files.saving import writable
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
 from conveyor.template.draw import Book
@@ -51,10 +52,7 @@ def write_template(
     given = spec.load(EXAMPLE) if conveyor is None else conveyor
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
-    if where.is_dir():
-        raise InputError(f"{where}: is a folder; give the name of a workbook in it")
-    if not where.absolute().parent.is_dir():
-        raise InputError(f"{where}: its folder does not exist; create it or choose another")
+    writable(where)
     partial = where.with_name(f".{uuid4().hex}.xlsx")
     try:
         partial.write_bytes(_content(given, folders))
