@@ -1,7 +1,4 @@
-"""A conveyor cut into stretches: geometry, masses, loads of the rolls, and the forces that no rubber changes.
-
-Here quantities become SI, once.
-"""
+"""A conveyor cut into stretches, one a section and strand: geometry, masses, loads and drags of the rolls; SI."""
 
 from __future__ import annotations
 
@@ -12,16 +9,6 @@ from typing import Literal
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.loading import RollLoad, bulk_line_mass
-from conveyor.laws.resistance import (
-    ROLL_ON_BELT_FRICTION,
-    TILT_COEFFICIENT_30,
-    TILT_COEFFICIENT_45,
-    idler_rotation_resistance,
-    idler_tilt_resistance,
-    roll_line_mass,
-    section_main_resistance,
-    slope_resistance,
-)
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
 from conveyor.line.roll_drags import SetDrags, roll_at
@@ -29,13 +16,12 @@ from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
 
-__all__ = ["FixedForces", "Pressing", "Strand", "Stretch", "roll_at", "roll_masses", "stretches"]
+__all__ = ["STRANDS", "Pressing", "Strand", "Stretch", "roll_at", "roll_masses", "stretches"]
 
 Strand = Literal["carry", "return"]
+STRANDS: tuple[Strand, Strand] = ("carry", "return")
 Pressing = Mapping[tuple[str, Strand], float]
 """Mass per length with which tension presses on the rolls of a section and strand [kg/m], negative where it lifts."""
-
-_TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 
 
 @dataclass(frozen=True)
@@ -53,7 +39,9 @@ class Stretch:
     spacing : float
         Of the idler sets [m].
     idlers : IdlerSet
-        The sets.
+        The sets, as the spec has them.
+    trough_angle, tilt_angle, roll_length : float
+        Of the sets [rad, rad, m].
     belt_mass, bulk_mass : float
         m'_belt, m'_bulk [kg/m].
     loads : tuple of RollLoad
@@ -74,6 +62,9 @@ class Stretch:
     rise: float
     spacing: float
     idlers: IdlerSet
+    trough_angle: float
+    tilt_angle: float
+    roll_length: float
     belt_mass: float
     bulk_mass: float
     loads: tuple[RollLoad, ...]
@@ -140,6 +131,8 @@ class _Strand:
         self.full = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed))
         self.flow_shares = conveyor.route.flow_shares
         self.set_mass = _set_mass(self.idlers)
+        self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
+        self.roll_length = si(self.idlers.roll.length)
         self.set_loads = SetLoads(conveyor, self.idlers)
         self.set_drags = SetDrags(conveyor, self.idlers, strand)
         self.flexure = FlexureLaw(conveyor, self.set_loads)
@@ -174,6 +167,9 @@ class _Strand:
             rise=rise,
             spacing=spacing,
             idlers=self.idlers,
+            trough_angle=self.trough,
+            tilt_angle=self.tilt,
+            roll_length=self.roll_length,
             belt_mass=self.belt_mass,
             bulk_mass=flow,
             loads=loads,
@@ -195,63 +191,6 @@ class _Strand:
         )
 
 
-@dataclass(frozen=True)
-class FixedForces:
-    """Forces of a stretch that no rubber changes [N]."""
-
-    rotation: float
-    tilt: float
-    lift: float
-    unit_main: float
-    flexure: float | None
-    """By laws; None where a share of the main resistance stands in."""
-
-    @classmethod
-    def of(cls, stretch: Stretch, gravity: float) -> FixedForces:
-        """Forces of a stretch under gravity [m/s²]."""
-        return cls(
-            rotation=_rotation(stretch),
-            tilt=_tilt(stretch, gravity),
-            lift=slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity),
-            unit_main=section_main_resistance(
-                friction_factor=1.0,
-                length=stretch.length,
-                roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
-                belt_mass=stretch.belt_mass,
-                bulk_mass=stretch.bulk_mass,
-                inclination=stretch.inclination,
-                gravity=gravity,
-            ),
-            flexure=None if stretch.span_flexure is None else stretch.sets * stretch.span_flexure,
-        )
-
-
 def _set_mass(idlers: IdlerSet) -> float:
     """Rotating mass of one set [kg]."""
     return math.fsum(si(roll_at(idlers, place).rotating_mass) for place in range(idlers.rolls))
-
-
-def _rotation(stretch: Stretch) -> float:
-    """Drag of all rolls of the stretch [N]."""
-    total = 0.0
-    for drag in stretch.drags:
-        total += idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
-    return total
-
-
-def _tilt(stretch: Stretch, gravity: float) -> float:
-    """Resistance of wings tilted forward [N]; zero where they are not."""
-    angle = si(stretch.idlers.tilt_angle)
-    if angle == 0.0:
-        return 0.0
-    steep = si(stretch.idlers.trough_angle) > _TILT_STEEP
-    return idler_tilt_resistance(
-        tilt_coefficient=(TILT_COEFFICIENT_45 if steep else TILT_COEFFICIENT_30).value,
-        roll_friction=ROLL_ON_BELT_FRICTION.value,
-        length=stretch.length,
-        belt_mass=stretch.belt_mass,
-        bulk_mass=stretch.bulk_mass,
-        inclination=stretch.inclination,
-        tilt_angle=angle,
-        gravity=gravity,
-    )

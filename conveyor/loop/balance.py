@@ -1,47 +1,19 @@
-"""The whole conveyor: forces, tensions round the loop, power, and the classical estimate beside it."""
+"""The whole conveyor: its forces, the tensions round the loop, the power at belt, motors and mains."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from operator import attrgetter
 
-import numpy as np
-from numpy.typing import NDArray
-
-from conveyor.laws.power import annual_cost, annual_energy_kwh, belt_power, motor_power, specific_energy
-from conveyor.laws.resistance import (
-    LENGTH_COEFFICIENTS,
-    SHORTEST_FOR_FACTOR,
-    equivalent_friction_factor,
-    secondary_resistance,
-)
-from conveyor.line.walk import StretchResult
-from conveyor.loop.classical import cema_estimate
-from conveyor.loop.data import LoopData, loop_data
+from conveyor.forces import Force, ForceSums, by_length_coefficient
+from conveyor.laws.power import belt_power, specific_energy
+from conveyor.laws.resistance import equivalent_friction_factor
+from conveyor.line.line import Line
+from conveyor.loop.estimates import Classical, cema, classical
+from conveyor.loop.frame import Frame
 from conveyor.loop.settled import Settled, settle
-from conveyor.loop.single_forces import Placed, SingleForce, Spot
 from conveyor.loop.tensions import Loop, State
-from conveyor.models import Conveyor
-from conveyor.units import si
-
-__all__ = [
-    "Balance",
-    "Classical",
-    "Forces",
-    "Power",
-    "SingleForce",
-    "TensionPoint",
-    "Tensions",
-    "balance",
-    "points",
-]
-
-Array = NDArray[np.float64]
-
-_LONGEST_FOR_FACTOR = LENGTH_COEFFICIENTS[-1][0]
-_COLUMNS = ("indentation", "rotation", "flexure", "tilt", "lift", "unit_main")
 
 
 @dataclass(frozen=True)
@@ -52,28 +24,6 @@ class TensionPoint:
     distance: float
     tension: float
     least_for_sag: float
-
-
-@dataclass(frozen=True)
-class Forces:
-    """Resistances of the whole conveyor [N]; flat as `power --json` prints them."""
-
-    indentation: float
-    idler_rotation: float
-    flexure: float
-    secondary: float
-    special: float
-    lift: float
-
-    @property
-    def main(self) -> float:
-        """Indentation, rotation, flexure [N]."""
-        return self.indentation + self.idler_rotation + self.flexure
-
-    @property
-    def total(self) -> float:
-        """Effective tension F_U at the drive [N]."""
-        return self.main + self.secondary + self.special + self.lift
 
 
 @dataclass(frozen=True)
@@ -90,215 +40,150 @@ class Tensions:
 
 @dataclass(frozen=True)
 class Power:
-    """Power [W] at belt, motor shafts and mains; energy from the mains, per year and cost where they are asked for."""
+    """Power at belt, motor shafts and mains [W], negative where the belt drives; per mass and distance [kWh/(t km)]."""
 
     belt: float
     motor: float
     mains: float
     energy_per_tonne_km: float | None
-    energy_per_year: float | None
-    cost_per_year: float | None
-    currency: str | None
-
-
-@dataclass(frozen=True)
-class Classical:
-    """ISO 5048 / DIN 22101 with a given friction factor f, for the same spec [N, W]."""
-
-    friction_factor: float
-    main: float
-    secondary: float
-    secondary_by: str
-    special: float
-    lift: float
-    total: float
-    motor: float
 
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """The whole conveyor: forces, single forces, tensions round the loop, power, classical estimate.
+    """The whole conveyor.
 
-    `settled` holds the loop itself: every drive, the take-up, the states that decide its setting.
+    Attributes
+    ----------
+    along, singles : tuple of Force
+        Forces along the belt, and those at single places: together every resistance.
+    unit_main : float
+        Main resistance that DIN 22101 gives for f = 1 [N].
+    settled : Settled
+        The loop itself: every drive, the take-up, the states that decide its setting.
     """
 
-    forces: Forces
-    singles: tuple[SingleForce, ...]
-    tensions: Tensions
-    power: Power
-    friction_factor: float
-    classical: Classical
+    along: tuple[Force, ...]
+    unit_main: float
     settled: Settled
-    cema: Classical | None = None
-    """Classic form of CEMA, where the spec gives its factors; its f is the one DIN 22101 would need."""
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.settled.loop.line
+
+    @property
+    def frame(self) -> Frame:
+        """What stands where in the loop."""
+        return self.settled.loop.frame
+
+    @property
+    def singles(self) -> tuple[Force, ...]:
+        """Forces at single places."""
+        return self.settled.singles
+
+    @property
+    def every(self) -> tuple[Force, ...]:
+        """All resistances, one list."""
+        return (*self.along, *self.singles)
+
+    @cached_property
+    def forces(self) -> ForceSums:
+        """Resistances summed by kind."""
+        return ForceSums.of(self.every)
+
+    @cached_property
+    def friction_factor(self) -> float:
+        """The f that DIN 22101's main resistance would need for the same force [-]."""
+        return equivalent_friction_factor(self.forces.main, unit_main_force=self.unit_main)
+
+    @cached_property
+    def tensions(self) -> Tensions:
+        """At the drives and the extremes of the loop."""
+        steady, unsteady = self.settled.steady, self.settled.unsteady
+        given = self.line.take_up.tension is not None
+        return Tensions(
+            tight=max(drive.tight for drive in steady.drives),
+            slack=min(drive.slack for drive in steady.drives),
+            tight_start=max(drive.tight for drive in unsteady.drives),
+            governed_by="take-up" if given else self.settled.governed_by.kind,
+            largest=max(state.largest for state in self.settled.states.values()),
+            smallest=steady.smallest,
+        )
+
+    @cached_property
+    def power(self) -> Power:
+        """In steady running."""
+        line, force = self.line, self.forces.total
+        mains = self.frame.mains(force)
+        return Power(
+            belt=belt_power(force, belt_speed=line.speed),
+            motor=self.frame.motor(force),
+            mains=mains,
+            energy_per_tonne_km=specific_energy(mains, mass_flow=line.flow, length=line.length)
+            if line.flow > 0.0
+            else None,
+        )
+
+    @cached_property
+    def classical(self) -> Classical:
+        """ISO 5048 / DIN 22101 with the spec's f."""
+        return classical(self.line, self.forces, self.unit_main)
+
+    @cached_property
+    def cema(self) -> Classical | None:
+        """Classic form of CEMA, where the spec gives its factors; its f is the one DIN 22101 would need."""
+        return cema(self.line, self.singles, self.unit_main)
 
     @cached_property
     def points(self) -> tuple[TensionPoint, ...]:
         """Tensions round the loop in steady running, from the head back to it."""
-        return points(self.settled, self.settled.steady)
+        return tuple(_points(self.settled, self.settled.steady))
 
 
-def balance(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Balance:
-    """Close the loop of tensions around the stretches' forces.
+def balance(frame: Frame, along: tuple[Force, ...], unit_main: float) -> Balance:
+    """Close the loop of tensions around the forces along the belt.
+
+    Parameters
+    ----------
+    frame : Frame
+        What stands where in the loop.
+    along : tuple of Force
+        Forces along the belt.
+    unit_main : float
+        Main resistance for f = 1 [N].
 
     Raises
     ------
     NoSolutionError
         The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack.
     """
-    data = loop_data(conveyor)
-    sums, total, lift = _columns(results, data.places.count)
-    loop = Loop(data, data.geometry(results), _with_coefficient(conveyor, data, sums), total, lift)
-    settled = settle(loop)
-    forces = _forces(sums, settled.singles)
-    unit_main = sums["unit_main"]
-    return Balance(
-        forces=forces,
-        singles=settled.singles,
-        tensions=_tensions(settled),
-        power=_power(conveyor, data, forces.total),
-        friction_factor=equivalent_friction_factor(forces.main, unit_main_force=unit_main),
-        classical=_classical(conveyor, data, forces, unit_main),
-        settled=settled,
-        cema=_cema(conveyor, data, results, settled, unit_main),
-    )
+    line = frame.line
+    further = (by_length_coefficient(line, frame.landing, along),) if line.secondary == "C" else ()
+    return Balance(along, unit_main, settle(Loop(frame, along, further)))
 
 
-def _columns(results: tuple[StretchResult, ...], count: int) -> tuple[dict[str, float], Array, Array]:
-    """Sums of every kind of force [N]; total and lift of each stretch in loop order, shape (2n,)."""
-    rows = np.array(list(map(attrgetter(*_COLUMNS), results)))
-    rows = np.concatenate([rows[count:], rows[:count]])
-    found = {name: math.fsum(column) for name, column in zip(_COLUMNS, rows.T.tolist(), strict=True)}
-    return found, rows[:, :5].sum(axis=1), rows[:, 4]
-
-
-def _with_coefficient(conveyor: Conveyor, data: LoopData, sums: dict[str, float]) -> tuple[Placed, ...]:
-    """Single forces that no tension changes; the secondary ones by the length coefficient where it is asked for."""
-    if conveyor.calculation.secondary != "C":
-        return data.fixed
-    main = sums["indentation"] + sums["rotation"] + sums["flexure"]
-    force = secondary_resistance(main, length=data.length)
-    single = SingleForce("secondary, (C-1) F_H", "secondary", "tail", force, "ISO 5048 / DIN 22101, C(L)")
-    return (*data.fixed, Placed(Spot(data.places.count), single))
-
-
-def points(settled: Settled, state: State) -> tuple[TensionPoint, ...]:
+def _points(settled: Settled, state: State) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
-    data, geometry = settled.loop.data, settled.loop.geometry
-    way: list[float] = geometry.way.tolist()
-    last = data.boundaries[-1]
-    driven = any(drive.boundary == last for drive in data.drives)
-    head = "drive" if driven else "head"
+    line, shape = settled.loop.line, settled.loop.line.loop
+    way: list[float] = shape.way.tolist()
+    last = settled.loop.frame.boundaries[-1]
+    met = sorted(zip(line.drives, state.drives, strict=True), key=lambda pair: pair[0].spot)
+    at_head = [side for drive, side in met if drive.spot.boundary == last]
+    head = "drive" if at_head else "head"
     between: dict[int, list[TensionPoint]] = {}
-    for drive, side in zip(data.drives, state.drives, strict=True):
-        if drive.boundary != last:
-            between.setdefault(drive.boundary, []).extend(
-                TensionPoint(f"{drive.name}, {when}", way[drive.boundary], tension, 0.0)
+    for drive, side in met:
+        at = drive.spot.boundary
+        if at != last:
+            between.setdefault(at, []).extend(
+                TensionPoint(f"{drive.name}, {when}", way[at], tension, 0.0)
                 for when, tension in (("arriving", side.arriving), ("leaving", side.leaving))
             )
-    found = [TensionPoint(f"{head}, leaving", 0.0, state.leaving, 0.0)]
-    columns = (geometry.stretches, geometry.least.tolist(), state.starts.tolist(), state.ends.tolist())
+    yield TensionPoint(f"{head}, leaving", 0.0, state.leaving, 0.0)
+    columns = (shape.stretches, shape.least.tolist(), state.starts.tolist(), state.ends.tolist())
     for i, (stretch, least, start, end) in enumerate(zip(*columns, strict=True)):
-        found.extend(between.get(i, ()))
+        yield from between.get(i, ())
         name = f"{stretch.section}, {stretch.strand}"
-        found.append(TensionPoint(f"{name}, start", way[i], start, least))
-        found.append(TensionPoint(f"{name}, end", way[i + 1], end, least))
-    arriving = state.drives[_first_at(data, last)].arriving if driven else state.arriving
-    found.append(TensionPoint(f"{head}, arriving", way[-1], arriving, 0.0))
-    return tuple(found)
-
-
-def _first_at(data: LoopData, boundary: int) -> int:
-    return next(i for i, drive in enumerate(data.drives) if drive.boundary == boundary)
-
-
-def _tensions(settled: Settled) -> Tensions:
-    steady, unsteady = settled.steady, settled.unsteady
-    given = settled.loop.data.take_up.tension is not None
-    return Tensions(
-        tight=max(drive.tight for drive in steady.drives),
-        slack=min(drive.slack for drive in steady.drives),
-        tight_start=max(drive.tight for drive in unsteady.drives),
-        governed_by="take-up" if given else settled.governed_by.kind,
-        largest=max(state.largest for state in settled.states.values()),
-        smallest=steady.smallest,
-    )
-
-
-def _forces(sums: dict[str, float], singles: tuple[SingleForce, ...]) -> Forces:
-    return Forces(
-        indentation=sums["indentation"],
-        idler_rotation=sums["rotation"],
-        flexure=sums["flexure"],
-        secondary=math.fsum(single.force for single in singles if single.kind == "secondary"),
-        special=sums["tilt"] + math.fsum(single.force for single in singles if single.kind == "special"),
-        lift=sums["lift"],
-    )
-
-
-def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
-    belt = belt_power(force, belt_speed=data.speed)
-    motor = data.motor(force)
-    mains = motor_power(motor, efficiency=conveyor.drive.mains_efficiency)
-    flow, operation = data.flow, conveyor.operation
-    price = None if operation is None else operation.price
-    year = (
-        None if operation is None else annual_energy_kwh(mains, operating_time=si(operation.hours_per_year))
-    )
-    specific = specific_energy(mains, mass_flow=flow, length=data.length) if flow > 0.0 else None
-    return Power(
-        belt=belt,
-        motor=motor,
-        mains=mains,
-        energy_per_tonne_km=specific,
-        energy_per_year=year,
-        cost_per_year=None
-        if year is None or price is None
-        else annual_cost(year, price_per_kwh=price.amount),
-        currency=None if price is None else price.currency,
-    )
-
-
-def _cema(
-    conveyor: Conveyor,
-    data: LoopData,
-    results: tuple[StretchResult, ...],
-    settled: Settled,
-    unit_main: float,
-) -> Classical | None:
-    factors = conveyor.calculation.cema
-    if factors is None:
-        return None
-    found = cema_estimate(conveyor, factors, [result.stretch for result in results], settled.singles)
-    return Classical(
-        friction_factor=equivalent_friction_factor(found.main, unit_main_force=unit_main),
-        main=found.main,
-        secondary=found.secondary,
-        secondary_by="Tp + Tam (CEMA)",
-        special=found.special,
-        lift=found.lift,
-        total=found.total,
-        motor=data.motor(found.total),
-    )
-
-
-def _classical(conveyor: Conveyor, data: LoopData, forces: Forces, unit_main: float) -> Classical:
-    """F_U = C F_H + F_S + F_St; beyond the table of C the itemised secondary resistances stand in."""
-    factor = conveyor.calculation.friction_factor
-    main = factor * unit_main
-    length = data.length
-    tabled = SHORTEST_FOR_FACTOR < length <= _LONGEST_FOR_FACTOR
-    secondary = secondary_resistance(main, length=length) if tabled else forces.secondary
-    total = main + secondary + forces.special + forces.lift
-    return Classical(
-        friction_factor=factor,
-        main=main,
-        secondary=secondary,
-        secondary_by="(C-1) F_H"
-        if tabled
-        else f"itemised (C is tabled for {SHORTEST_FOR_FACTOR:g} to 5000 m)",
-        special=forces.special,
-        lift=forces.lift,
-        total=total,
-        motor=data.motor(total),
-    )
+        yield TensionPoint(f"{name}, start", way[i], start, least)
+        yield TensionPoint(f"{name}, end", way[i + 1], end, least)
+    arriving = at_head[0].arriving if at_head else state.arriving
+    yield TensionPoint(f"{head}, arriving", way[-1], arriving, 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
@@ -25,10 +25,9 @@ from conveyor.laws.vertical_curve import (
     overstress_radius,
     trough_section,
 )
+from conveyor.line.line import BendPulley, Line
 from conveyor.line.stretches import Strand, Stretch
 from conveyor.loop.balance import Balance
-from conveyor.models import Conveyor, Pulley
-from conveyor.units import si
 
 SNUB_WRAP = math.radians(30.0)
 """Wrap below which a pulley is of group C, DIN 22101 [rad]; general knowledge."""
@@ -117,66 +116,69 @@ class BeltDuty:
     curves: tuple[CurveCheck, ...]
 
 
-def belt_duty(conveyor: Conveyor, found: Balance) -> BeltDuty:
+def belt_duty(found: Balance) -> BeltDuty:
     """Check belt, pulleys and vertical curves against the tensions of every state."""
-    carcass, width = conveyor.belt.carcass, si(conveyor.belt.width)
-    steady = found.settled.steady.largest
-    largest = found.tensions.largest
-    strength = None if carcass.strength is None else si(carcass.strength)
+    belt = found.line.belt
+    steady, largest = found.settled.steady.largest, found.tensions.largest
+
+    def safety(tension: float) -> float | None:
+        if belt.strength is None:
+            return None
+        return belt_safety(tension, nominal_strength=belt.strength, belt_width=belt.width)
+
     return BeltDuty(
         largest_steady=steady,
         largest=largest,
-        safety_steady=None
-        if strength is None
-        else belt_safety(steady, nominal_strength=strength, belt_width=width),
-        safety=None
-        if strength is None
-        else belt_safety(largest, nominal_strength=strength, belt_width=width),
-        safety_needed=CLASSIC_SAFETY["steel cord" if carcass.kind == "steel cord" else "textile"],
+        safety_steady=safety(steady),
+        safety=safety(largest),
+        safety_needed=_classic_safety(found.line),
         strength_needed=None
-        if carcass.splice_strength is None
+        if belt.splice_strength is None
         else needed_strength(
-            steady / width,
-            splice_strength=si(carcass.splice_strength),
-            s0=SPLICE_SAFETY[carcass.splice_making],
-            s1=DUTY_SAFETY[carcass.duty],
+            steady / belt.width,
+            splice_strength=belt.splice_strength,
+            s0=SPLICE_SAFETY[belt.splice_making],
+            s1=DUTY_SAFETY[belt.duty],
         ),
-        pulleys=tuple(_pulleys(conveyor)),
-        drive_diameter=_drive_diameter(conveyor),
-        curves=tuple(_curves(conveyor, found)),
+        pulleys=tuple(_pulleys(found.line)),
+        drive_diameter=_drive_diameter(found.line),
+        curves=tuple(_curves(found)),
     )
 
 
-def _drive_diameter(conveyor: Conveyor) -> float | None:
-    carcass = conveyor.belt.carcass
-    if carcass.kind not in PULLEY_FACTOR:
+def _classic_safety(line: Line) -> float:
+    return CLASSIC_SAFETY["steel cord" if line.belt.steel_cord else "textile"]
+
+
+def _drive_diameter(line: Line) -> float | None:
+    belt = line.belt
+    if belt.carcass not in PULLEY_FACTOR:
         return None
-    return least_pulley_diameter(si(carcass.thickness), carcass=carcass.kind)  # type: ignore[arg-type]
+    return least_pulley_diameter(belt.carcass_thickness, carcass=belt.carcass)
 
 
-def _pulleys(conveyor: Conveyor) -> Iterator[PulleyCheck]:
-    drive = _drive_diameter(conveyor)
+def _pulleys(line: Line) -> Iterator[PulleyCheck]:
+    drive = _drive_diameter(line)
     if drive is None:
         return
-    driven = {(pulley.position, pulley.section) for pulley in conveyor.drive.pulleys}
-    for pulley in conveyor.route.pulleys:
-        group = _group(pulley, driven)
+    for pulley in line.pulleys:
+        group = _group(pulley)
         least = pulley_group_diameter(drive, group=group)
         size = next_pulley_diameter(least) if least <= PULLEY_DIAMETERS[-1] else None
-        yield PulleyCheck(pulley.name, pulley.position, group, si(pulley.diameter), least, size)
+        yield PulleyCheck(pulley.name, pulley.position, group, pulley.diameter, least, size)
 
 
-def _group(pulley: Pulley, driven: Set[tuple[str, str | None]]) -> Group:
-    if (pulley.position, pulley.section) in driven or pulley.position == "head":
+def _group(pulley: BendPulley) -> Group:
+    if pulley.driven or pulley.position == "head":
         return "A"
-    return "C" if si(pulley.wrap_angle) < SNUB_WRAP else "B"
+    return "C" if pulley.wrap_angle < SNUB_WRAP else "B"
 
 
-def _curves(conveyor: Conveyor, found: Balance) -> Iterator[CurveCheck]:
-    sections = {s.name: s for s in conveyor.route.sections if s.curve is not None}
-    settled = found.settled
-    states = tuple(settled.states.values())
-    for i, stretch in enumerate(settled.loop.geometry.stretches):
+def _curves(found: Balance) -> Iterator[CurveCheck]:
+    line = found.line
+    sections = {section.name: section for section in line.sections if section.curve is not None}
+    states = tuple(found.settled.states.values())
+    for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
         if section is None or section.curve is None:
             continue
@@ -188,14 +190,14 @@ def _curves(conveyor: Conveyor, found: Balance) -> Iterator[CurveCheck]:
                 highest,
                 belt_mass=stretch.belt_mass,
                 inclination=stretch.inclination,
-                gravity=settled.loop.data.gravity,
+                gravity=line.gravity,
             )
-        over, slack = _strips(conveyor, stretch, section.curve, lowest, highest)
+        over, slack = _strips(line, stretch, section.curve, lowest, highest)
         yield CurveCheck(
             stretch.section,
             stretch.strand,
             section.curve,
-            abs(section.signed_radius),
+            abs(section.radius),
             lowest,
             highest,
             lift,
@@ -205,24 +207,23 @@ def _curves(conveyor: Conveyor, found: Balance) -> Iterator[CurveCheck]:
 
 
 def _strips(
-    conveyor: Conveyor, stretch: Stretch, kind: str, lowest: float, highest: float
+    line: Line, stretch: Stretch, kind: str, lowest: float, highest: float
 ) -> tuple[float | None, float | None]:
     """Radii at which edges and middle of the belt bear the curve; None where stiffness or trough are not known."""
-    carcass, width = conveyor.belt.carcass, si(conveyor.belt.width)
-    trough = _trough(stretch, width)
-    if trough is None or carcass.strength is None:
+    belt = line.belt
+    trough, width, strength = _trough(stretch, belt.width), belt.width, belt.strength
+    if trough is None or strength is None:
         return None, None
-    strength = si(carcass.strength)
-    if carcass.stiffness is not None:
-        stiffness = si(carcass.stiffness)
-    elif carcass.kind == "steel cord":
+    if belt.stiffness is not None:
+        stiffness = belt.stiffness
+    elif belt.steel_cord:
         stiffness = steel_cord_stiffness(strength)
     else:
         return None, None
     stretched, slackened = trough.edge_above, trough.middle_below
     if kind == "concave":
         stretched, slackened = slackened, stretched
-    allowed = strength / CLASSIC_SAFETY["steel cord" if carcass.kind == "steel cord" else "textile"]
+    allowed = strength / _classic_safety(line)
     over = slack = math.inf
     if highest / width < allowed:
         over = overstress_radius(
@@ -240,8 +241,7 @@ def _strips(
 
 def _trough(stretch: Stretch, width: float) -> TroughSection | None:
     """Heights of the troughed belt; None for five rolls, which have no rule."""
-    idlers = stretch.idlers
-    middle = {1: width, 2: 0.0, 3: min(si(idlers.roll.length), width)}.get(idlers.rolls)
+    middle = {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
     if middle is None:
         return None
-    return trough_section(width, middle_roll_length=middle, trough_angle=si(idlers.trough_angle))
+    return trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from conveyor.errors import NoSolutionError
-from conveyor.loop.single_forces import SingleForce
+from conveyor.forces import Force
 from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, Singles, State
 
 _LOOP_STEPS = 200
@@ -38,7 +38,7 @@ class Settled:
         What was settled.
     bends : tuple of float
         Wrap and bearings of every pulley together [N].
-    singles : tuple of SingleForce
+    singles : tuple of Force
         Every force at a single place.
     force, least_force : float
         Drive force in steady running, as computed and with the least certain friction [N].
@@ -52,7 +52,7 @@ class Settled:
 
     loop: Loop
     bends: Bends
-    singles: tuple[SingleForce, ...]
+    singles: tuple[Force, ...]
     force: float
     least_force: float
     motions: tuple[Motion, ...]
@@ -81,7 +81,7 @@ class Settled:
         if isinstance(where, str):
             return f"grip, {where}, {state}"
         motion = next(motion for motion in self.motions if motion.name == state)
-        stretch = self.loop.geometry.stretches[self.loop.slackest(motion, where)]
+        stretch = self.loop.line.loop.stretches[self.loop.slackest(motion, where)]
         return f"sag, {stretch.strand}, {stretch.section}, {state}"
 
     @cached_property
@@ -108,8 +108,8 @@ def settle(loop: Loop) -> Settled:
         The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack at a
         pulley.
     """
-    data = loop.data
-    history: list[Bends] = [(0.0,) * len(data.bends)]
+    line, frame_bends = loop.line, loop.frame.bends
+    history: list[Bends] = [(0.0,) * len(frame_bends)]
     drive = math.nan
     for _ in range(_LOOP_STEPS):
         bends = history[-1]
@@ -120,13 +120,14 @@ def settle(loop: Loop) -> Settled:
             (condition for motion in motions for condition in loop.conditions(motion)),
             key=lambda c: c.setting,
         )
-        given = data.take_up.tension
+        given = line.take_up.tension
         setting = governing.setting if given is None else given
         if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
             break
         sides = loop.at_bends(motions[0], setting)
         found = tuple(
-            math.fsum(bend.forces(*side, data.gravity)) for bend, side in zip(data.bends, sides, strict=True)
+            math.fsum(bend.newtons(*side, line.gravity))
+            for bend, side in zip(frame_bends, sides, strict=True)
         )
         history.append(found)
         if len(history) == _EXTRAPOLATED:
@@ -140,15 +141,15 @@ def settle(loop: Loop) -> Settled:
         loop=loop,
         bends=bends,
         singles=(
-            *(placed.single for placed in loop.fixed),
+            *loop.points,
             *(
-                single
-                for bend, side in zip(data.bends, sides, strict=True)
-                for single in bend.singles(*side, data.gravity)
+                force
+                for bend, side in zip(frame_bends, sides, strict=True)
+                for force in bend.forces(*side, line.gravity)
             ),
         ),
         force=drive,
-        least_force=loop.resistance(loop.singles(bends, data.least_friction), data.least_friction),
+        least_force=loop.resistance(loop.singles(bends, line.least_friction), line.least_friction),
         motions=motions,
         setting=setting,
         needed=governing.setting,
@@ -167,10 +168,10 @@ def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
 
 def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
     """Steady running and every state that the grip of the drives has to hold in."""
-    data, factor, mass = loop.data, loop.data.start_factor, loop.masses.whole
+    line, factor, mass = loop.line, loop.line.start_factor, loop.masses.whole
 
     def shared(name: str, force: float, friction: float, over: float) -> Motion:
-        forces = [drive.share * over * force for drive in data.drives]
+        forces = [drive.share * over * force for drive in line.drives]
         push = (over - 1.0) * force / mass
         here = singles if friction == 1.0 else loop.singles(bends, friction)
         return loop.motion(name, forces, here, acceleration=push, friction=friction, may_sag=over != 1.0)
@@ -179,7 +180,7 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
         shared(STEADY, drive, 1.0, 1.0),
         shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor),
     ]
-    certain = data.least_friction
+    certain = line.least_friction
     least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
     if least < 0.0 and certain < 1.0:
         found += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
@@ -189,17 +190,13 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
 
 def braked(loop: Loop, bends: Bends, friction: float) -> Motion | None:
     """All brakes on, drives off; None without brakes, or where they do not stop the belt."""
-    data = loop.data
-    held = math.fsum(drive.brake for drive in data.drives)
-    if held == 0.0:
-        return None
-    return coasting(loop, bends, friction, [drive.brake for drive in data.drives], BRAKES)
+    brakes = loop.line.brakes
+    return coasting(loop, bends, friction, brakes, BRAKES) if any(brakes) else None
 
 
 def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float], name: str) -> Motion | None:
     """Drives off, brakes of given forces on [N]; None where the belt does not slow down."""
-    data = loop.data
-    rotating = [drive.reduced_mass for drive in data.drives]
+    rotating = [drive.reduced_mass for drive in loop.line.drives]
     singles = loop.singles(bends, friction)
     retarding = loop.resistance(singles, friction) + math.fsum(brakes)
     if retarding <= 0.0:

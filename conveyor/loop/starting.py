@@ -8,14 +8,11 @@ from functools import cached_property
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, start_force, stop
-from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
-from conveyor.line.walk import StretchResult
+from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.settled import braked, coasting
 from conveyor.loop.tensions import State
-from conveyor.models import Conveyor
-from conveyor.units import si
 
 COASTING = "drives off"
 
@@ -105,47 +102,42 @@ class Motions:
         return min(found), max(found)
 
 
-def motions(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> Motions:
+def motions(found: Balance) -> Motions:
     """Start, coasting, braking and holding of a conveyor under its load.
 
     Parameters
     ----------
-    conveyor : Conveyor
-        What was calculated.
-    results : tuple of StretchResult
-        Forces along the belt.
     found : Balance
-        The whole.
+        Its forces, and the loop of its tensions.
     """
-    settled = found.settled
-    loop, data = settled.loop, settled.loop.data
-    mass, rotating = loop.masses.whole, math.fsum(drive.reduced_mass for drive in data.drives)
+    settled, line = found.settled, found.line
+    loop = settled.loop
+    mass, rotating = loop.masses.whole, math.fsum(drive.reduced_mass for drive in line.drives)
     least = settled.least_force
-    brakes = math.fsum(drive.brake for drive in data.drives)
-    wanted = conveyor.drive.stop_deceleration
-    moving = math.fsum(placed.single.force for placed in loop.fixed if placed.certain)
+    brakes = math.fsum(line.brakes)
+    wanted = line.stop_deceleration
+    moving = math.fsum(force.total for force in loop.points if force.certain)
     hold, back = _holding(loop.lifts.whole, least - loop.lifts.whole - moving)
     states = {}
-    none = [0.0] * len(data.drives)
     for motion in (
-        coasting(loop, settled.bends, 1.0, none, COASTING),
-        braked(loop, settled.bends, data.least_friction),
+        coasting(loop, settled.bends, 1.0, [0.0] * len(line.drives), COASTING),
+        braked(loop, settled.bends, line.least_friction),
     ):
         if motion is not None:
             states[motion.name] = loop.state(motion, settled.setting)
     return Motions(
         moving_mass=mass,
         rotating_mass=rotating,
-        start=_start(conveyor, results, found, mass, rotating),
-        coasting=_stop(data.speed, settled.force, mass + rotating),
-        coasting_least=_stop(data.speed, least, mass + rotating),
-        braked=None if brakes == 0.0 else _stop(data.speed, least + brakes, mass + rotating),
+        start=_start(found, mass, rotating),
+        coasting=_stop(line.speed, settled.force, mass + rotating),
+        coasting_least=_stop(line.speed, least, mass + rotating),
+        braked=None if brakes == 0.0 else _stop(line.speed, least + brakes, mass + rotating),
         brake_to_stop=None
         if wanted is None
-        else max(0.0, brake_force(si(wanted), resistance=least, moving_mass=mass + rotating)),
+        else max(0.0, brake_force(wanted, resistance=least, moving_mass=mass + rotating)),
         brake_to_hold=hold,
         rolls_back=back,
-        slip=_slip(conveyor, results),
+        slip=_slip(line),
         states=states,
     )
 
@@ -159,45 +151,42 @@ def _stop(speed: float, force: float, mass: float) -> Stop | None:
     return stop(speed, retarding_force=force, moving_mass=mass) if force > 0.0 else None
 
 
-def _start(
-    conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance, mass: float, rotating: float
-) -> Start:
-    data, factor = found.settled.loop.data, conveyor.drive.start_factor
-    force = factor * found.settled.force
-    acceleration = (factor - 1.0) * found.settled.force / mass
-    powers = [drive.power for drive in data.drives]
+def _start(found: Balance, mass: float, rotating: float) -> Start:
+    line, steady = found.line, found.settled.force
+    force = line.start_factor * steady
+    acceleration = (line.start_factor - 1.0) * steady / mass
+    powers = [drive.power for drive in line.drives]
     installed = math.fsum(power for power in powers if power is not None)
     rated = available = None
     if all(power is not None for power in powers) and force > 0.0:
         one = start_force(
-            installed, torque_factor=1.0, efficiency=data.efficiency, rated_belt_speed=data.speed
+            installed, torque_factor=1.0, efficiency=line.efficiency, rated_belt_speed=line.speed
         )
         rated = (force + rotating * acceleration) / one
-        if conveyor.drive.torque_factor is not None:
-            available = conveyor.drive.torque_factor * one
-    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * math.fsum(result.rotation for result in results)
+        if line.torque_factor is not None:
+            available = line.torque_factor * one
+    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * found.forces.parts["idler_rotation"]
     return Start(
         force=force,
         acceleration=acceleration,
-        time=None if acceleration == 0.0 else data.speed / abs(acceleration),
+        time=None if acceleration == 0.0 else line.speed / abs(acceleration),
         torque_factor=rated,
         available=available,
-        breakaway=found.settled.force + stuck,
+        breakaway=steady + stuck,
     )
 
 
-def _slip(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> SlipLimits | None:
-    feeding = conveyor.route.feeding
-    friction = BULK_ON_BELT_FRICTION.value if feeding is None else feeding.belt_friction
-    gravity = si(conveyor.calculation.gravity)
+def _slip(line: Line) -> SlipLimits | None:
     lows: dict[str, float] = {}
     highs: dict[str, float] = {}
     sliding = []
-    for stretch in (result.stretch for result in results):
+    for stretch in line.stretches:
         if stretch.bulk_mass == 0.0:
             continue
         try:
-            low, high = bulk_slip_limits(friction, inclination=stretch.inclination, gravity=gravity)
+            low, high = bulk_slip_limits(
+                line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity
+            )
         except NoSolutionError:
             sliding.append(stretch.section)
             continue

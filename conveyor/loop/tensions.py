@@ -7,20 +7,20 @@ offset of what the take-up holds (tension at its place, or the mean of the loop)
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.forces import Force
 from conveyor.laws.tension import grip_tension
-from conveyor.loop.data import Geometry, LoopData
-from conveyor.loop.single_forces import Placed
+from conveyor.loop.frame import Frame, Sums
 
 Array = NDArray[np.float64]
 
-Singles = tuple[list[float], list[float]]
-"""Single forces before and behind the drives of every boundary in use [N]."""
+Singles = list[float]
+"""Sum of the single forces at every spot in use, as the belt meets them [N]."""
 
 STEADY = "steady"
 
@@ -105,7 +105,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Motion:
-    """A state of motion before the level of its tensions is known: offsets at the boundaries [N].
+    """A state of motion before the level of its tensions is known: offsets round the loop [N].
 
     `sagging` are the settings that the sag of each run of stretches asks for; None where it may sag.
     """
@@ -115,11 +115,9 @@ class Motion:
     acceleration: float
     friction: float
     before: tuple[float, ...]
-    """At each boundary, before all that stands there."""
-    past: tuple[float, ...]
-    """Past its drives."""
-    behind: tuple[float, ...]
-    """Behind all that stands there."""
+    """At each spot, before what stands there."""
+    arriving: float
+    """At the head, before all that stands there."""
     drives: tuple[tuple[float, float, float], ...]
     """Force, offset before, offset behind of every drive."""
     shifts: tuple[float, ...]
@@ -128,50 +126,37 @@ class Motion:
     sagging: tuple[float, ...] | None = None
 
 
-class Sums:
-    """Running sums of one kind of force round the loop: everywhere, at the boundaries in use, and their mean."""
-
-    def __init__(self, forces: Array, data: LoopData, geometry: Geometry) -> None:
-        self.along = np.concatenate([np.zeros(1), np.cumsum(forces)])
-        self.at: list[float] = self.along[data.boundaries].tolist()
-        self.mean = float((self.along[:-1] + self.along[1:]) @ geometry.length) / (
-            2.0 * float(geometry.way[-1])
-        )
-        self.whole = self.at[-1]
-
-
 class Loop:
     """The loop of one conveyor under the forces of one analysis.
 
     Parameters
     ----------
-    data : LoopData
-        SI numbers of the conveyor.
-    geometry : Geometry
-        Its stretches.
-    fixed : tuple of Placed
-        Single forces that no tension changes.
-    total, lift : Array
-        Force along each stretch and the lift in it, in loop order [N], shape (2n,).
+    frame : Frame
+        What stands where.
+    along : iterable of Force
+        Forces along the belt.
+    further : iterable of Force
+        Forces at single places beside those of the frame.
     """
 
-    def __init__(
-        self, data: LoopData, geometry: Geometry, fixed: tuple[Placed, ...], total: Array, lift: Array
-    ) -> None:
-        self.data, self.geometry, self.fixed = data, geometry, fixed
-        self.totals = Sums(total, data, geometry)
-        self.lifts = Sums(lift, data, geometry)
-        self.masses = Sums(geometry.mass, data, geometry)
-        at = {b: k for k, b in enumerate(data.boundaries)}
-        self._fixed = [(at[p.spot.boundary], p.spot.behind, p.single.force, p.certain) for p in fixed]
-        self._bends = [(at[bend.spot.boundary], bend.spot.behind) for bend in data.bends]
-        self._drives: list[list[int]] = [[] for _ in at]
-        for i, drive in enumerate(data.drives):
-            self._drives[at[drive.boundary]].append(i)
-        self._station = next(found for found in self._drives if 0 in found)
-        spot = data.take_up.spot
-        self._anchor_at = None if spot is None else at[spot.boundary]
-        self._run_shares = (np.diff(geometry.way[data.boundaries]) / geometry.way[-1]).tolist()
+    def __init__(self, frame: Frame, along: Iterable[Force], further: Iterable[Force] = ()) -> None:
+        self.frame, self.line = frame, frame.line
+        self.points = (*frame.points, *further)
+        total, lift = np.zeros(2 * self.line.count), np.zeros(2 * self.line.count)
+        for force in along:
+            total += force.newtons
+            if force.certain:
+                lift += force.newtons
+        half = self.line.count
+        self.totals = Sums(np.roll(total, half), self.line, frame.boundaries)
+        self.lifts = Sums(np.roll(lift, half), self.line, frame.boundaries)
+        self.masses = frame.masses
+        self._points = [
+            (frame.at[force.spot], force.total, force.certain)
+            for force in self.points
+            if force.spot is not None
+        ]
+        self._bends = [frame.at[bend.pulley.spot] for bend in frame.bends]
         self._sagging: dict[float, tuple[float, ...]] = {}
 
     def along(self, friction: float, acceleration: float) -> Array:
@@ -185,25 +170,24 @@ class Loop:
         found = self._sagging.get(friction)
         if found is None:
             along = self.along(friction, 0.0)
-            needed = self.geometry.least - np.minimum(along[:-1], along[1:])
-            found = tuple(np.maximum.reduceat(needed, self.data.boundaries[:-1]).tolist())
+            needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
+            found = tuple(np.maximum.reduceat(needed, self.frame.boundaries[:-1]).tolist())
             self._sagging[friction] = found
         return found
 
     def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
-        """Single forces before and behind the drives of every boundary [N]."""
-        before, behind = [0.0] * len(self._drives), [0.0] * len(self._drives)
-        for k, back, force, certain in self._fixed:
-            (behind if back else before)[k] += force if certain else friction * force
-        for (k, back), force in zip(self._bends, bends, strict=True):
-            (behind if back else before)[k] += friction * force
-        return before, behind
+        """Sum of the single forces at every spot [N]."""
+        found = [0.0] * len(self.frame.stops)
+        for j, force, certain in self._points:
+            found[j] += force if certain else friction * force
+        for j, force in zip(self._bends, bends, strict=True):
+            found[j] += friction * force
+        return found
 
     def resistance(self, singles: Singles, friction: float = 1.0) -> float:
         """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
-        before, behind = singles
         lift = self.lifts.whole
-        return math.fsum((lift, friction * (self.totals.whole - lift), *before, *behind))
+        return math.fsum((lift, friction * (self.totals.whole - lift), *singles))
 
     def motion(
         self,
@@ -216,32 +200,23 @@ class Loop:
         may_sag: bool = False,
     ) -> Motion:
         """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
-        before, behind = singles
         sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
-        ins, pasts, outs, shifts = [], [], [], []
+        along = self._at(friction, acceleration)
+        ins, outs, shifts = [], [], [0.0] * len(along)
         level, passed = 0.0, 0.0
-        for k, (total, lift, mass) in enumerate(
-            zip(self.totals.at, self.lifts.at, self.masses.at, strict=True)
-        ):
-            here = (
-                lift + friction * (total - lift) + acceleration * mass
-                if friction != 1.0
-                else total + acceleration * mass
-            )
-            level += here - passed
-            passed = here
+        for k, single, drives in zip(self.frame.stops, singles, self.frame.drives, strict=True):
+            level += along[k] - passed
+            passed = along[k]
             ins.append(level)
-            level += before[k]
-            for i in self._drives[k]:
+            level += single
+            for i in drives:
                 sides[i] = (forces[i], level, level - forces[i])
                 level -= forces[i]
-            pasts.append(level)
-            level += behind[k]
             outs.append(level)
-            shifts.append(level - here)
+            shifts[k] = level - passed
         anchor = self._anchor(sides, outs, shifts, friction, acceleration)
         return Motion(
-            name, math.fsum(forces), acceleration, friction, tuple(ins), tuple(pasts), tuple(outs), tuple(sides),
+            name, math.fsum(forces), acceleration, friction, tuple(ins), ins[self.frame.head], tuple(sides),
             tuple(shifts), anchor, None if may_sag else self.sagging(friction),
         )  # fmt: skip
 
@@ -257,15 +232,11 @@ class Loop:
     def at_bends(self, steady: Motion, setting: float) -> list[tuple[float, float]]:
         """Tensions on both sides of every pulley in steady running [N], of a driven one those of its drives."""
         level, found = setting - steady.anchor, []
-        for k, back in self._bends:
-            if back:
-                here = (steady.past[k], steady.past[k])
-            elif self._drives[k]:
-                sides = [offset for i in self._drives[k] for offset in steady.drives[i][1:]]
-                here = (max(sides), min(sides))
-            else:
-                here = (steady.before[k], steady.before[k])
-            found.append((level + here[0], level + here[1]))
+        for j in self._bends:
+            sides = [offset for i in self.frame.drives[j] for offset in steady.drives[i][1:]] or [
+                steady.before[j]
+            ]
+            found.append((level + max(sides), level + min(sides)))
         return found
 
     def _anchor(
@@ -277,19 +248,19 @@ class Loop:
         acceleration: float,
     ) -> float:
         """Offset of what the take-up holds [N]."""
-        if self.data.take_up.kind == "fixed":
+        if self.line.take_up.kind == "fixed":
             totals, lifts = self.totals.mean, self.lifts.mean
             steady = lifts + friction * (totals - lifts) + acceleration * self.masses.mean
             return steady + math.fsum(
-                s * share for s, share in zip(shifts[:-1], self._run_shares, strict=True)
+                s * share for s, share in zip(shifts[:-1], self.frame.run_shares, strict=True)
             )
-        if self._anchor_at is not None:
-            return outs[self._anchor_at]
-        return min(offset for i in self._station for offset in sides[i][1:])
+        if self.frame.anchor is not None:
+            return outs[self.frame.anchor]
+        return min(offset for i in self.frame.station for offset in sides[i][1:])
 
     def conditions(self, motion: Motion) -> Iterator[Condition]:
         """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
-        for drive, (force, arriving, leaving) in zip(self.data.drives, motion.drives, strict=True):
+        for drive, (force, arriving, leaving) in zip(self.line.drives, motion.drives, strict=True):
             needed = grip_tension(force, friction=drive.friction, wrap_angle=drive.wrap_angle)
             yield Condition(
                 "grip", (motion.name, drive.name), needed - min(arriving, leaving) + motion.anchor
@@ -302,7 +273,7 @@ class Loop:
         """The tensions of a state at a setting of the take-up."""
         level = setting - motion.anchor
         along = self.along(motion.friction, motion.acceleration)
-        shifts = level + np.repeat(motion.shifts[:-1], self.data.runs)
+        shifts = level + np.repeat(motion.shifts[:-1], self.frame.runs)
         return State(
             name=motion.name,
             force=motion.force,
@@ -310,18 +281,18 @@ class Loop:
             friction=motion.friction,
             drives=tuple(
                 DriveSide(drive.name, force, level + arriving, level + leaving)
-                for drive, (force, arriving, leaving) in zip(self.data.drives, motion.drives, strict=True)
+                for drive, (force, arriving, leaving) in zip(self.line.drives, motion.drives, strict=True)
             ),
             starts=along[:-1] + shifts,
             ends=along[1:] + shifts,
             leaving=level,
-            arriving=level + motion.before[-1],
+            arriving=level + motion.arriving,
             held=setting,
         )
 
     def slackest(self, motion: Motion, run: int) -> int:
         """Stretch of a run whose sag asks for most, as an index in loop order."""
-        low, high = self.data.boundaries[run : run + 2]
+        low, high = self.frame.boundaries[run : run + 2]
         along = self.along(motion.friction, motion.acceleration)
-        needed = self.geometry.least - np.minimum(along[:-1], along[1:])
+        needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
         return low + int(np.argmax(needed[low:high]))

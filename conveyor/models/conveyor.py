@@ -19,7 +19,7 @@ from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
 from conveyor.models.report import Report
 from conveyor.models.route import Route
 from conveyor.models.uncertainty import Uncertainty
-from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, text
+from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, si, text
 
 
 class Ambient(Model):
@@ -103,6 +103,16 @@ class Conveyor(Model):
     def duty(self) -> tuple[DutyEntry, ...]:
         """Histogram of the year; empty where all hours are alike or there is no operation."""
         return () if self.operation is None else self.operation.duty
+
+    @property
+    def temperature(self) -> float:
+        """Of the covers [K]."""
+        return si(self.ambient.belt)
+
+    @property
+    def air_temperature(self) -> float:
+        """Of the air [K]."""
+        return si(self.ambient.temperature)
 
     @property
     def carry_compound(self) -> RubberCompound:

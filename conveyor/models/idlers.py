@@ -139,3 +139,9 @@ class Idlers(Model):
     """Under the loaded strand."""
     return_: Annotated[IdlerSet, Field(alias="return")]
     """Under the returning strand."""
+
+    @property
+    def drag_follows_air(self) -> bool:
+        """Whether a roll's drag is given by a law, which may depend on the temperature of the air."""
+        rolls = [roll for each in (self.carry, self.return_) for roll in (each.roll, each.middle)]
+        return any(roll.drag_law is not None for roll in rolls)

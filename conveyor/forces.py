@@ -1,0 +1,411 @@
+"""Every resistance of a conveyor in one list; sums, tables, pictures and the loop of tensions iterate over it.
+
+A new resistance is a law, the field of the spec it takes, and its line in `without_rubber` or `at_places`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws.resistance import (
+    ROLL_ON_BELT_FRICTION,
+    TILT_COEFFICIENT_30,
+    TILT_COEFFICIENT_45,
+    acceleration_length,
+    acceleration_resistance,
+    acceleration_skirt_resistance,
+    cleaner_resistance,
+    fabric_wrap_resistance,
+    flexure_resistance,
+    idler_rotation_resistance,
+    idler_tilt_resistance,
+    plough_resistance,
+    pulley_bearing_resistance,
+    pulley_load,
+    roll_line_mass,
+    secondary_resistance,
+    section_main_resistance,
+    skirt_resistance,
+    slope_resistance,
+    steel_cord_wrap_resistance,
+)
+from conveyor.line.line import BendPulley, Line, LoadingPoint
+from conveyor.line.places import Spot
+from conveyor.line.stretches import STRANDS, Strand, Stretch
+
+Array = NDArray[np.float64]
+ForceKind = Literal["main", "secondary", "special", "lift"]
+
+_TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
+_SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
+_CONTACT = "viscoelastic contact of every roll (docs/method.md)"
+
+
+@dataclass(frozen=True, eq=False)
+class Force:
+    """A resistance to the belt's motion [N].
+
+    Attributes
+    ----------
+    key, name : str
+        For figures in files and in Python; for people.
+    kind : {"main", "secondary", "special", "lift"}
+        What DIN 22101 counts it among.
+    newtons : ndarray or float
+        Along the belt: of every stretch of the line, shape (2n,). At one place: a number.
+    source : str
+        The law it comes from.
+    certain : bool
+        Whether no friction makes it, so that no uncertainty of friction changes it.
+    spot, place : Spot or None, str
+        Where it acts, for the loop and in words; nowhere in particular for forces along the belt.
+    short : str
+        Name of its column in tables of sections; `name` without it.
+    """
+
+    key: str
+    name: str
+    kind: ForceKind
+    newtons: Array | float
+    source: str
+    certain: bool = False
+    spot: Spot | None = None
+    place: str = ""
+    short: str = ""
+
+    @property
+    def total(self) -> float:
+        """All of it [N]."""
+        return self.newtons if isinstance(self.newtons, float) else math.fsum(self.newtons.tolist())
+
+    @property
+    def along(self) -> Array | None:
+        """Force on every stretch [N], shape (2n,); None at one place."""
+        return None if isinstance(self.newtons, float) else self.newtons
+
+    def by_strand(self) -> dict[Strand, float]:
+        """Force on each strand [N]; nothing of a force at one place."""
+        if isinstance(self.newtons, float):
+            return {}
+        halves = np.split(self.newtons, 2)
+        return {strand: math.fsum(half.tolist()) for strand, half in zip(STRANDS, halves, strict=True)}
+
+
+@dataclass(frozen=True)
+class ForceSums:
+    """Resistances of the whole conveyor by kind [N]: every main resistance by its key, the others together."""
+
+    parts: Mapping[str, float]
+
+    @classmethod
+    def of(cls, forces: Iterable[Force]) -> ForceSums:
+        """Sum up the list."""
+        sums: dict[str, list[float]] = {}
+        for force in forces:
+            sums.setdefault(force.key if force.kind == "main" else force.kind, []).append(force.total)
+        order = [*(key for key in sums if key not in _AFTER_MAIN), *_AFTER_MAIN]
+        return cls({key: math.fsum(sums.get(key, ())) for key in order})
+
+    @property
+    def indentation(self) -> float:
+        """Of the covers by the rolls [N]."""
+        return self.parts["indentation"]
+
+    @property
+    def main(self) -> float:
+        """Main resistance F_H: indentation, idler rotation, flexure [N]."""
+        return math.fsum(value for key, value in self.parts.items() if key not in _AFTER_MAIN)
+
+    @property
+    def secondary(self) -> float:
+        """Secondary resistances F_N [N]."""
+        return self.parts["secondary"]
+
+    @property
+    def special(self) -> float:
+        """Special resistances F_S [N]."""
+        return self.parts["special"]
+
+    @property
+    def lift(self) -> float:
+        """Slope resistance F_St [N]."""
+        return self.parts["lift"]
+
+    @property
+    def total(self) -> float:
+        """Effective tension F_U [N]."""
+        return self.main + self.secondary + self.special + self.lift
+
+
+_AFTER_MAIN = ("secondary", "special", "lift")
+
+
+@dataclass(frozen=True, eq=False)
+class WithoutRubber:
+    """Forces along a line that no rubber changes [N], shape (2n,).
+
+    `flexure` is None where a share of the other main resistances stands in; `unit_main` is the main resistance that
+    DIN 22101 gives for f = 1.
+    """
+
+    rotation: Array
+    tilt: Array
+    lift: Array
+    unit_main: Array
+    flexure: Array | None
+
+
+def without_rubber(line: Line) -> WithoutRubber:
+    """Forces along the belt that do not depend on the covers."""
+    gravity = line.gravity
+
+    def each(law: Callable[[Stretch, float], float]) -> Array:
+        return np.array([law(stretch, gravity) for stretch in line.stretches])
+
+    by_law = line.stretches[0].span_flexure is not None
+    return WithoutRubber(
+        rotation=each(_rotation),
+        tilt=each(_tilt),
+        lift=each(_lift),
+        unit_main=each(_unit_main),
+        flexure=np.array([s.sets * (s.span_flexure or 0.0) for s in line.stretches]) if by_law else None,
+    )
+
+
+def along_the_belt(
+    line: Line, fixed: WithoutRubber, indentation: Array, *, roll_drag: float = 1.0
+) -> tuple[Force, ...]:
+    """Return the forces along the belt.
+
+    Parameters
+    ----------
+    line : Line
+        The conveyor.
+    fixed : WithoutRubber
+        Of `without_rubber`.
+    indentation : ndarray, shape (2n,)
+        Indentation resistance of every stretch [N].
+    roll_drag : float
+        Drag of all rolls over the computed one [-].
+    """
+    rotation = roll_drag * fixed.rotation
+    flexure, law = fixed.flexure, "calculation.flexure, laws"
+    if flexure is None:
+        flexure = np.array([
+            flexure_resistance(other, share=line.flexure_share) for other in (indentation + rotation).tolist()
+        ])  # fmt: skip
+        law = "share of the main resistance, flagged default"
+    return (
+        Force("indentation", "indentation", "main", indentation, _CONTACT),
+        Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
+        Force("flexure", "flexure of belt and bulk", "main", flexure, law, short="flexure"),
+        Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
+        Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
+    )
+
+
+def _rotation(stretch: Stretch, _gravity: float) -> float:
+    """Drag of all rolls of the stretch [N]."""
+    return math.fsum(
+        idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
+        for drag in stretch.drags
+    )
+
+
+def _tilt(stretch: Stretch, gravity: float) -> float:
+    """Resistance of wings tilted forward [N]; zero where they are not."""
+    if stretch.tilt_angle == 0.0:
+        return 0.0
+    steep = stretch.trough_angle > _TILT_STEEP
+    return idler_tilt_resistance(
+        tilt_coefficient=(TILT_COEFFICIENT_45 if steep else TILT_COEFFICIENT_30).value,
+        roll_friction=ROLL_ON_BELT_FRICTION.value,
+        length=stretch.length,
+        belt_mass=stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        inclination=stretch.inclination,
+        tilt_angle=stretch.tilt_angle,
+        gravity=gravity,
+    )
+
+
+def _lift(stretch: Stretch, gravity: float) -> float:
+    return slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity)
+
+
+def _unit_main(stretch: Stretch, gravity: float) -> float:
+    return section_main_resistance(
+        friction_factor=1.0,
+        length=stretch.length,
+        roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
+        belt_mass=stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        inclination=stretch.inclination,
+        gravity=gravity,
+    )
+
+
+def at_places(line: Line) -> tuple[Force, ...]:
+    """Forces at single places that no tension changes: feeding points, cleaners and ploughs."""
+    loaded = [force for point in line.loading for force in _loading(line, point)]
+    return (*loaded, *_cleaners(line), *_ploughs(line))
+
+
+def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> Force:
+    """Secondary resistances as a whole, (C-1) F_H, where the bulk lands."""
+    main = ForceSums.of(along).main
+    force = secondary_resistance(main, length=line.length)
+    return Force(
+        "secondary_by_length", "secondary, (C-1) F_H", "secondary", force, "ISO 5048 / DIN 22101, C(L)",
+        spot=spot, place=line.places.name(spot),
+    )  # fmt: skip
+
+
+def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
+    if point.flow == 0.0:
+        return
+
+    def force(
+        key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False
+    ) -> Force:
+        return Force(
+            key, f"{name}{point.name}", kind, newtons, f"ISO 5048, {law}",
+            certain=certain, spot=point.spot, place=point.place,
+        )  # fmt: skip
+
+    if line.secondary != "C":
+        inertia = acceleration_resistance(point.flow, belt_speed=line.speed, initial_speed=point.speed)
+        yield force("acceleration", "acceleration of the bulk", "secondary", inertia, "F_bA", certain=True)
+        length = acceleration_length(
+            belt_speed=line.speed,
+            initial_speed=point.speed,
+            belt_friction=point.belt_friction,
+            gravity=line.gravity,
+        )
+        zone = acceleration_skirt_resistance(
+            volume_flow=point.flow / line.density,
+            bulk_density=line.density,
+            length=length,
+            belt_speed=line.speed,
+            initial_speed=point.speed,
+            skirt_distance=point.skirt_width,
+            skirt_friction=point.skirt_friction,
+            gravity=line.gravity,
+        )
+        yield force("loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f")
+    # the bulk that lies there already rubs on the skirts of a later feeding point too
+    beyond = skirt_resistance(
+        volume_flow=point.flow_beyond / line.density,
+        bulk_density=line.density,
+        length=point.skirt_length,
+        bulk_speed=line.speed,
+        skirt_distance=point.skirt_width,
+        skirt_friction=point.skirt_friction,
+        gravity=line.gravity,
+    )
+    yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL")
+
+
+def _cleaners(line: Line) -> Iterator[Force]:
+    """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
+    for i, scraper in enumerate(line.scrapers, start=1):
+        one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
+        yield Force(
+            "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one, "ISO 5048, F_r",
+            spot=line.places.behind("head", None), place="take-up",
+        )  # fmt: skip
+
+
+def _ploughs(line: Line) -> Iterator[Force]:
+    """Ploughs, where there is bulk to sweep."""
+    if line.flow == 0.0:
+        return
+    for i, plough in enumerate(line.ploughs, start=1):
+        force = plough_resistance(
+            plough.width, scraping_factor=plough.scraping_factor, n_ploughs=plough.count
+        )
+        yield Force(
+            "plough", f"plough {i} (x{plough.count})", "special", force, "ISO 5048, F_a",
+            spot=plough.spot, place=plough.place,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Bend:
+    """A pulley's resistances as lines over the tensions at it.
+
+    Attributes
+    ----------
+    pulley : BendPulley
+        Which.
+    wrap : tuple of float
+        Bending of the belt: at no tension [N], and per newton of mean tension [-].
+    bearings : float or None
+        Bearing resistance per newton of load [-]; None of a driven pulley, whose bearings the efficiency holds.
+    """
+
+    pulley: BendPulley
+    wrap: tuple[float, float]
+    bearings: float | None
+
+    def newtons(self, tight: float, slack: float, gravity: float) -> tuple[float, float]:
+        """Wrap and bearings at the tensions of both sides [N].
+
+        Raises
+        ------
+        NoSolutionError
+            The belt is slack at the pulley.
+        """
+        if min(tight, slack) < 0.0:
+            raise NoSolutionError(
+                f'the belt is slack at pulley "{self.pulley.name}" ({min(tight, slack):.6g} N): raise the take-up\'s '
+                "tension (route.take_up.tension), or look for a resistance far too large among the forces before it"
+            )
+        base, slope = self.wrap
+        bend = base + slope * 0.5 * (tight + slack)
+        if self.bearings is None:
+            return bend, 0.0
+        mass = self.pulley.mass
+        load = pulley_load(tight_tension=tight, slack_tension=slack, pulley_mass=mass, gravity=gravity)
+        return bend, self.bearings * load
+
+    def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:
+        """Both as forces with their names."""
+        bend, turn = self.newtons(tight, slack, gravity)
+        name, spot, place = self.pulley.name, self.pulley.spot, self.pulley.place
+        law = "ISO 5048 / DIN 22101, belt wrap"
+        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place)
+        if self.bearings is not None:
+            yield Force(
+                "pulley_bearings", f"bearings, {name}", "secondary", turn, "ISO 5048, F_t",
+                spot=spot, place=place,
+            )  # fmt: skip
+
+
+def bends(line: Line) -> tuple[Bend, ...]:
+    """Wraps, and bearings of every pulley but the driven ones; none beside the length coefficient C."""
+    return () if line.secondary == "C" else tuple(_bend(line, pulley) for pulley in line.pulleys)
+
+
+def _bend(line: Line, pulley: BendPulley) -> Bend:
+    law = steel_cord_wrap_resistance if line.belt.steel_cord else fabric_wrap_resistance
+    slack, taut = (
+        law(
+            belt_width=line.belt.width,
+            tension=tension,
+            belt_thickness=line.belt.thickness,
+            pulley_diameter=pulley.diameter,
+        )
+        for tension in (0.0, _SLOPE_OVER)
+    )
+    turn = pulley_bearing_resistance(
+        1.0, shaft_diameter=pulley.shaft_diameter, pulley_diameter=pulley.diameter
+    )
+    return Bend(pulley, (slack, (taut - slack) / _SLOPE_OVER), None if pulley.driven else turn)

@@ -1,0 +1,197 @@
+"""The contact of every roll of a line on its cover; those of many lines are solved side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.indentation import (
+    Indentation,
+    IndentationCurve,
+    RollContact,
+    forgotten,
+    indentation_curves,
+)
+from conveyor.laws.loading import RollLoad
+from conveyor.line.covers import Covers, roll_contact
+from conveyor.line.line import Line
+from conveyor.line.roll_kinds import RollKind
+from conveyor.line.stretches import Strand
+
+Array = NDArray[np.float64]
+Spans = Mapping[RollContact, tuple[float, float]]
+"""Range of line loads that occur on each contact [N/m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class RollResult:
+    """One roll of a set: its load and its indentation.
+
+    Attributes
+    ----------
+    load : RollLoad
+        Force and distribution.
+    curve : IndentationCurve
+        The load curve it was read from.
+    resistance : float
+        Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
+    """
+
+    load: RollLoad
+    curve: IndentationCurve
+    resistance: float
+
+    @cached_property
+    def peak(self) -> Indentation:
+        """Contact at the highest line load, for a wing that of its inner end."""
+        return self.curve.at(self.load.peak_line_load)
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Every roll of a line on its load curve.
+
+    Attributes
+    ----------
+    line : Line
+        Whose rolls.
+    covers : mapping of strand to Cover
+        What they run on.
+    curves : tuple of IndentationCurve
+        Of every kind of roll, `line.kinds`.
+    drags : tuple of ndarray
+        Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`.
+    """
+
+    line: Line
+    covers: Covers
+    curves: tuple[IndentationCurve, ...]
+    drags: tuple[Array, ...]
+
+    @cached_property
+    def indentation(self) -> Array:
+        """Indentation resistance of every stretch [N], shape (2n,)."""
+        force = np.zeros(len(self.line.stretches))
+        for kind, drags in zip(self.line.kinds, self.drags, strict=True):
+            np.add.at(force, [i for i, _ in kind.rolls], drags)
+        return force * np.array([stretch.sets for stretch in self.line.stretches])
+
+    @cached_property
+    def rolls(self) -> tuple[tuple[RollResult, ...], ...]:
+        """The rolls of one set of every stretch, left to right."""
+        stretches = self.line.stretches
+        found: list[dict[int, RollResult]] = [{} for _ in stretches]
+        for kind, curve, drags in zip(self.line.kinds, self.curves, self.drags, strict=True):
+            for (i, place), drag in zip(kind.rolls, drags.tolist(), strict=True):
+                found[i][place] = RollResult(stretches[i].loads[place], curve, drag)
+        return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in found)
+
+    def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:
+        """Load curves that the rolls of a strand are read from."""
+        pairs = zip(self.line.kinds, self.curves, strict=True)
+        return tuple(dict.fromkeys(curve for kind, curve in pairs if kind.strand == strand))
+
+    def excited_band(self, strand: Strand) -> tuple[float, float] | None:
+        """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
+        lows = [f for curve in self.curves_of(strand) if (f := curve.slowest_excited) is not None]
+        highs = [f for curve in self.curves_of(strand) if (f := curve.fastest_excited) is not None]
+        return (min(lows), max(highs)) if lows and highs else None
+
+    def deepest(self, strand: Strand) -> float:
+        """Largest penetration of a strand's rolls over the thickness of their cover [-]: at the highest loads."""
+        pairs = zip(self.line.kinds, self.curves, strict=True)
+        depths = [float(curve.at(kind.highest).penetration) for kind, curve in pairs if kind.strand == strand]
+        return max(depths) / self.covers[strand].thickness
+
+    @property
+    def error(self) -> float:
+        """Largest relative error estimate of any roll's indentation [-]."""
+        return max(curve.curve.error for curve in self.curves)
+
+    @property
+    def energy_error(self) -> float:
+        """Largest relative difference of any roll's friction by geometry and by loss [-]."""
+        return max(curve.curve.energy_error for curve in self.curves)
+
+
+def solve_contacts(
+    lines: Sequence[Line], covers: Sequence[Covers], rtol: float | None = None
+) -> list[Contacts | NoSolutionError]:
+    """Solve the contacts of many lines, or of many rubbers under one, side by side.
+
+    Parameters
+    ----------
+    lines : sequence of Line
+        One for each scene; scenes that differ in rubber and temperature only share theirs.
+    covers : sequence of mapping
+        What the rolls of each strand run on, for each scene.
+    rtol : float, optional
+        Relative tolerance of the contacts [-]; that of each line without it.
+
+    Returns
+    -------
+    list
+        In their order the contacts, or why a scene has none.
+    """
+    tolerances = [line.rtol if rtol is None else rtol for line in lines]
+    asked = [_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]
+    jobs: dict[float, dict[RollContact, tuple[float, float]]] = {}
+    for line, contacts, tolerance in zip(lines, asked, tolerances, strict=True):
+        spans = jobs.setdefault(tolerance, {})
+        for contact, kind in zip(contacts, line.kinds, strict=True):
+            low, high = spans.get(contact, (kind.lowest, kind.highest))
+            spans[contact] = min(low, kind.lowest), max(high, kind.highest)
+    solved = {tolerance: _solved(spans, tolerance) for tolerance, spans in jobs.items()}
+    return [
+        _read(line, cover, contacts, solved[tolerance])
+        for line, cover, contacts, tolerance in zip(lines, covers, asked, tolerances, strict=True)
+    ]
+
+
+def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
+    """The contact of every kind of roll; those that differ in a spacing the rubber forgets are one."""
+    contacts = [roll_contact(line, kind, covers[kind.strand]) for kind in line.kinds]
+    shared = forgotten(contacts, rtol)
+    return [shared[contact] for contact in contacts]
+
+
+def _solved(spans: Spans, rtol: float) -> dict[RollContact, IndentationCurve | NoSolutionError]:
+    contacts = list(spans)
+    lowest, highest = zip(*spans.values(), strict=True)
+    return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
+
+
+def _read(
+    line: Line,
+    covers: Covers,
+    contacts: Sequence[RollContact],
+    solved: Mapping[RollContact, IndentationCurve | NoSolutionError],
+) -> Contacts | NoSolutionError:
+    """Every roll's resistance from the load curves, or the first contact's error."""
+    curves: list[IndentationCurve] = []
+    for contact in contacts:
+        curve = solved[contact]
+        if isinstance(curve, NoSolutionError):
+            return curve
+        curves.append(curve)
+    together: dict[IndentationCurve, list[int]] = {}
+    for k, curve in enumerate(curves):
+        together.setdefault(curve, []).append(k)
+    drags: list[Array] = [np.zeros(0)] * len(curves)
+    for curve, members in together.items():
+        kinds = [line.kinds[k] for k in members]
+        resistance = curve.resistance(np.concatenate([kind.distinct for kind in kinds]))
+        parts = np.split(resistance, np.cumsum([kind.distinct.size for kind in kinds])[:-1])
+        for k, kind, part in zip(members, kinds, parts, strict=True):
+            drags[k] = _along_the_rolls(kind, part)
+    return Contacts(line, covers, tuple(curves), tuple(drags))
+
+
+def _along_the_rolls(kind: RollKind, resistance: Array) -> Array:
+    """Integrate the resistance per width at the distinct loads [N/m] along each roll [N]."""
+    return np.asarray(np.add.reduceat(resistance[kind.which] * kind.weights, kind.starts))

@@ -1,0 +1,474 @@
+"""A conveyor as the calculation sees it: SI numbers, frozen; beyond this floor no quantity has a unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.indentation import Support
+from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
+from conveyor.laws.take_up import LOOP_STRANDS
+from conveyor.line.places import Places, Spot
+from conveyor.line.roll_kinds import RollKind, roll_kinds
+from conveyor.line.stretches import Pressing, Stretch, stretches
+from conveyor.models import Conveyor, DrivePulley, Feeding, Pulley, Section
+from conveyor.models.methods import Cema
+from conveyor.units import Quantity, si
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RouteSection:
+    """A section of the route: length and rise in running direction of the carry strand [m], its vertical curve.
+
+    `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m].
+    """
+
+    name: str
+    length: float
+    rise: float
+    curve: str | None
+    radius: float
+
+
+@dataclass(frozen=True)
+class BeltBody:
+    """The belt itself: width, thickness, carcass [m], strength and stiffness per width [N/m], None where not given."""
+
+    width: float
+    thickness: float
+    line_mass: float
+    carcass: str
+    carcass_thickness: float
+    strength: float | None
+    stiffness: float | None
+    splice_strength: float | None
+    splice_making: str
+    duty: str
+
+    @property
+    def steel_cord(self) -> bool:
+        """Whether its carcass is of steel cords."""
+        return self.carcass == "steel cord"
+
+
+@dataclass(frozen=True)
+class LoadingPoint:
+    """Where bulk lands: its place, its share of the flow, all flow that lies there from then on [-, kg/s, m/s, m]."""
+
+    name: str
+    spot: Spot
+    place: str
+    flow: float
+    flow_beyond: float
+    speed: float
+    skirt_length: float
+    skirt_width: float
+    belt_friction: float
+    skirt_friction: float
+
+
+@dataclass(frozen=True)
+class Scraper:
+    """A cleaner or several alike: area that touches the belt [m²], pressure [Pa], friction [-]."""
+
+    count: int
+    area: float
+    pressure: float
+    friction: float
+
+
+@dataclass(frozen=True)
+class PloughBlade:
+    """A plough or several alike: width [m], scraping factor [N/m], and where."""
+
+    count: int
+    spot: Spot
+    place: str
+    width: float
+    scraping_factor: float
+
+
+@dataclass(frozen=True)
+class BendPulley:
+    """A pulley that bends the belt: diameters [m], mass [kg], wrap [rad]; whether a drive stands on it."""
+
+    name: str
+    position: str
+    spot: Spot
+    place: str
+    diameter: float
+    shaft_diameter: float
+    mass: float
+    wrap_angle: float
+    driven: bool
+
+
+@dataclass(frozen=True)
+class DriveUnit:
+    """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg."""
+
+    name: str
+    spot: Spot
+    share: float
+    friction: float
+    wrap_angle: float
+    power: float | None
+    brake: float | None
+    reduced_mass: float
+
+
+@dataclass(frozen=True)
+class TakeUpUnit:
+    """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
+
+    `tension` is what it is set to [N], None where the least needed is looked for.
+    """
+
+    kind: str
+    spot: Spot | None
+    tension: float | None
+    reeving: float
+
+
+@dataclass(frozen=True)
+class CemaFactors:
+    """Ky, Kt [-] and Ai [N] of the classic form of CEMA."""
+
+    flexure: float
+    temperature: float
+    idler_friction: float
+
+
+@dataclass(frozen=True, eq=False)
+class LoopShape:
+    """The stretches in the order the belt meets them from the head: return strand, then carry strand.
+
+    Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
+    belt, bulk and rolls [kg], the rolls' as if it were all at their rims, on the safe side; `least` the least tension
+    for the sag [N].
+    """
+
+    stretches: tuple[Stretch, ...]
+    length: Array
+    mass: Array
+    least: Array
+    way: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A conveyor in SI: m, kg, s, N, Pa, W, rad. Rubber and temperature are not in it (`line.covers`).
+
+    Attributes
+    ----------
+    stretches : tuple of Stretch
+        Carry strand from the tail, then return strand from the head: 2n of n sections, loads of their rolls with them.
+    sections : tuple of RouteSection
+        From the tail.
+    speed, flow, density, gravity : float
+        Of the belt, the bulk, the site.
+    drives : tuple of DriveUnit
+        The first one first.
+    bulk_on_belt : float
+        Friction of bulk on belt μ1 [-].
+    efficiency, regeneration, mains_efficiency : float
+        Motor shaft to belt, belt to motor shaft, mains to motor shaft [-].
+    secondary : {"itemised", "C"}
+        Secondary resistances one by one, or by the length coefficient.
+    support, rtol, softened, flexure_share
+        How the contacts are calculated; whether rubber is softened by its strain; share of flexure without a law [-].
+    """
+
+    stretches: tuple[Stretch, ...]
+    sections: tuple[RouteSection, ...]
+    belt: BeltBody
+    speed: float
+    flow: float
+    density: float
+    gravity: float
+    loading: tuple[LoadingPoint, ...]
+    scrapers: tuple[Scraper, ...]
+    ploughs: tuple[PloughBlade, ...]
+    pulleys: tuple[BendPulley, ...]
+    drives: tuple[DriveUnit, ...]
+    take_up: TakeUpUnit
+    places: Places
+    bulk_on_belt: float
+    efficiency: float
+    regeneration: float
+    mains_efficiency: float
+    start_factor: float
+    torque_factor: float | None
+    stop_deceleration: float | None
+    least_friction: float
+    secondary: str
+    friction_factor: float
+    flexure_share: float
+    cema: CemaFactors | None
+    support: Support
+    rtol: float
+    softened: bool
+    gauss_points: int
+
+    @classmethod
+    def of(cls, conveyor: Conveyor, pressing: Pressing | None = None) -> Line:
+        """Return the SI view of a conveyor.
+
+        Parameters
+        ----------
+        conveyor : Conveyor
+            The spec.
+        pressing : mapping of (section, strand) to float, optional
+            Mass with which tension presses on the rolls of a vertical curve [kg/m].
+
+        Raises
+        ------
+        NoSolutionError
+            The belt lifts off on a concave curve.
+        InputError
+            A law of roll drag does not hold at a load.
+        """
+        drive, route, calculation = conveyor.drive, conveyor.route, conveyor.calculation
+        places = Places(conveyor)
+        efficiency = si(drive.efficiency)
+        return cls(
+            stretches=stretches(conveyor, pressing),
+            sections=tuple(map(_section, route.sections)),
+            belt=_belt(conveyor),
+            speed=si(conveyor.belt.speed),
+            flow=si(conveyor.material.flow),
+            density=si(conveyor.material.density),
+            gravity=si(calculation.gravity),
+            loading=tuple(_loading(conveyor, point, places) for point in route.feeding_points),
+            scrapers=_scrapers(conveyor),
+            ploughs=_ploughs(conveyor, places),
+            pulleys=_pulleys(conveyor, places),
+            drives=_drives(conveyor, places),
+            take_up=_take_up(conveyor, places),
+            places=places,
+            bulk_on_belt=_belt_friction(conveyor),
+            efficiency=efficiency,
+            regeneration=_given(drive.regeneration_efficiency, efficiency),
+            mains_efficiency=drive.mains_efficiency,
+            start_factor=drive.start_factor,
+            torque_factor=drive.torque_factor,
+            stop_deceleration=_known(drive.stop_deceleration),
+            least_friction=si(drive.least_friction),
+            secondary=calculation.secondary,
+            friction_factor=calculation.friction_factor,
+            flexure_share=si(calculation.flexure_share),
+            cema=_cema(calculation.cema),
+            support=calculation.support,
+            rtol=calculation.rtol,
+            softened=calculation.strain != "off",
+            gauss_points=calculation.gauss_points,
+        )
+
+    def pressed(self, conveyor: Conveyor, pressing: Pressing) -> Line:
+        """Return the line with other masses pressing on the rolls of its vertical curves [kg/m].
+
+        Raises
+        ------
+        NoSolutionError
+            The belt lifts off with all that lies on it.
+        """
+        return replace(self, stretches=stretches(conveyor, pressing))
+
+    @property
+    def count(self) -> int:
+        """Number of sections n."""
+        return len(self.sections)
+
+    @property
+    def brakes(self) -> list[float]:
+        """Brake force of every drive at the belt [N]; 0 where it has none."""
+        return [drive.brake or 0.0 for drive in self.drives]
+
+    @property
+    def curved(self) -> bool:
+        """Whether a section is a vertical curve."""
+        return any(section.curve for section in self.sections)
+
+    @property
+    def length(self) -> float:
+        """Along the belt, of one strand [m]."""
+        return math.fsum(section.length for section in self.sections)
+
+    @cached_property
+    def kinds(self) -> tuple[RollKind, ...]:
+        """Rolls by the contact they share."""
+        return roll_kinds(self.stretches, self.gauss_points)
+
+    @cached_property
+    def loop(self) -> LoopShape:
+        """The stretches as the belt meets them from the head."""
+        stretches = loop_order(self.stretches)
+        length = np.array([s.length for s in stretches])
+        moving = [s.line_mass + s.set_mass / s.spacing for s in stretches]
+        return LoopShape(
+            stretches=stretches,
+            length=length,
+            mass=length * np.array(moving),
+            least=np.array([s.least_tension for s in stretches]),
+            way=np.concatenate([[0.0], np.cumsum(length)]),
+        )
+
+
+def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
+    """Put carry strand, return strand in the order the belt meets them from the head: return, carry."""
+    half = len(along) // 2
+    return (*along[half:], *along[:half])
+
+
+def _known(value: Quantity | None) -> float | None:
+    return None if value is None else si(value)
+
+
+def _given(value: Quantity | None, default: float) -> float:
+    return default if value is None else si(value)
+
+
+def _section(section: Section) -> RouteSection:
+    return RouteSection(section.name, si(section.length), section.rise, section.curve, section.signed_radius)
+
+
+def _belt(conveyor: Conveyor) -> BeltBody:
+    belt, carcass = conveyor.belt, conveyor.belt.carcass
+    parts = (belt.top_cover.thickness, belt.bottom_cover.thickness, carcass.thickness)
+    return BeltBody(
+        width=si(belt.width),
+        thickness=math.fsum(map(si, parts)),
+        line_mass=belt.line_mass,
+        carcass=carcass.kind,
+        carcass_thickness=si(carcass.thickness),
+        strength=_known(carcass.strength),
+        stiffness=_known(carcass.stiffness),
+        splice_strength=_known(carcass.splice_strength),
+        splice_making=carcass.splice_making,
+        duty=carcass.duty,
+    )
+
+
+def _loading(conveyor: Conveyor, point: Feeding, places: Places) -> LoadingPoint:
+    route, flow = conveyor.route, si(conveyor.material.flow)
+    spot = places.landing(point.section)
+    section = route.sections[0].name if point.section is None else point.section
+    return LoadingPoint(
+        name=f", {point.section or 'first'}" if route.further_feeding else "",
+        spot=spot,
+        place=places.name(spot),
+        flow=flow * _given(point.share, 1.0),
+        flow_beyond=flow * route.flow_shares[section],
+        speed=si(point.speed),
+        skirt_length=si(point.skirt_length),
+        skirt_width=si(point.skirt_width),
+        belt_friction=point.belt_friction,
+        skirt_friction=point.skirt_friction,
+    )
+
+
+def _belt_friction(conveyor: Conveyor) -> float:
+    feeding = conveyor.route.feeding
+    return BULK_ON_BELT_FRICTION.value if feeding is None else feeding.belt_friction
+
+
+def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
+    return tuple(
+        Scraper(
+            cleaner.count, si(cleaner.width) * si(cleaner.thickness), si(cleaner.pressure), cleaner.friction
+        )
+        for cleaner in conveyor.route.cleaners
+    )
+
+
+def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
+    return tuple(
+        PloughBlade(
+            count=plough.count,
+            spot=places.before(plough.position, plough.section),
+            place="head" if plough.section is None else f"behind {plough.section}, carry",
+            width=si(plough.width),
+            scraping_factor=si(plough.scraping_factor),
+        )
+        for plough in conveyor.route.ploughs
+    )
+
+
+def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
+    driven = {
+        places.before(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys
+    }
+    return tuple(_pulley(conveyor, pulley, places, driven) for pulley in conveyor.route.pulleys)
+
+
+def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, driven: Mapping[Spot, Spot]) -> BendPulley:
+    if pulley.position == "take-up":
+        spot, place = places.take_up(conveyor.route.take_up), "take-up"
+    else:
+        before = places.before(pulley.position, pulley.section)
+        spot = driven.get(before, before)
+        place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
+    return BendPulley(
+        name=pulley.name,
+        position=pulley.position,
+        spot=spot,
+        place=place,
+        diameter=si(pulley.diameter),
+        shaft_diameter=si(pulley.shaft_diameter),
+        mass=si(pulley.mass),
+        wrap_angle=si(pulley.wrap_angle),
+        driven=spot in driven.values(),
+    )
+
+
+def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
+    pulleys = conveyor.drive.pulleys
+    names = ["drive", *(pulley.name for pulley in conveyor.drive.further_drives)]
+    return tuple(
+        DriveUnit(
+            name=name,
+            spot=places.drive(pulley),
+            share=share,
+            friction=pulley.friction,
+            wrap_angle=si(pulley.wrap_angle),
+            power=_known(pulley.installed_power),
+            brake=_known(pulley.brake_force),
+            reduced_mass=si(pulley.reduced_mass),
+        )
+        for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
+    )
+
+
+def _shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
+    """Share of each drive in the whole force: as given, else by installed power, which all of several then have."""
+    if any(pulley.share is not None for pulley in pulleys):
+        return [_given(pulley.share, 0.0) for pulley in pulleys]
+    if len(pulleys) == 1:
+        return [1.0]
+    powers = [_given(pulley.installed_power, 0.0) for pulley in pulleys]
+    return [power / math.fsum(powers) for power in powers]
+
+
+def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
+    given = conveyor.route.take_up
+    if given is None:
+        return TakeUpUnit("slack side", None, None, 1.0)
+    tension = _known(given.tension)
+    if given.mass is not None:
+        # the law of take_up.take_up_mass, solved for the tension
+        tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / LOOP_STRANDS
+    spot = None if given.position == "drive" else places.take_up(given)
+    return TakeUpUnit(given.kind, spot, tension, given.reeving)
+
+
+def _cema(factors: Cema | None) -> CemaFactors | None:
+    if factors is None:
+        return None
+    return CemaFactors(factors.flexure_factor, factors.temperature_factor, si(factors.idler_friction))

@@ -1,0 +1,90 @@
+"""Places of the loop. What stands at one boundary the belt meets in the order of `Stand`.
+
+Boundaries between stretches are counted in running direction from the head: the n stretches of the return strand first,
+the tail is boundary n, then the n of the carry strand; boundary 2n is the head again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from conveyor.models import Conveyor, DrivePulley, TakeUp
+
+_TURNS = frozenset({"head", "tail"})
+
+
+class Stand(IntEnum):
+    """In which order the belt meets what stands at one boundary: the strand's end, head or tail, the next strand."""
+
+    END = 0
+    """Pulleys and ploughs behind a section."""
+    END_DRIVE = 1
+    END_BEHIND = 2
+    """A take-up behind it."""
+    TURN = 3
+    """Pulleys of head or tail, ploughs before the head."""
+    TURN_DRIVE = 4
+    TURN_BEHIND = 5
+    """Snubs and cleaners behind the head; the take-up behind head or tail."""
+    LANDING = 6
+    """Bulk that lands on the next section, and its skirts."""
+
+
+@dataclass(frozen=True, order=True)
+class Spot:
+    """A place of the loop: a boundary, and where among what stands there; sorted as the belt meets them."""
+
+    boundary: int
+    stand: Stand
+
+
+class Places:
+    """Spots of the loop by the names a spec gives them."""
+
+    def __init__(self, conveyor: Conveyor) -> None:
+        self.count = len(conveyor.route.sections)
+        self._names = [section.name for section in conveyor.route.sections]
+        self._index = {name: i for i, name in enumerate(self._names)}
+        self._drive = conveyor.drive
+
+    def boundary(self, position: str, section: str | None) -> int:
+        """Boundary of a position; the head is the end of the carry strand."""
+        if position == "head":
+            return 2 * self.count
+        if position == "tail" or section is None:
+            return self.count
+        index = self._index[section]
+        return self.count + index + 1 if position == "carry" else self.count - index
+
+    def landing(self, section: str | None) -> Spot:
+        """Where bulk lands on a section, behind all else that stands at its tail end."""
+        return Spot(self.count + (0 if section is None else self._index[section]), Stand.LANDING)
+
+    def name(self, landing: Spot) -> str:
+        """Where bulk lands, in words."""
+        section = landing.boundary - self.count
+        return "tail" if section == 0 else f"tail end of {self._names[section]}"
+
+    def before(self, position: str, section: str | None) -> Spot:
+        """Place before the drives of a position."""
+        stand = Stand.TURN if position in _TURNS else Stand.END
+        return Spot(self.boundary(position, section), stand)
+
+    def drive(self, pulley: DrivePulley) -> Spot:
+        """Place of a drive."""
+        stand = Stand.TURN_DRIVE if pulley.position in _TURNS else Stand.END_DRIVE
+        return Spot(self.boundary(pulley.position, pulley.section), stand)
+
+    def behind(self, position: str, section: str | None) -> Spot:
+        """Place behind the drives of a position; behind the head the loop begins."""
+        if position == "head":
+            return Spot(0, Stand.TURN_BEHIND)
+        stand = Stand.TURN_BEHIND if position == "tail" else Stand.END_BEHIND
+        return Spot(self.boundary(position, section), stand)
+
+    def take_up(self, take_up: TakeUp | None) -> Spot:
+        """Place of the take-up's pulleys: behind the first drive without one."""
+        if take_up is None or take_up.position == "drive":
+            return self.behind(self._drive.position, self._drive.section)
+        return self.behind(take_up.position, take_up.section)

@@ -1,0 +1,98 @@
+"""Rolls that share a contact: those of one radius and spacing on one strand, with all line loads that occur on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.line.stretches import Strand, Stretch, roll_at
+from conveyor.units import si
+
+Array = NDArray[np.float64]
+
+_CURVE_DOWN_TO = 0.25  # of the highest load: a curve to be looked at, also where all rolls bear the same
+
+
+@dataclass(frozen=True, eq=False)
+class RollKind:
+    """Rolls of one radius [m] and spacing [m] on one strand: all their line loads [N/m] in one array.
+
+    Attributes
+    ----------
+    rolls : tuple of (int, int)
+        Stretch and place in the set of each.
+    starts : ndarray of int
+        Where each roll's loads begin in `line_loads`, which is `distinct[which]`, for sections that bear alike.
+    weights, sets : ndarray
+        Of the quadrature along the roll [m]; how many such sets there are [-].
+    lowest, highest : float
+        Range of the load curve [N/m].
+    """
+
+    strand: Strand
+    radius: float
+    spacing: float
+    rolls: tuple[tuple[int, int], ...]
+    starts: NDArray[np.int_]
+    line_loads: Array
+    distinct: Array
+    which: NDArray[np.intp]
+    weights: Array
+    sets: Array
+    lowest: float
+    highest: float
+
+    def bears_like(self, other: RollKind) -> bool:
+        """Whether the rolls work a cover exactly as others do."""
+        return (self.strand, self.radius, self.spacing) == (
+            other.strand,
+            other.radius,
+            other.spacing,
+        ) and all(
+            np.array_equal(mine, theirs)
+            for mine, theirs in (
+                (self.line_loads, other.line_loads),
+                (self.weights, other.weights),
+                (self.sets, other.sets),
+            )
+        )
+
+
+def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, ...]:
+    """Sort the rolls of a line by the contact they share; `points` of the quadrature along a roll."""
+    gathered: dict[tuple[Strand, float, float], list[tuple[int, int]]] = {}
+    for i, stretch in enumerate(stretches):
+        for place in range(len(stretch.loads)):
+            radius = 0.5 * si(roll_at(stretch.idlers, place).diameter)
+            gathered.setdefault((stretch.strand, radius, stretch.spacing), []).append((i, place))
+    kinds = []
+    for (strand, radius, spacing), rolls in gathered.items():
+        loads = [stretches[i].loads[place] for i, place in rolls]
+        sampled = [load.line_loads(points) for load in loads]
+        lines = np.concatenate([w for w, _ in sampled])
+        distinct, which = np.unique(lines, return_inverse=True)
+        highest = max(float(lines.max()), *(load.peak_line_load for load in loads))
+        kinds.append(
+            RollKind(
+                strand=strand,
+                radius=radius,
+                spacing=spacing,
+                rolls=tuple(rolls),
+                starts=np.cumsum([0, *(w.size for w, _ in sampled[:-1])]),
+                line_loads=lines,
+                distinct=distinct,
+                which=which,
+                weights=np.concatenate([weights for _, weights in sampled]),
+                sets=np.concatenate(
+                    [
+                        np.full(w.size, stretches[i].sets)
+                        for (i, _), (w, _) in zip(rolls, sampled, strict=True)
+                    ]
+                ),
+                lowest=min(float(lines.min()), _CURVE_DOWN_TO * highest),
+                highest=highest,
+            )
+        )
+    return tuple(kinds)

@@ -1,0 +1,295 @@
+"""The whole calculation in one drawing.
+
+spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
+
+Many variants go through it side by side: their contacts are solved together; what several of them share (a line, a
+rubber at a temperature, a cover at its working strain) is made once. On vertical curves the tensions load the rolls
+again until both agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias, TypeVar
+
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
+from conveyor.line.contacts import Contacts, solve_contacts
+from conveyor.line.covers import Cover, Covers, compounds_by_strand, covers_of, rubbers, softened_covers
+from conveyor.line.line import Line
+from conveyor.line.stretches import Pressing, Strand
+from conveyor.loop.balance import Balance, balance
+from conveyor.loop.belt_duty import BeltDuty, belt_duty
+from conveyor.loop.curves import Convergence, converged, pressing_masses
+from conveyor.loop.frame import Frame
+from conveyor.loop.starting import Motions, motions
+from conveyor.models import Conveyor
+from conveyor.rubber import PronySeries
+
+T = TypeVar("T")
+NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with what is done and the whole; what is done never falls."""
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """A conveyor, and what of it is not as its spec says.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        Its ambient gives the temperature.
+    rubber : mapping of strand to PronySeries
+        Covers' rubber at the belt's temperature instead of the compounds' [Pa, s].
+    roll_drag : float
+        Drag of all rolls over the computed one [-].
+    """
+
+    conveyor: Conveyor
+    rubber: Mapping[Strand, PronySeries] = field(default_factory=dict)
+    roll_drag: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Calculation:
+    """Everything calculated for one conveyor, SI.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        What was calculated.
+    contacts : Contacts
+        Every roll on its load curve.
+    balance : Balance
+        Forces, tensions, power.
+    convergence : Convergence or None
+        How tensions and roll loads settled on vertical curves; None without curves.
+    """
+
+    conveyor: Conveyor
+    contacts: Contacts
+    balance: Balance
+    convergence: Convergence | None = None
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.contacts.line
+
+    @cached_property
+    def motions(self) -> Motions:
+        """Start, coasting, braking, holding; limits of the bulk."""
+        return motions(self.balance)
+
+    @cached_property
+    def belt_duty(self) -> BeltDuty:
+        """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
+        return belt_duty(self.balance)
+
+    @property
+    def error_estimate(self) -> float:
+        """Largest relative error estimate of any roll's indentation [-]."""
+        return self.contacts.error
+
+
+def calculate(conveyor: Conveyor) -> Calculation:
+    """Calculate one conveyor.
+
+    Raises
+    ------
+    NoSolutionError
+        A roll's contact has no answer, the tensions do not settle, or the belt lifts off with its bulk.
+    RangeError
+        A compound is not known at the belt's temperature.
+    """
+    (found,) = calculate_many([Variant(conveyor)])
+    if not isinstance(found, Calculation):
+        raise found
+    return found
+
+
+def calculate_many(
+    variants: Sequence[Variant], rtol: float | None = None, progress: Progress | None = None
+) -> list[Calculation | NoAnswer]:
+    """Calculate many variants, the contacts of all of them side by side.
+
+    Parameters
+    ----------
+    variants : sequence of Variant
+        Conveyors.
+    rtol : float, optional
+        Relative tolerance of the contacts; that of each spec without it [-].
+    progress : callable, optional
+        Called as variants are loaded, and when they are solved; a variant counts half for each.
+
+    Returns
+    -------
+    list
+        In their order the calculations, or why a variant has none.
+    """
+    shared, told = _Shared(), _Told(len(variants), progress)
+    answers: dict[int, Calculation | NoAnswer] = {}
+    going = {i: _Step() for i in range(len(variants))}
+    while going:
+        loaded: dict[int, tuple[_Loaded, Covers]] = {}
+        for i, step in going.items():
+            try:
+                loaded[i] = shared.loaded(variants[i], step.pressing)
+            except (NoSolutionError, RangeError, InputError) as error:
+                answers[i] = error
+            told(len(answers), len(loaded))
+        lines = [one.line for one, _ in loaded.values()]
+        solved = solve_contacts(lines, [covers for _, covers in loaded.values()], rtol)
+        again: dict[int, _Step] = {}
+        for i, contacts in zip(loaded, solved, strict=True):
+            if isinstance(contacts, NoSolutionError):
+                answers[i] = contacts
+                continue
+            try:
+                found = _closed(variants[i], loaded[i][0], contacts, going[i])
+            except NoSolutionError as error:
+                answers[i] = error
+            else:
+                (answers if isinstance(found, Calculation) else again)[i] = found  # type: ignore[index]
+        told(len(answers), 0)
+        going = again
+    return [answers[i] for i in range(len(variants))]
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """Where the iteration of a variant stands: what presses on its curves, and the result before."""
+
+    pressing: Pressing = field(default_factory=dict)
+    before: Balance | None = None
+    convergence: Convergence | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Loaded:
+    """A line with its loop and the forces that no rubber changes."""
+
+    line: Line
+    frame: Frame
+    fixed: WithoutRubber
+
+
+def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> Calculation | _Step:
+    """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
+    along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
+    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
+    if not loaded.line.curved:
+        return Calculation(variant.conveyor, contacts, found)
+    steady, judged = found.settled.steady, None
+    if step.before is not None:
+        before = step.before.settled.steady
+        judged = converged(step.convergence, before, steady, loaded.line, found.tensions.largest)
+        if judged.settled(loaded.line.rtol):
+            return Calculation(variant.conveyor, contacts, found, judged)
+    return _Step(pressing_masses(loaded.line, steady), found, judged)
+
+
+class _Shared:
+    """What variants have in common, made once: lines, rubbers at a temperature, covers at their working strain.
+
+    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
+    """
+
+    def __init__(self) -> None:
+        self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
+        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
+        self._covers: list[tuple[_Worked, Covers, dict[Strand, Cover]]] = []
+
+    def loaded(self, variant: Variant, pressing: Pressing) -> tuple[_Loaded, Covers]:
+        """The line of a variant under what presses on its curves, and its covers at their working strain.
+
+        Raises
+        ------
+        NoSolutionError
+            The belt lifts off on a concave curve, or a cover has no answer at its strain.
+        RangeError
+            A compound is not known at the belt's temperature, or at the strain of the rolls.
+        InputError
+            A law of roll drag does not hold at a load.
+        """
+        given = variant.conveyor
+        carry, back = compounds_by_strand(given).values()
+        rubber = _once(
+            self._rubbers, (carry, back), (given.temperature,), lambda: rubbers(given, given.temperature)
+        )
+        parts = (given.belt, given.idlers, given.material, given.route, given.drive, given.calculation)
+        air = given.air_temperature if given.idlers.drag_follows_air else None
+        loaded = _once(self._lines, parts, (air, dict(pressing)), lambda: _prepared(given, pressing))
+        plain = covers_of(given, {**rubber, **variant.rubber})
+        return loaded, self._softened(_Worked(loaded.line, given, given.temperature), plain)
+
+    def _softened(self, work: _Worked, covers: Covers) -> Covers:
+        """The very covers of a line that works the same rubber alike, so that load curves are shared."""
+        for other, known, found in self._covers:
+            if all(covers[s].like(known[s]) for s in covers) and work.like(other):
+                return found
+        made = softened_covers(work.line, covers, work.conveyor, work.temperature)
+        self._covers.append((work, covers, made))
+        return made
+
+
+def _once(
+    known: list[tuple[tuple[object, ...], tuple[object, ...], T]],
+    parts: tuple[object, ...],
+    values: tuple[object, ...],
+    make: Callable[[], T],
+) -> T:
+    """What was made of the very same parts and equal values, or what is made of them now."""
+    for others, equals, found in known:
+        if values == equals and all(a is b for a, b in zip(parts, others, strict=True)):
+            return found
+    made = make()
+    known.append((parts, values, made))
+    return made
+
+
+def _prepared(conveyor: Conveyor, pressing: Pressing) -> _Loaded:
+    line = Line.of(conveyor, pressing)
+    return _Loaded(line, Frame(line), without_rubber(line))
+
+
+@dataclass(frozen=True, eq=False)
+class _Worked:
+    """A line at work on the rubber of its conveyor at a temperature [K]."""
+
+    line: Line
+    conveyor: Conveyor
+    temperature: float
+
+    def like(self, other: _Worked) -> bool:
+        """Whether the rolls work the same compounds exactly as another line's do."""
+        mine, theirs = self.line, other.line
+        if mine is theirs and self.temperature == other.temperature:
+            same = True
+        else:
+            same = (self.temperature, mine.speed, mine.softened, mine.support) == (
+                other.temperature, theirs.speed, theirs.softened, theirs.support
+            ) and len(mine.kinds) == len(theirs.kinds) and all(
+                a.bears_like(b) for a, b in zip(mine.kinds, theirs.kinds, strict=True)
+            )  # fmt: skip
+        pairs = zip(
+            compounds_by_strand(self.conveyor).values(),
+            compounds_by_strand(other.conveyor).values(),
+            strict=True,
+        )
+        return same and all(a is b for a, b in pairs)
+
+
+class _Told:
+    """Tells how far a batch is; a variant that must be loaded once more takes nothing back."""
+
+    def __init__(self, variants: int, progress: Progress | None) -> None:
+        self._whole, self._most, self._progress = 2 * variants, 0, progress
+
+    def __call__(self, solved: int, loaded: int) -> None:
+        self._most = max(self._most, 2 * solved + loaded)
+        if self._progress is not None:
+            self._progress(self._most, self._whole)
