@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import Final
 
 from conveyor.units import System, display
@@ -10,6 +11,8 @@ from conveyor.units import System, display
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
 _WHOLE = re.compile(r"^-?\d{4,}")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 
 def celsius(temperature: float) -> float:
@@ -40,3 +43,66 @@ def belt_strength(value: float, system: System = "SI") -> str:
     if system == "SI":
         return f"{value / 1e3:,.0f} N/mm"
     return figure(value, "line force", system).replace("lbf/in", "PIW")
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence with figures in it: SI values with their kinds, written in the reader's units.
+
+    Parameters
+    ----------
+    words : str
+        With {} for each figure.
+    figures : tuple of (float, str)
+        Value and kind of quantity; beside those, "belt strength" is written as belts are named, "safety" with two
+        decimals, "number" plainly.
+
+    Examples
+    --------
+    >>> line = said("at most {}, {} are installed", (500e3, "power"), (450e3, "power"))
+    >>> line.text(), line.text("US")
+    ('at most 500 kW, 450 kW are installed', 'at most 670.5 hp, 603.5 hp are installed')
+    """
+
+    words: str
+    figures: tuple[tuple[float, str], ...] = ()
+
+    def text(self, system: System = "SI") -> str:
+        """Write it in a system of units."""
+        return self.words.format(*(_written(value, kind, system) for value, kind in self.figures))
+
+
+def said(words: str, *figures: tuple[float, str]) -> Said:
+    """Make a sentence with figures."""
+    return Said(words, figures)
+
+
+def quoted(words: str) -> str:
+    """Return a user's text so that its braces stand for themselves in a `Said`."""
+    return words.replace("{", "{{").replace("}", "}}")
+
+
+def _written(value: float, kind: str, system: System) -> str:
+    if kind == "belt strength":
+        return belt_strength(value, system)
+    if kind == "safety":
+        return f"{value:.2f}"
+    return f"{value:g}" if kind == "number" else figure(value, kind, system)
+
+
+def band_words(band: tuple[float, float]) -> str:
+    """Write a band of frequency [Hz] for people.
+
+    Examples
+    --------
+    >>> band_words((154.31, 2605.4)), band_words((7.7e-4, 1e11))
+    ('154 to 2,605 Hz', '8×10⁻⁴ to 1×10¹¹ Hz')
+    """
+    return f"{' to '.join(map(_frequency, band))} Hz"
+
+
+def _frequency(value: float) -> str:
+    if _LEAST <= value < _MOST:
+        return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
+    digit, exponent = f"{value:.0e}".split("e")
+    return f"{digit}×10{str(int(exponent)).translate(_RAISED)}"

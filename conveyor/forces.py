@@ -372,8 +372,13 @@ class Bend:
         bend = base + slope * 0.5 * (tight + slack)
         if self.bearings is None:
             return bend, 0.0
-        mass = self.pulley.mass
-        load = pulley_load(tight_tension=tight, slack_tension=slack, pulley_mass=mass, gravity=gravity)
+        load = pulley_load(
+            tight_tension=tight,
+            slack_tension=slack,
+            pulley_mass=self.pulley.mass,
+            gravity=gravity,
+            wrap_angle=self.pulley.wrap_angle,
+        )
         return bend, self.bearings * load
 
     def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:

@@ -25,6 +25,7 @@ from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses
 from conveyor.loop.frame import Frame
 from conveyor.loop.starting import Motions, motions
+from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
 
@@ -41,7 +42,9 @@ class Variant:
     Attributes
     ----------
     conveyor : Conveyor
-        Its ambient gives the temperature.
+        The spec.
+    temperature : float, optional
+        Of the covers, instead of the spec's; the air stays [K].
     rubber : mapping of strand to PronySeries
         Covers' rubber at the belt's temperature instead of the compounds' [Pa, s].
     roll_drag : float
@@ -49,8 +52,14 @@ class Variant:
     """
 
     conveyor: Conveyor
+    temperature: float | None = None
     rubber: Mapping[Strand, PronySeries] = field(default_factory=dict)
     roll_drag: float = 1.0
+
+    @property
+    def covers_at(self) -> float:
+        """Temperature of the covers [K]."""
+        return self.conveyor.temperature if self.temperature is None else self.temperature
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +70,8 @@ class Calculation:
     ----------
     conveyor : Conveyor
         What was calculated.
+    temperature : float
+        Of its covers [K].
     contacts : Contacts
         Every roll on its load curve.
     balance : Balance
@@ -70,6 +81,7 @@ class Calculation:
     """
 
     conveyor: Conveyor
+    temperature: float
     contacts: Contacts
     balance: Balance
     convergence: Convergence | None = None
@@ -88,6 +100,14 @@ class Calculation:
     def belt_duty(self) -> BeltDuty:
         """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
         return belt_duty(self.balance)
+
+    @cached_property
+    def year(self) -> Year | None:
+        """Energy of a year at even load and its cost; None without hours, or where a duty has its own year."""
+        operation = self.conveyor.operation
+        if operation is None:
+            return None
+        return year(operation, self.balance.power.mains, self.line.flow)
 
     @property
     def error_estimate(self) -> float:
@@ -182,13 +202,13 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) 
     along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:
-        return Calculation(variant.conveyor, contacts, found)
+        return Calculation(variant.conveyor, variant.covers_at, contacts, found)
     steady, judged = found.settled.steady, None
     if step.before is not None:
         before = step.before.settled.steady
         judged = converged(step.convergence, before, steady, loaded.line, found.tensions.largest)
         if judged.settled(loaded.line.rtol):
-            return Calculation(variant.conveyor, contacts, found, judged)
+            return Calculation(variant.conveyor, variant.covers_at, contacts, found, judged)
     return _Step(pressing_masses(loaded.line, steady), found, judged)
 
 
@@ -215,16 +235,14 @@ class _Shared:
         InputError
             A law of roll drag does not hold at a load.
         """
-        given = variant.conveyor
+        given, at = variant.conveyor, variant.covers_at
         carry, back = compounds_by_strand(given).values()
-        rubber = _once(
-            self._rubbers, (carry, back), (given.temperature,), lambda: rubbers(given, given.temperature)
-        )
+        rubber = _once(self._rubbers, (carry, back), (at,), lambda: rubbers(given, at))
         parts = (given.belt, given.idlers, given.material, given.route, given.drive, given.calculation)
         air = given.air_temperature if given.idlers.drag_follows_air else None
         loaded = _once(self._lines, parts, (air, dict(pressing)), lambda: _prepared(given, pressing))
         plain = covers_of(given, {**rubber, **variant.rubber})
-        return loaded, self._softened(_Worked(loaded.line, given, given.temperature), plain)
+        return loaded, self._softened(_Worked(loaded.line, given, at), plain)
 
     def _softened(self, work: _Worked, covers: Covers) -> Covers:
         """The very covers of a line that works the same rubber alike, so that load curves are shared."""

@@ -135,6 +135,11 @@ def si(value: Quantity) -> float:
     return float(value.to_base_units().magnitude if scale is None else value.magnitude * scale[0] / scale[1])
 
 
+def same(one: Quantity, other: Quantity) -> bool:
+    """Tell whether two quantities have the same value, in whatever units."""
+    return si(one) == si(other)
+
+
 @cache
 def _si_scale(unit: Any) -> tuple[float, float] | None:
     """Factor and divisor to SI, None of a temperature scale with an offset; asked of pint once for each unit."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -21,6 +20,11 @@ from conveyor.models.methods import Cema
 from conveyor.units import Quantity, si
 
 Array = NDArray[np.float64]
+
+_LEAST_DRIVEN_WRAP = math.radians(90.0)
+"""Nobody drives a pulley that the belt lies on for less; general knowledge."""
+_MOST_DRIVEN_WRAP = math.radians(270.0)
+"""On one pulley; a drive of more stands for several, general knowledge."""
 
 
 @dataclass(frozen=True)
@@ -402,30 +406,56 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
 
 
 def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
-    driven = {
-        places.before(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys
-    }
-    return tuple(_pulley(conveyor, pulley, places, driven) for pulley in conveyor.route.pulleys)
+    driven = _driven(conveyor)
+    return tuple(
+        _pulley(conveyor, pulley, places, driven=i in driven)
+        for i, pulley in enumerate(conveyor.route.pulleys)
+    )
 
 
-def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, driven: Mapping[Spot, Spot]) -> BendPulley:
-    if pulley.position == "take-up":
-        spot, place = places.take_up(conveyor.route.take_up), "take-up"
-    else:
-        before = places.before(pulley.position, pulley.section)
-        spot = driven.get(before, before)
-        place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
+def _driven(conveyor: Conveyor) -> frozenset[int]:
+    """Which pulleys of the route the drives turn: at each drive's place as many as stand there, those most wrapped.
+
+    What else stands there bends the belt or is a snub, and is not driven.
+    """
+    found: set[int] = set()
+    for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
+        wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
+        count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
+        beside = [
+            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
+            for i, pulley in enumerate(conveyor.route.pulleys)
+            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
+        ]
+        found.update(i for _, _, i in sorted(beside)[:count])
+    return frozenset(found)
+
+
+def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> BendPulley:
     return BendPulley(
         name=pulley.name,
         position=pulley.position,
-        spot=spot,
-        place=place,
+        spot=_pulley_spot(conveyor, pulley, places, driven=driven),
+        place=pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}",
         diameter=si(pulley.diameter),
         shaft_diameter=si(pulley.shaft_diameter),
         mass=si(pulley.mass),
         wrap_angle=si(pulley.wrap_angle),
-        driven=spot in driven.values(),
+        driven=driven,
     )
+
+
+def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Spot:
+    """Where the belt meets a pulley; one beside a driven one on the return strand, on a strand before the drive."""
+    if pulley.position == "take-up":
+        return places.take_up(conveyor.route.take_up)
+    at = {(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys}
+    drive = at.get((pulley.position, pulley.section))
+    if drive is not None and driven:
+        return drive
+    if drive is not None and pulley.position == "head":
+        return places.behind("head", None)
+    return places.before(pulley.position, pulley.section)
 
 
 def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from conveyor.errors import InputError
 from conveyor.laws.loading import RollLoad
 from conveyor.laws.resistance import (
+    RollDrag,
     bearing_roll_drag,
     linear_roll_drag,
     oil_viscosity,
@@ -78,8 +79,13 @@ def _law(roll: Roll, speed: float, air: float, field: str) -> DragLaw:
         return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), field)
     if isinstance(law, BearingDrag):
         return _named(_bearing(law, diameter, speed, air, field), field)
-    drag = roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=diameter).force
+    drag = running_drag(roll).force
     return lambda _load: drag
+
+
+def running_drag(roll: Roll) -> RollDrag:
+    """Drag of a roll at its rim as given, or the acceptance limit of its diameter."""
+    return roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
 
 
 def _maker(law: MakerDrag, rotation: float) -> DragLaw:

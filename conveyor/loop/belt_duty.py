@@ -169,9 +169,10 @@ def _pulleys(line: Line) -> Iterator[PulleyCheck]:
 
 
 def _group(pulley: BendPulley) -> Group:
-    if pulley.driven or pulley.position == "head":
+    snub = pulley.wrap_angle < SNUB_WRAP
+    if pulley.driven or (pulley.position == "head" and not snub):
         return "A"
-    return "C" if pulley.wrap_angle < SNUB_WRAP else "B"
+    return "C" if snub else "B"
 
 
 def _curves(found: Balance) -> Iterator[CurveCheck]:

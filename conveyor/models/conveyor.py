@@ -110,9 +110,21 @@ class Conveyor(Model):
         return si(self.ambient.belt)
 
     @property
+    def belt_speed(self) -> float:
+        """Of the belt [m/s]."""
+        return si(self.belt.speed)
+
+    @property
     def air_temperature(self) -> float:
         """Of the air [K]."""
         return si(self.ambient.temperature)
+
+    @property
+    def cross_sections(self) -> tuple[float, float] | None:
+        """Cross-section of the bulk and the largest the belt holds (ISO 5048) [m²]; None where there is no rule."""
+        from conveyor.models.checks import cross_sections
+
+        return cross_sections(self)
 
     @property
     def carry_compound(self) -> RubberCompound:

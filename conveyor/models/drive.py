@@ -94,6 +94,11 @@ class Drive(DrivePulley):
         return any(part.side == "mains" for part in self.train)
 
     @property
+    def certain_friction(self) -> float:
+        """Friction that is certain where it helps to brake, over the computed one [-]."""
+        return si(self.least_friction)
+
+    @property
     def mains_efficiency(self) -> float:
         """From the mains to the motor's shaft [-]; 1 where the train has no part there."""
         return product(self.train, "mains")

@@ -101,6 +101,21 @@ class DutyEntry(Model):
     speed: BeltSpeed | None = None
     """Of the belt, where it differs."""
 
+    @property
+    def seconds(self) -> float:
+        """Time in a year [s]."""
+        return si(self.hours)
+
+    @property
+    def load(self) -> float:
+        """Mass flow over that of the spec [-]."""
+        return si(self.share)
+
+    def __str__(self) -> str:
+        parts = [text(self.hours), f"share {text(self.share)}"]
+        parts += [text(value) for value in (self.temperature, self.speed) if value is not None]
+        return ", ".join(parts)
+
 
 class Operation(Model):
     """How long the conveyor runs, at which loads, and what its energy costs."""
@@ -135,6 +150,11 @@ class Operation(Model):
             **data,
             "hours_per_year": f"{total:.12g} h" if total <= YEAR_HOURS else "0 h",
         }
+
+    @property
+    def seconds_per_year(self) -> float:
+        """Time in operation in a year [s]."""
+        return si(self.hours_per_year)
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -7,7 +7,7 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from conveyor.models.base import Model, Problem, Switch, refuse
-from conveyor.units import Bounds, Fraction, TemperatureDifference, si, text
+from conveyor.units import Bounds, Fraction, Quantity, TemperatureDifference, si, text
 
 HalfWidth = Annotated[Fraction, Bounds(gt="0 %", lt="100 %")]
 Share = Annotated[Fraction, Bounds(ge="0 %", lt="100 %")]
@@ -36,6 +36,11 @@ class Uncertainty(Model):
     """Of the belt's covers, up and down."""
     rubber: Switch = False
     """Whether the compounds' replicas (bootstrap of their fits) are calculated, for those that have them."""
+
+    def half_width(self, name: str) -> float | None:
+        """Half width of a range, as a share or in kelvin [-, K]; None where it is not given."""
+        given: Quantity | None = getattr(self, name)
+        return None if given is None else si(given)
 
     @model_validator(mode="after")
     def _lower_first(self) -> Self:

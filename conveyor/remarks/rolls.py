@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from conveyor.figures import figure
+from conveyor.figures import Said, said
 from conveyor.files.libraries import widest_spacings
-from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR, roll_drag
-from conveyor.line.roll_drags import bearing_viscosity
-from conveyor.line.roll_lives import roll_life
-from conveyor.line.stretches import Strand
-from conveyor.line.walk import StretchResult
+from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR
+from conveyor.line.roll_drags import bearing_viscosity, running_drag
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
-from conveyor.units import quantity, si, text
+from conveyor.pipeline import Calculation
+from conveyor.units import quantity, same, text
 
-ASKED_LIFE = 30e3
-"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
 COLD_OIL = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
 )
@@ -112,70 +108,75 @@ def _entries(conveyor: Conveyor) -> Iterator[str]:
             yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
 
 
-def roll_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> tuple[str, ...]:
+def roll_warnings(found: Calculation) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
+    conveyor = found.conveyor
     return (
         *_drag_warnings(conveyor),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
         *_cover_warnings(conveyor),
-        *_life_warnings(results),
-        *_set_warnings(conveyor, results),
+        *_set_warnings(found),
         *_other_warnings(conveyor),
     )
 
 
-def _drag_warnings(conveyor: Conveyor) -> Iterator[str]:
-    air, units = si(conveyor.ambient.temperature), conveyor.report.units
+def _drag_warnings(conveyor: Conveyor) -> Iterator[Said]:
+    air, at = conveyor.air_temperature, text(conveyor.ambient.temperature)
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         for name, roll in _rolls(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
-                yield from _bearing_warnings(field, law, air, text(conveyor.ambient.temperature))
+                yield from _bearing_warnings(field, law, air, at)
             elif law is None:
-                drag = roll_drag(
-                    None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter)
-                )
+                drag = running_drag(roll)
                 if drag.assumed:
-                    yield (
-                        f"idlers.{strand}: roll drag not given, {figure(drag.force, 'force', units)} a roll assumed "
-                        f"({drag.source}; the limit of a new roll's test, give {field}.drag)"
+                    yield said(
+                        f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({drag.source}; the limit of a new "
+                        f"roll's test, give {field}.drag)",
+                        (drag.force, "force"),
                     )
 
 
-def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[str]:
+def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[Said]:
     missing = [name for name in ("f0", "f1_factor", "f1_exponent") if name not in law.model_fields_set]
     if missing:
-        yield (
+        yield said(
             f"{field}.drag_law: {', '.join(missing)} not given, upper ends for greased ball bearings assumed "
             "(general knowledge, Palmgren's range); a measured drag goes before this law"
         )
     viscosity = bearing_viscosity(law, air)
     if viscosity > COLD_OIL:
-        yield (
+        yield said(
             f"{field}.drag_law: the oil has {viscosity * 1e6:.4g} mm²/s at {temperature}: bearings warm themselves, "
             "the drag is overestimated; give a measured drag or drag_law.warming"
         )
 
 
-def _flexure_warnings(conveyor: Conveyor) -> Iterator[str]:
+def _flexure_warnings(conveyor: Conveyor) -> Iterator[Said]:
     calculation = conveyor.calculation
     flexure = calculation.flexure
     if flexure is None:
         if "flexure_share" not in calculation.model_fields_set:
             share = f"{FLEXURE_SHARE.value:.0%}"
-            yield f"calculation.flexure_share not given: {share} assumed, measured at one overland site"
+            yield said(f"calculation.flexure_share not given: {share} assumed, measured at one overland site")
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]
     if left_out:
-        yield f"calculation.flexure.{left_out[0]} not given: flexure of the {left_out[0]} is not in the figures"
+        yield said(
+            f"calculation.flexure.{left_out[0]} not given: flexure of the {left_out[0]} is not in the figures"
+        )
     if flexure.belt is not None:
-        yield "calculation.flexure.belt: a derived law of the belt between its sets, not measured on a conveyor"
+        yield said(
+            "calculation.flexure.belt: a derived law of the belt between its sets, not measured on a conveyor"
+        )
     if flexure.bulk is not None:
-        yield "calculation.flexure.bulk: an upper bound; its opening angle is the spec's, no law computes it here"
+        yield said(
+            "calculation.flexure.bulk: an upper bound; its opening angle is the spec's, no law computes it here"
+        )
 
 
-def _library_warnings(conveyor: Conveyor) -> Iterator[str]:
+def _library_warnings(conveyor: Conveyor) -> Iterator[Said]:
     for field, model in _listed(conveyor):
         entry = model.entry
         if entry is None or not entry.general_knowledge:
@@ -184,10 +185,12 @@ def _library_warnings(conveyor: Conveyor) -> Iterator[str]:
         taken = [name for name in entry.fields if name != "name" and name not in without(given, entry.fields)]
         if taken:
             spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
-            yield f'{field}: {", ".join(taken)} of "{entry.name}" are {entry.source}, in practice {spans}'
+            yield said(
+                f'{field}: {", ".join(taken)} of "{entry.name}" are {entry.source}, in practice {spans}'
+            )
 
 
-def _cover_warnings(conveyor: Conveyor) -> Iterator[str]:
+def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
     """A listed mass is that of the listed covers."""
     belt = conveyor.belt
     held = {} if belt.entry is None else belt.entry.fields
@@ -195,59 +198,39 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[str]:
         return
     for name, cover in (("top_cover", belt.top_cover), ("bottom_cover", belt.bottom_cover)):
         listed = held.get(name, {}).get("thickness")
-        if listed is not None and si(quantity(listed)) != si(cover.thickness):
-            yield (
+        if listed is not None and not same(quantity(listed), cover.thickness):
+            yield said(
                 f"belt.mass {text(belt.mass)} is listed for a {name} of {listed}, the spec has "
                 f"{text(cover.thickness)}: give belt.mass"
             )
 
 
-def _life_warnings(results: tuple[StretchResult, ...]) -> Iterator[str]:
-    shortest: dict[Strand, tuple[float, str, str]] = {}
-    seen: set[tuple[Strand, int, float, float]] = set()
-    for r in results:
-        if all(roll.bearing is None for _, roll in _rolls(r.stretch.idlers)):
-            continue
-        for place, load in enumerate(r.stretch.loads):
-            key = (r.stretch.strand, place, load.bulk_force, load.belt_force)
-            if key in seen:
-                continue
-            seen.add(key)
-            life = roll_life(r.stretch, place, r.rolls[place].curve.contact.speed)
-            if life is not None:
-                found = (life.both, load.name, r.stretch.section)
-                shortest[r.stretch.strand] = min(found, shortest.get(r.stretch.strand, found))
-    for strand, (hours, roll, section) in shortest.items():
-        if hours < ASKED_LIFE:
-            yield (
-                f"{strand} rolls: L10 of the {roll} in {section} is {hours:,.0f} h, less than the {ASKED_LIFE:,.0f} h "
-                "that light series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
-            )
-
-
-def _set_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
-    widest, units = widest_spacings(), conveyor.report.units
-    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        if si(idlers.tilt_angle) > 0.0:
-            yield f"idlers.{strand}: tilt with μ0 = {ROLL_ON_BELT_FRICTION.value:g}, general knowledge, not a source"
-        if si(idlers.offset) > 0.0:
-            yield f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane"
-        spacing = max(r.stretch.spacing for r in results if r.stretch.strand == strand)
+def _set_warnings(found: Calculation) -> Iterator[Said]:
+    widest, idlers_of = widest_spacings(), found.conveyor.idlers
+    for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
+        stretches = [stretch for stretch in found.line.stretches if stretch.strand == strand]
+        if stretches[0].tilt_angle > 0.0:
+            friction = ROLL_ON_BELT_FRICTION.value
+            yield said(f"idlers.{strand}: tilt with μ0 = {friction:g}, general knowledge, not a source")
+        if idlers.offset.magnitude > 0.0:
+            yield said(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")
+        spacing = max(stretch.spacing for stretch in stretches)
         if spacing > widest[strand]:
-            yield (
-                f"idlers.{strand}: sets {figure(spacing, 'length', units)} apart, the widest in use on overland "
-                f"conveyors are {figure(widest[strand], 'length', units)}"
+            yield said(
+                f"idlers.{strand}: sets {{}} apart, the widest in use on overland conveyors are {{}}",
+                (spacing, "length"),
+                (widest[strand], "length"),
             )
 
 
-def _other_warnings(conveyor: Conveyor) -> Iterator[str]:
+def _other_warnings(conveyor: Conveyor) -> Iterator[Said]:
     if any("scraping_factor" not in plough.model_fields_set for plough in conveyor.route.ploughs):
-        yield (
+        yield said(
             f"route.ploughs: scraping factor {SCRAPING_FACTOR.value:g} N/m assumed, normal value of ISO 5048 as "
             "commonly reproduced: it knows neither density nor speed"
         )
     if conveyor.calculation.cema is not None:
-        yield (
+        yield said(
             "CEMA classic form: formulas as commonly reproduced, Ky, Kt and Ai from the spec, one Ky for the whole "
             "conveyor; skirts, cleaners and ploughs are this calculation's"
         )

@@ -7,101 +7,88 @@ safe: motors and starts are sized with the friction at the upper end of a band, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from conveyor.errors import ConveyorError, InputError
+from conveyor.checks import Check, drive_power, holds, not_slack, steady_safety
+from conveyor.errors import InputError
+from conveyor.figures import Said, quoted, said
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
-from conveyor.laws.power import motor_power
-from conveyor.line.walk import StretchResult, worst_error
-from conveyor.loop.curved import Run
-from conveyor.loop.data import loop_data
-from conveyor.loop.settled import Settled
 from conveyor.models import Conveyor, LoadCase, standard_cases
-from conveyor.studies.scenes import Progress, Scene, runs
-from conveyor.studies.variants import with_case, with_temperature
-from conveyor.units import display, si
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from conveyor.loop.balance import Balance
+from conveyor.models.variants import case_settings
+from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
 
 MOTOR_RESERVE: Final = 1.1
 """Rated power over the largest needed one [-]; general knowledge (10 to 15 % is customary), not a source."""
+_CARRYING: Final = frozenset({"as given", "full", "part load"})
 
 
 @dataclass(frozen=True, eq=False)
 class CaseResult:
-    """One case at one temperature and speed; SI.
+    """One case at one temperature and speed.
 
     Attributes
     ----------
-    case, loading : str
-        Name, and what is loaded.
-    temperature, speed : float
-        Of the belt [K], [m/s].
-    flow : float
-        Mass flow where the belt is fully fed [kg/s].
-    indentation, main, effective : float
-        Of both strands [N]; the drive force F_U with the friction as computed [N].
-    effective_low, effective_high : float
-        Drive force with the friction at the ends of the band [N].
-    friction_factor : float
-        The f that DIN 22101's main resistance would need [-].
-    belt, motor, motor_low, motor_high : float
-        Power at the belt, at the motor's shaft, and that at the ends of the band of friction [W].
-    tight, slack, largest, smallest : float
-        Tensions at the drive, and round the loop, start included [N].
-    take_up : float
-        Least tension that the take-up should hold [N].
-    governed_by : str
-        What asks for it.
-    largest_roll : float
-        Highest force on a roll [N].
-    largest_roll_at : str
-        Where that roll is.
-    energy_per_tonne_km : float or None
-        Energy from the mains [kWh/(t km)], where the whole route carries.
-    error : float
-        Largest relative error estimate of the contacts [-].
-    balance : Balance
-        Forces, tensions and power as `analyse` gives them.
+    case : LoadCase
+        What is loaded.
+    found : Calculation
+        Forces, tensions and power as `analyse` gives them, SI.
+    friction_band : tuple of float
+        Friction over the computed one, low and high end [-].
     """
 
-    case: str
-    loading: str
-    temperature: float
-    speed: float
-    flow: float
-    indentation: float
-    main: float
-    effective: float
-    effective_low: float
-    effective_high: float
-    friction_factor: float
-    belt: float
-    motor: float
-    motor_low: float
-    motor_high: float
-    tight: float
-    slack: float
-    largest: float
-    smallest: float
-    take_up: float
-    governed_by: str
-    largest_roll: float
-    largest_roll_at: str
-    energy_per_tonne_km: float | None
-    error: float
-    balance: Balance
+    case: LoadCase
+    found: Calculation
+    friction_band: tuple[float, float]
 
     @property
-    def label(self) -> str:
+    def temperature(self) -> float:
+        """Of the covers [K]."""
+        return self.found.temperature
+
+    @property
+    def speed(self) -> float:
+        """Of the belt [m/s]."""
+        return self.found.line.speed
+
+    @property
+    def label(self) -> Said:
         """Case, temperature and speed for people."""
-        return f"{self.case}, {display(self.temperature, 'temperature')}, {display(self.speed, 'speed')}"
+        return said(
+            f"{quoted(self.case.name)}, {{}}, {{}}", (self.temperature, "temperature"), (self.speed, "speed")
+        )
+
+    @cached_property
+    def forces(self) -> tuple[float, float]:
+        """Drive force with the friction at both ends of the band; lift and acceleration of bulk have none [N]."""
+        settled = self.found.balance.settled
+        low, high = (
+            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
+            for friction in self.friction_band
+        )
+        return low, high
+
+    @cached_property
+    def motors(self) -> tuple[float, float]:
+        """Power at the motors' shafts with the friction at both ends of the band [W]."""
+        low, high = map(self.found.balance.frame.motor, self.forces)
+        return low, high
+
+    @cached_property
+    def heaviest_roll(self) -> tuple[float, str]:
+        """Highest force on a roll [N], and where."""
+        load, stretch = max(
+            ((load, stretch) for stretch in self.found.line.stretches for load in stretch.loads),
+            key=lambda pair: pair[0].force,
+        )
+        return load.force, f"{stretch.section}, {stretch.strand}, {load.name}"
+
+    @property
+    def energy_per_tonne_km(self) -> float | None:
+        """Energy from the mains [kWh/(t km)], where the whole route carries."""
+        return self.found.balance.power.energy_per_tonne_km if self.case.loading in _CARRYING else None
 
 
 @dataclass(frozen=True)
@@ -164,16 +151,9 @@ class CaseStudy:
         return governing(self.results)
 
     @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a case, temperature and speed; units in the names."""
-        from conveyor.report import case_tables
-
-        return case_tables.cases(self)
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_cases
-
-        return of_cases(self)
+    def checks(self) -> tuple[Check, ...]:
+        """The cases against what is installed; the case that decides is named."""
+        return tuple(_checks(self))
 
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
@@ -237,117 +217,36 @@ def analyse_cases(
     twice = next((name for name in names if names.count(name) > 1), None)
     if not chosen or twice is not None:
         raise InputError(f'cases: "{twice}" is given twice' if chosen else "cases: give at least one")
-    band = (si(conveyor.drive.least_friction), 1.0) if friction_band is None else friction_band
+    band = (conveyor.drive.certain_friction, 1.0) if friction_band is None else friction_band
     if not 0.0 < band[0] <= 1.0 <= band[1] < math.inf:
         raise InputError(f"friction_band = {band}: 0 < low <= 1 <= high is needed")
-    made, refused = _variants(conveyor, chosen)
-    found = runs([Scene(variant) for _, variant in made], rtol, progress)
+    settings = [(case, setting) for case in chosen for setting in case_settings(conveyor, case)]
+    made = [(case, s, s.conveyor) for case, s in settings if isinstance(s.conveyor, Conveyor)]
+    refused = [
+        CaseRefusal(case.name, s.temperature, s.speed, str(s.conveyor))
+        for case, s in settings
+        if not isinstance(s.conveyor, Conveyor)
+    ]
+    answers = calculate_many([Variant(variant) for _, _, variant in made], rtol, progress)
     results = []
-    for (case, variant), done in zip(made, found, strict=True):
-        if isinstance(done, Run):
-            results.append(_result(case, variant, done, band))
+    for (case, setting, _), found in zip(made, answers, strict=True):
+        if isinstance(found, Calculation):
+            results.append(CaseResult(case, found, band))
         else:
-            at = si(variant.ambient.belt), si(variant.belt.speed)
-            refused.append(CaseRefusal(case.name, *at, str(done)))
+            refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
     return CaseStudy(conveyor, chosen, band, tuple(results), tuple(refused))
 
 
-def _variants(
-    conveyor: Conveyor, cases: Iterable[LoadCase]
-) -> tuple[list[tuple[LoadCase, Conveyor]], list[CaseRefusal]]:
-    """The conveyor of every case, speed and temperature that its spec allows."""
-    made: list[tuple[LoadCase, Conveyor]] = []
-    refused = []
-    for case in cases:
-        speeds = case.speeds or (conveyor.belt.speed,)
-        temperatures = case.temperatures or (conveyor.ambient.belt,)
-        for speed in speeds:
-            try:
-                loaded = with_case(conveyor, case, speed=speed)
-            except ConveyorError as error:
-                refused += [CaseRefusal(case.name, si(t), si(speed), str(error)) for t in temperatures]
-                continue
-            for temperature in temperatures:
-                try:
-                    made.append((case, with_temperature(loaded, temperature)))
-                except ConveyorError as error:
-                    refused.append(CaseRefusal(case.name, si(temperature), si(speed), str(error)))
-    return made, refused
-
-
-def shaft_power(conveyor: Conveyor, force: float) -> float:
-    """Power at the motors' shafts for a drive force [N]; negative when the belt drives [W]."""
-    return loop_data(conveyor).motor(force)
-
-
-def mains_power(conveyor: Conveyor, force: float) -> float:
-    """Power from the mains for a drive force [N]; negative when it is fed back [W]."""
-    return motor_power(shaft_power(conveyor, force), efficiency=conveyor.drive.mains_efficiency)
-
-
-def _result(case: LoadCase, conveyor: Conveyor, done: Run, band: tuple[float, float]) -> CaseResult:
-    found = done.balance
-    forces, tensions, settled = found.forces, found.tensions, found.settled
-    low, high = (_force(settled, friction) for friction in band)
-    roll, where = _heaviest_roll(done.stretches)
-    carries = case.loading in {"as given", "full", "part load"}
-    return CaseResult(
-        case=case.name,
-        loading=case.loading,
-        temperature=si(conveyor.ambient.belt),
-        speed=si(conveyor.belt.speed),
-        flow=si(conveyor.material.flow),
-        indentation=forces.indentation,
-        main=forces.main,
-        effective=forces.total,
-        effective_low=low,
-        effective_high=high,
-        friction_factor=found.friction_factor,
-        belt=found.power.belt,
-        motor=shaft_power(conveyor, forces.total),
-        motor_low=shaft_power(conveyor, low),
-        motor_high=shaft_power(conveyor, high),
-        tight=tensions.tight,
-        slack=tensions.slack,
-        largest=tensions.largest,
-        smallest=tensions.smallest,
-        take_up=settled.needed,
-        governed_by=settled.condition_name(settled.governed_by),
-        largest_roll=roll,
-        largest_roll_at=where,
-        energy_per_tonne_km=found.power.energy_per_tonne_km if carries else None,
-        error=worst_error(done.stretches),
-        balance=found,
-    )
-
-
-def _force(settled: Settled, friction: float) -> float:
-    """Drive force in steady running with a friction over the computed one [N]; lift and acceleration have none."""
-    loop = settled.loop
-    before, behind = loop.singles(settled.bends, friction)
-    lift = loop.lifts.whole
-    return math.fsum((lift, friction * (loop.totals.whole - lift), *before, *behind))
-
-
-def _heaviest_roll(results: Sequence[StretchResult]) -> tuple[float, str]:
-    """Highest force on a roll [N], and where."""
-    force, roll, result = max(
-        ((roll.load.force, roll, result) for result in results for roll in result.rolls),
-        key=lambda row: row[0],
-    )
-    return force, f"{result.stretch.section}, {result.stretch.strand}, {roll.load.name}"
-
-
-_FIGURES: Final[Mapping[str, tuple[str, str, bool]]] = {
-    "largest motor power, friction high": ("motor_high", "power", True),
-    "least motor power, friction low": ("motor_low", "power", False),
-    "largest drive force, friction high": ("effective_high", "force", True),
-    "least drive force, friction low": ("effective_low", "force", False),
-    "largest belt tension": ("largest", "force", True),
-    "least belt tension": ("smallest", "force", False),
-    "largest tension asked of the take-up": ("take_up", "force", True),
-    "largest roll load": ("largest_roll", "force", True),
-    "largest indentation": ("indentation", "force", True),
+_FIGURES: Final[dict[str, tuple[str, bool, Callable[[CaseResult], float]]]] = {
+    "largest motor power, friction high": ("power", True, lambda r: r.motors[1]),
+    "least motor power, friction low": ("power", False, lambda r: r.motors[0]),
+    "largest drive force, friction high": ("force", True, lambda r: r.forces[1]),
+    "least drive force, friction low": ("force", False, lambda r: r.forces[0]),
+    "largest belt tension": ("force", True, lambda r: r.found.balance.tensions.largest),
+    "least belt tension": ("force", False, lambda r: r.found.balance.tensions.smallest),
+    "largest tension asked of the take-up": ("force", True, lambda r: r.found.balance.settled.needed),
+    "largest roll load": ("force", True, lambda r: r.heaviest_roll[0]),
+    "largest indentation": ("force", True, lambda r: r.found.balance.forces.indentation),
 }
 
 
@@ -356,14 +255,58 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     if not results:
         return ()
     found = []
-    for figure, (name, kind, largest) in _FIGURES.items():
-
-        def key(result: CaseResult, name: str = name) -> float:
-            return float(getattr(result, name))
-
-        chosen = max(results, key=key) if largest else min(results, key=key)
-        found.append(Governing(figure, key(chosen), kind, chosen))
+    for figure, (kind, largest, value) in _FIGURES.items():
+        chosen = max(results, key=value) if largest else min(results, key=value)
+        found.append(Governing(figure, value(chosen), kind, chosen))
     return tuple(found)
+
+
+def _checks(study: CaseStudy) -> Iterator[Check]:
+    if study.refused:
+        answered, cases = len(study.results), len(study.results) + len(study.refused)
+        yield Check(
+            "case_answers", said("load cases: answers"), float(answered), float(cases), "number",
+            said(f"{answered} of {cases}"), said("all"), "FAIL",
+        )  # fmt: skip
+    if not study.results:
+        return
+    deciding = {found.figure: found for found in study.governing}
+    ends = (deciding["largest motor power, friction high"], deciding["least motor power, friction low"])
+    yield from _motor_checks(max(ends, key=lambda found: abs(found.value)))
+    yield from _take_up_check(study, deciding["largest tension asked of the take-up"])
+    slackest = deciding["least belt tension"]
+    yield not_slack(slackest.value, _of_case("smallest tension", slackest.result))
+    yield from _safety_check(study)
+
+
+def _of_case(criterion: str, result: CaseResult) -> Said:
+    label = result.label
+    return Said(f"load cases: {criterion} ({label.words})", label.figures)
+
+
+def _motor_checks(most: Governing) -> Iterator[Check]:
+    for drive in most.result.found.line.drives:
+        subject = _of_case(f"motor power, {quoted(drive.name)}", most.result)
+        yield drive_power(drive.name, drive.share * most.value, drive.power, subject)
+
+
+def _take_up_check(study: CaseStudy, most: Governing) -> Iterator[Check]:
+    held = most.result.found.line.take_up.tension
+    subject = _of_case("tension of the take-up", most.result)
+    asked = said("at least {}", (most.value, "force"))
+    if held is not None:
+        passed = "pass" if holds(held, most.value) else "FAIL"
+        shown = said("{}", (held, "force"))
+        yield Check("take_up_tension", subject, held, most.value, "force", shown, asked, passed)
+    elif len(study.results) > 1:
+        anew = said("set anew in each case")
+        yield Check("take_up_tension", subject, None, most.value, "force", anew, asked, "not checked")
+
+
+def _safety_check(study: CaseStudy) -> Iterator[Check]:
+    tightest = max(study.results, key=lambda result: result.found.belt_duty.largest_steady)
+    if tightest.found.belt_duty.safety_steady is not None:
+        yield steady_safety(tightest.found.belt_duty, _of_case("safety of the belt, steady", tightest))
 
 
 def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tuple[MotorChoice, ...]:
@@ -385,14 +328,14 @@ def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tupl
         raise InputError(
             f"reserve = {reserve}: at least 1 is needed" if results else "no case has an answer to size for"
         )
-    ends = [(power, result) for result in results for power in (result.motor_high, result.motor_low)]
+    ends = [(power, result) for result in results for power in reversed(result.motors)]
     power, decisive = max(ends, key=lambda end: abs(end[0]))
     choices = []
-    for drive in decisive.balance.settled.loop.data.drives:
+    for drive in decisive.found.line.drives:
         if drive.share == 0.0:
             continue
         needed = drive.share * power
         count = max(1, math.ceil(round(abs(needed) * reserve / MOTOR_SERIES[-1], 9)))
         rated = next_motor(needed / count, reserve=reserve)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, decisive.label))
+        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, decisive.label.text()))
     return tuple(choices)

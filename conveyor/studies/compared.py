@@ -1,51 +1,32 @@
 """The scenes of a comparison: one compound on the conveyor at every temperature and speed.
 
-Loads, and every force that no rubber changes, are formed once for each speed; all contacts of a compound are solved
-side by side. A scene that has no answer (a compound outside its data, a contact that splits) is listed with its reason.
+All contacts of a compound are solved side by side. A scene that has no answer (a compound outside its data, a contact
+that splits) is listed with its reason.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
 from conveyor.contact import solve_many
-from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.indentation import to_problem
+from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
-from conveyor.line.walk import (
-    RollResult,
-    StretchResult,
-    Surface,
-    Track,
-    fastest_excited,
-    indented,
-    slowest_excited,
-    surfaces,
-    worked_surfaces,
-    worst_error,
-)
-from conveyor.loop.balance import Balance, balance
-from conveyor.loop.curved import Run
-from conveyor.loop.data import loop_data
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.studies import scenes
-from conveyor.studies.scenes import runs
-from conveyor.studies.variants import with_temperature
-from conveyor.units import Quantity, si
-
-Cover = Literal["bottom", "top", "both"]
+from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
+from conveyor.pipeline import Calculation, Variant, calculate_many
+from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
 _BAND = (0.05, 0.95)  # quantiles of the replicas: nine tenths lie between
 
 
 @dataclass(frozen=True)
-class Scene:
+class ComparedScene:
     """One compound at one temperature and speed on the conveyor, SI.
 
     Attributes
@@ -124,158 +105,69 @@ class Refusal:
 
 
 @dataclass(frozen=True)
-class Grid:
-    """Temperatures and speeds to cross, the cover that changes, and the tolerance of the contacts [-]."""
+class CompoundStudy:
+    """One compound at every temperature and speed."""
 
-    temperatures: tuple[Quantity, ...]
-    speeds: tuple[Quantity, ...]
-    cover: Cover
-    rtol: float
-
-
-@dataclass(frozen=True)
-class Found:
-    """What a comparison has found so far; lists that grow."""
-
-    scenes: list[Scene]
-    refused: list[Refusal]
-    coverage: list[Coverage]
+    scenes: tuple[ComparedScene, ...]
+    refused: tuple[Refusal, ...]
+    coverage: tuple[Coverage, ...]
 
 
-def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: Cover) -> Conveyor:
-    """The conveyor with a cover, or both, of another compound.
+def of_compound(
+    conveyor: Conveyor,
+    compound: RubberCompound,
+    temperatures: Sequence[Quantity],
+    speeds: Sequence[Quantity],
+    *,
+    cover: CoverChoice,
+    rtol: float,
+) -> CompoundStudy:
+    """Calculate every temperature and speed of one compound.
 
-    A top cover without a compound of its own follows the bottom cover, as the spec says of it: where only the bottom
-    cover changes, it is given the old one first.
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    compound : RubberCompound
+        What the cover is made of.
+    temperatures, speeds : sequence of Quantity
+        Of the belt.
+    cover : {"bottom", "top", "both"}
+        Which cover changes.
+    rtol : float
+        Relative tolerance of the contacts [-].
 
     Raises
     ------
     InputError
         The belt's mass does not fit the compound's density.
     """
-    belt = conveyor.belt
-    top, bottom = belt.top_cover, belt.bottom_cover
-    above = (top.compound or bottom.compound) if cover == "bottom" else compound
-    below = bottom.compound if cover == "top" else compound
-    return conveyor.replace(
-        belt=belt.replace(top_cover=top.replace(compound=above), bottom_cover=bottom.replace(compound=below))
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class _Answer:
-    """A conveyor at one speed, its stretches and the whole."""
-
-    conveyor: Conveyor
-    stretches: tuple[StretchResult, ...]
-    balance: Balance
-
-
-_Answers = dict[tuple[float, float], _Answer]
-
-
-def of_compound(conveyor: Conveyor, compound: RubberCompound, grid: Grid, found: Found) -> None:
-    """Every temperature and speed of one compound; all its contacts in one batch."""
-    changed = with_compound(conveyor, compound, grid.cover)
-    tracks = _tracks(changed, compound, grid, found)
-    answered = (
-        _in_full(compound, grid, tracks, found)
-        if _follows_the_temperature(changed)
-        else _by_rubber(changed, compound, (grid, tracks), found)
-    )
-    strands = _strands(changed, grid.cover)
-    temperatures = dict.fromkeys(at for _, at in answered)
-    bands = {
-        t: _band(compound, t, [one.stretches for (_, at), one in answered.items() if at == t], strands)
-        for t in temperatures
-    }
-    found.scenes.extend(
-        _scene(compound.name, temperature, one, strands, bands[temperature])
-        for (_, temperature), one in answered.items()
-    )
-    found.coverage.extend(_coverage(compound, temperatures, answered, strands))
-
-
-def _follows_the_temperature(conveyor: Conveyor) -> bool:
-    """Whether more than the rubber changes from scene to scene: roll drag with the air, loads with the tension."""
-    rolls = [
-        roll for each in (conveyor.idlers.carry, conveyor.idlers.return_) for roll in (each.roll, each.middle)
-    ]
-    return any(roll.drag_law is not None for roll in rolls) or any(
-        section.curve is not None for section in conveyor.route.sections
-    )
-
-
-def _in_full(compound: RubberCompound, grid: Grid, tracks: Mapping[float, Track], found: Found) -> _Answers:
-    """Every scene as a conveyor of its own; the air keeps its distance to the belt."""
-    variants: dict[tuple[float, float], Conveyor] = {}
-    for speed, track in tracks.items():
-        for given in grid.temperatures:
-            try:
-                variants[speed, si(given)] = with_temperature(track.conveyor, given)
-            except (InputError, RangeError) as error:
-                found.refused.append(Refusal(compound.name, si(given), speed, str(error)))
-    answered: _Answers = {}
-    walked = runs([scenes.Scene(variant) for variant in variants.values()], grid.rtol)
-    for ((speed, temperature), variant), run in zip(variants.items(), walked, strict=True):
-        if isinstance(run, Run):
-            answered[speed, temperature] = _Answer(variant, run.stretches, run.balance)
+    changed = with_compound(conveyor, compound, cover)
+    strands = _strands(changed, cover)
+    settings = list(crossed_settings(changed, temperatures, speeds))
+    going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
+    answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
+    found: list[Calculation] = []
+    refused = []
+    for setting in settings:
+        answer = next(answers) if isinstance(setting.conveyor, Conveyor) else setting.conveyor
+        if isinstance(answer, Calculation):
+            found.append(answer)
         else:
-            found.refused.append(Refusal(compound.name, temperature, speed, str(run)))
-    return answered
+            refused.append(Refusal(compound.name, setting.temperature, setting.speed, str(answer)))
+    by_temperature: dict[float, list[Calculation]] = {}
+    for one in found:
+        by_temperature.setdefault(one.temperature, []).append(one)
+    bands = {at: _band(compound, at, ones, strands) for at, ones in by_temperature.items()}
+    coverage = (_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
+    return CompoundStudy(
+        tuple(_scene(compound.name, one, strands, bands[one.temperature]) for one in found),
+        tuple(refused),
+        tuple(one for one in coverage if one is not None),
+    )
 
 
-def _by_rubber(
-    conveyor: Conveyor, compound: RubberCompound, work: tuple[Grid, Mapping[float, Track]], found: Found
-) -> _Answers:
-    """Only the rubber follows the temperature: loads and all other forces are those of the speed."""
-    grid, tracks = work
-    covers = _covers(conveyor, compound, grid, found)
-    jobs: dict[tuple[float, float], dict[Strand, Surface]] = {}
-    for speed, track in tracks.items():
-        for temperature, cover in covers.items():
-            try:
-                jobs[speed, temperature] = worked_surfaces(track, cover, temperature)
-            except (NoSolutionError, RangeError) as error:
-                found.refused.append(Refusal(compound.name, temperature, speed, str(error)))
-    answered: _Answers = {}
-    walked = indented([tracks[speed] for speed, _ in jobs], list(jobs.values()))
-    for (speed, temperature), results in zip(jobs, walked, strict=True):
-        if isinstance(results, NoSolutionError):
-            found.refused.append(Refusal(compound.name, temperature, speed, str(results)))
-        else:
-            at = tracks[speed].conveyor
-            answered[speed, temperature] = _Answer(at, results, balance(at, results))
-    return answered
-
-
-def _covers(
-    conveyor: Conveyor, compound: RubberCompound, grid: Grid, found: Found
-) -> dict[float, dict[Strand, Surface]]:
-    """Both covers at every temperature at which their compounds are known."""
-    covers = {}
-    for temperature in map(si, grid.temperatures):
-        try:
-            covers[temperature] = surfaces(conveyor, temperature)
-        except RangeError as error:
-            found.refused.extend(Refusal(compound.name, temperature, si(v), str(error)) for v in grid.speeds)
-    return covers
-
-
-def _tracks(conveyor: Conveyor, compound: RubberCompound, grid: Grid, found: Found) -> dict[float, Track]:
-    """The conveyor at every speed at which it can run."""
-    tracks = {}
-    for speed in grid.speeds:
-        try:
-            tracks[si(speed)] = Track(conveyor.replace(belt=conveyor.belt.replace(speed=speed)), grid.rtol)
-        except InputError as error:
-            found.refused.extend(
-                Refusal(compound.name, si(t), si(speed), str(error)) for t in grid.temperatures
-            )
-    return tracks
-
-
-def _strands(conveyor: Conveyor, cover: Cover) -> frozenset[Strand]:
+def _strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
     """Strands whose rolls run on a changed cover."""
     if cover == "both":
         return frozenset(("carry", "return"))
@@ -285,50 +177,45 @@ def _strands(conveyor: Conveyor, cover: Cover) -> frozenset[Strand]:
 
 
 def _scene(
-    name: str,
-    temperature: float,
-    one: _Answer,
-    strands: frozenset[Strand],
-    band: tuple[float, float] | None,
-) -> Scene:
-    conveyor, found = one.conveyor, one.balance
-    forces, power = found.forces, found.power
+    name: str, one: Calculation, strands: frozenset[Strand], band: tuple[float, float] | None
+) -> ComparedScene:
+    balance, year = one.balance, one.year
+    forces, power = balance.forces, balance.power
     low = high = None
     if band is not None:
-        share = si(conveyor.calculation.flexure_share)
-        changed = math.fsum(r.indentation for r in one.stretches if r.stretch.strand in strands) / (
-            1.0 - share
-        )
-        motor = loop_data(conveyor).motor
+        indented = balance.along[0].by_strand()
+        changed = math.fsum(indented[strand] for strand in strands) / (1.0 - one.line.flexure_share)
+        motor = balance.frame.motor
         low, high = sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band)
-    return Scene(
+    return ComparedScene(
         compound=name,
-        temperature=temperature,
-        speed=si(conveyor.belt.speed),
+        temperature=one.temperature,
+        speed=one.line.speed,
         indentation=forces.indentation,
         effective=forces.total,
-        friction_factor=found.friction_factor,
+        friction_factor=balance.friction_factor,
         motor=power.motor,
         motor_low=low,
         motor_high=high,
-        largest_tension=found.tensions.largest,
+        largest_tension=balance.tensions.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
-        energy_per_year=power.energy_per_year,
-        cost_per_year=power.cost_per_year,
-        error=worst_error(one.stretches),
+        energy_per_year=None if year is None else year.energy,
+        cost_per_year=None if year is None else year.cost,
+        error=one.error_estimate,
     )
 
 
-def _heaviest(results: Sequence[StretchResult], strands: frozenset[Strand]) -> RollResult | None:
+def _heaviest(found: Calculation, strands: frozenset[Strand]) -> RollResult | None:
     """The roll that loses most, of the strands whose cover is compared."""
-    rolls = [roll for result in results if result.stretch.strand in strands for roll in result.rolls]
+    pairs = zip(found.line.stretches, found.contacts.rolls, strict=True)
+    rolls = [roll for stretch, several in pairs if stretch.strand in strands for roll in several]
     return max(rolls, key=lambda roll: roll.resistance) if rolls else None
 
 
 def _band(
     compound: RubberCompound,
     temperature: float,
-    runs: Sequence[tuple[StretchResult, ...]],
+    found: Sequence[Calculation],
     strands: frozenset[Strand],
 ) -> tuple[float, float] | None:
     """Factors on the indentation between which nine tenths of the fit's replicas lie, by the roll that loses most.
@@ -337,7 +224,7 @@ def _band(
     are both taken at the strain of the master curve: softening changes all alike.
     """
     replicas = compound.replicas(temperature)
-    roll = _heaviest(runs[len(runs) // 2], strands) if runs else None
+    roll = _heaviest(found[len(found) // 2], strands)
     if not replicas or roll is None:
         return None
     base = compound.series(temperature)
@@ -349,18 +236,12 @@ def _band(
 
 
 def _coverage(
-    compound: RubberCompound,
-    temperatures: Iterable[float],
-    answered: Mapping[tuple[float, float], _Answer],
-    strands: frozenset[Strand],
-) -> Iterable[Coverage]:
-    for temperature in temperatures:
-        speeds = [speed for speed, t in answered if t == temperature]
-        if not speeds:
-            continue
-        slowest, fastest = (answered[speed, temperature].stretches for speed in (min(speeds), max(speeds)))
-        lows = [f for strand in strands if (f := slowest_excited(slowest, strand)) is not None]
-        highs = [f for strand in strands if (f := fastest_excited(fastest, strand)) is not None]
-        if lows and highs:
-            data = compound.frequencies(temperature)
-            yield Coverage(compound.name, temperature, (min(lows), max(highs)), data)
+    compound: RubberCompound, temperature: float, found: Sequence[Calculation], strands: Iterable[Strand]
+) -> Coverage | None:
+    """What the rolls excite from the slowest speed to the fastest; None without loss."""
+    slowest, fastest = min(found, key=lambda one: one.line.speed), max(found, key=lambda one: one.line.speed)
+    lows = [band[0] for strand in strands if (band := slowest.contacts.excited_band(strand)) is not None]
+    highs = [band[1] for strand in strands if (band := fastest.contacts.excited_band(strand)) is not None]
+    if not lows or not highs:
+        return None
+    return Coverage(compound.name, temperature, (min(lows), max(highs)), compound.frequencies(temperature))

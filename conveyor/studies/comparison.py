@@ -7,7 +7,7 @@ reason, never filled in.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -16,9 +16,11 @@ from typing import TYPE_CHECKING, Any
 from conveyor import shelf
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.studies.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
+from conveyor.models.variants import CoverChoice, distinct, with_compound
+from conveyor.pipeline import Progress
+from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound
 from conveyor.studies.duty import DutyStudy, analyse_duty
-from conveyor.units import Quantity, System, quantity, si
+from conveyor.units import Quantity, System, quantity
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,16 +29,14 @@ if TYPE_CHECKING:
     from conveyor.studies.drawing import ComparisonPlots
 
 __all__ = [
+    "ComparedScene",
     "Comparison",
     "Coverage",
     "Refusal",
-    "Scene",
     "compare",
     "compare_compounds",
     "with_compound",
 ]
-
-Progress = Callable[[int, int], None]
 
 RTOL = 1e-4
 """Relative tolerance of the contacts: a hundredth of what any rubber is known to."""
@@ -69,8 +69,8 @@ class Comparison:
     conveyor: Conveyor
     compounds: tuple[RubberCompound, ...]
     base: str
-    cover: Cover
-    scenes: tuple[Scene, ...]
+    cover: CoverChoice
+    scenes: tuple[ComparedScene, ...]
     refused: tuple[Refusal, ...]
     coverage: tuple[Coverage, ...]
     extra_costs: Mapping[str, float]
@@ -184,7 +184,7 @@ def compare_compounds(
     *,
     temperatures: Iterable[str | Quantity] | None = None,
     speeds: Iterable[str | Quantity] | None = None,
-    cover: Cover = "bottom",
+    cover: CoverChoice = "bottom",
     base: str | None = None,
     extra_costs: Mapping[str, float] | None = None,
     rtol: float = RTOL,
@@ -229,11 +229,11 @@ def compare_compounds(
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
     costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
     reference = chosen[0].name if base is None else _named(base, chosen)
-    found = Found([], [], [])
+    studies = []
     for done, compound in enumerate(chosen):
         if progress is not None:
             progress(done, len(chosen))
-        of_compound(conveyor, compound, Grid(tuple(at), tuple(runs), cover, rtol), found)
+        studies.append(of_compound(conveyor, compound, at, runs, cover=cover, rtol=rtol))
     if progress is not None:
         progress(len(chosen), len(chosen))
     return Comparison(
@@ -241,16 +241,16 @@ def compare_compounds(
         chosen,
         reference,
         cover,
-        tuple(found.scenes),
-        tuple(found.refused),
-        tuple(found.coverage),
+        tuple(one for study in studies for one in study.scenes),
+        tuple(one for study in studies for one in study.refused),
+        tuple(one for study in studies for one in study.coverage),
         costs,
         _years(conveyor, chosen, cover, rtol),
     )
 
 
 def _years(
-    conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: Cover, rtol: float
+    conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: CoverChoice, rtol: float
 ) -> dict[str, DutyStudy]:
     """The year of a duty with each compound; none of one that a bar of it has no answer for."""
     found: dict[str, DutyStudy] = {}
@@ -292,4 +292,4 @@ def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
     found = [quantity(item, kind) for item in given]
     if not found:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
-    return list({si(item): item for item in found}.values())
+    return distinct(found)

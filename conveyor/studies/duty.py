@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.energy import Duty, DutyStep, duty_cost, duty_emission, duty_specific_energy, duty_sums
+from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.loop.curved import Run
+from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, DutyEntry, LoadCase
-from conveyor.studies.cases import mains_power, shaft_power
-from conveyor.studies.scenes import Progress, Scene, runs
-from conveyor.studies.variants import with_case, with_temperature
-from conveyor.units import quantity, si, text
-
-if TYPE_CHECKING:
-    import pandas as pd
+from conveyor.models.variants import with_case, with_temperature
+from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
+from conveyor.units import quantity
 
 
 @dataclass(frozen=True)
@@ -98,25 +92,6 @@ class DutyStudy:
     emission_source: str | None
     energy_per_tonne_km: float | None
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a bar; units in the names."""
-        from conveyor.report import case_tables
-
-        return case_tables.duty(self)
-
-    @cached_property
-    def summary(self) -> pd.Series:
-        """Sums of the year; units in the names."""
-        from conveyor.report import case_tables
-
-        return case_tables.year(self)
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_duty
-
-        return of_duty(self)
-
 
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
@@ -156,21 +131,18 @@ def analyse_duty(
     entries = operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
     variants = [_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
     rows = []
-    done = runs([Scene(variant) for variant in variants], rtol, progress)
-    for i, (entry, variant, found) in enumerate(zip(entries, variants, done, strict=True)):
-        if not isinstance(found, Run):
-            raise NoSolutionError(f"operation.duty[{i}] ({_described(entry)}): {found}")
-        rows.append(_row(entry, variant, found))
+    answers = calculate_many([Variant(variant) for variant in variants], rtol, progress)
+    for i, (entry, found) in enumerate(zip(entries, answers, strict=True)):
+        if not isinstance(found, Calculation):
+            raise NoSolutionError(f"operation.duty[{i}] ({entry}): {found}")
+        rows.append(_row(entry, found))
     year = duty_sums([row.step for row in rows])
-    price, credit = operation.price, operation.feed_in_price
-    factor, saved = operation.emission, operation.feed_in_emission
+    price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
     return DutyStudy(
         conveyor=conveyor,
         rows=tuple(rows),
         year=year,
-        cost=None
-        if price is None
-        else duty_cost(year, price=price.amount, credit=0.0 if credit is None else credit.amount),
+        cost=year_cost(operation, year),
         currency=None if price is None else price.currency,
         emission=None
         if factor is None
@@ -183,10 +155,9 @@ def analyse_duty(
 
 
 def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
-    share = si(entry.share)
-    if share == 1.0:
+    if entry.load == 1.0:
         case = LoadCase(name="duty")
-    elif share == 0.0:
+    elif entry.load == 0.0:
         case = LoadCase(name="duty", loading="empty")
     else:
         case = LoadCase(name="duty", loading="part load", share=entry.share)
@@ -194,25 +165,18 @@ def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
         variant = with_case(conveyor, case, speed=entry.speed)
         return variant if entry.temperature is None else with_temperature(variant, entry.temperature)
     except InputError as error:
-        raise InputError(f"operation.duty[{place}] ({_described(entry)}): {error}") from None
+        raise InputError(f"operation.duty[{place}] ({entry}): {error}") from None
 
 
-def _described(entry: DutyEntry) -> str:
-    """The bar in words, for messages."""
-    parts = [text(entry.hours), f"share {text(entry.share)}"]
-    parts += [text(value) for value in (entry.temperature, entry.speed) if value is not None]
-    return ", ".join(parts)
-
-
-def _row(entry: DutyEntry, conveyor: Conveyor, found: Run) -> DutyRow:
-    force = found.balance.forces.total
+def _row(entry: DutyEntry, found: Calculation) -> DutyRow:
+    power = found.balance.power
     return DutyRow(
-        hours=si(entry.hours) / 3600.0,
-        share=si(entry.share),
-        temperature=si(conveyor.ambient.belt),
-        speed=si(conveyor.belt.speed),
-        flow=si(conveyor.material.flow),
-        effective=force,
-        shaft=shaft_power(conveyor, force),
-        mains=mains_power(conveyor, force),
+        hours=entry.seconds / 3600.0,
+        share=entry.load,
+        temperature=found.temperature,
+        speed=found.line.speed,
+        flow=found.line.flow,
+        effective=found.balance.forces.total,
+        shaft=power.motor,
+        mains=power.mains,
     )

@@ -11,25 +11,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Final
+from functools import partial
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from conveyor.errors import InputError
-from conveyor.line.stretches import Strand
-from conveyor.loop.curved import Run
-from conveyor.models import Conveyor, RubberCompound, Uncertainty
+from conveyor.line.covers import compounds_by_strand
+from conveyor.models import Conveyor, Uncertainty
+from conveyor.models.variants import scaled, with_belt_temperature_changed
+from conveyor.pipeline import Calculation, NoAnswer, Progress, Variant, calculate_many
 from conveyor.rubber import PronySeries
-from conveyor.studies.cases import shaft_power
-from conveyor.studies.scenes import NoAnswer, Progress, Scene, runs
-from conveyor.studies.variants import scaled, with_temperature
-from conveyor.units import Quantity, display, from_si, si, text
-
-if TYPE_CHECKING:
-    import pandas as pd
+from conveyor.units import Quantity, display, from_si, text
 
 Array = NDArray[np.float64]
 
@@ -100,18 +95,6 @@ class UncertaintyStudy:
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """The tornado: one row an input, the largest swing first; units in the names."""
-        from conveyor.report import case_tables
-
-        return case_tables.tornado(self)
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_uncertainty
-
-        return of_uncertainty(self)
-
 
 @dataclass(frozen=True)
 class _Variation:
@@ -121,7 +104,7 @@ class _Variation:
     low: str
     given: str
     high: str
-    scenes: tuple[Scene, ...]
+    variants: tuple[Variant, ...]
     """The low and the high end, or replicas of which quantiles are taken."""
     replicas: bool = False
 
@@ -180,13 +163,13 @@ def study(
     if not variations:
         why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
         raise InputError(f"{why}: nothing to vary")
-    scenes = [Scene(conveyor), *(scene for variation in variations for scene in variation.scenes)]
-    powers = [_power(scene, found) for scene, found in zip(scenes, runs(scenes, rtol, progress), strict=True)]
+    variants = [Variant(conveyor), *(each for variation in variations for each in variation.variants)]
+    powers = [_power(found) for found in calculate_many(variants, rtol, progress)]
     motor, at = powers[0], 1
     effects = []
     for variation in variations:
-        mine = powers[at : at + len(variation.scenes)]
-        at += len(variation.scenes)
+        mine = powers[at : at + len(variation.variants)]
+        at += len(variation.variants)
         low, high = _ends(mine) if variation.replicas else (mine[0], mine[1])
         effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
     effects.sort(key=lambda effect: -effect.swing)
@@ -200,10 +183,10 @@ def study(
     )
 
 
-def _power(scene: Scene, found: Run | NoAnswer) -> float:
-    if not isinstance(found, Run):
+def _power(found: Calculation | NoAnswer) -> float:
+    if not isinstance(found, Calculation):
         raise found
-    return shaft_power(scene.conveyor, found.balance.forces.total)
+    return found.balance.power.motor
 
 
 def _ends(powers: Sequence[float]) -> tuple[float, float]:
@@ -267,18 +250,19 @@ def hypercube_band(
 
 
 def _variations(conveyor: Conveyor, ranges: Uncertainty, notes: list[str]) -> Iterator[_Variation]:
-    if ranges.roll_drag is not None:
-        half = si(ranges.roll_drag)
-        scenes = (Scene(conveyor, drag=1.0 - half), Scene(conveyor, drag=1.0 + half))
-        yield _Variation("roll drag", f"-{half:.3g}", "as computed", f"+{half:.3g}", scenes)
+    half = ranges.half_width("roll_drag")
+    if half is not None:
+        ends = (Variant(conveyor, roll_drag=1.0 - half), Variant(conveyor, roll_drag=1.0 + half))
+        yield _Variation("roll drag", f"-{half:.3g}", "as computed", f"+{half:.3g}", ends)
     if ranges.flexure_share is not None:
         yield _flexure(conveyor, ranges.flexure_share)
     for name, change in _CHANGES.items():
-        half_width: Quantity | None = getattr(ranges, name)
-        if half_width is not None:
-            yield _scaled(conveyor, name, si(half_width), change, notes)
-    if ranges.temperature is not None:
-        yield _temperature(conveyor, si(ranges.temperature))
+        half = ranges.half_width(name)
+        if half is not None:
+            yield _scaled(conveyor, name, half, change=change, notes=notes)
+    change_of_temperature = ranges.half_width("temperature")
+    if change_of_temperature is not None:
+        yield _temperature(conveyor, change_of_temperature)
     if ranges.rubber:
         yield from _rubber(conveyor, notes)
 
@@ -294,18 +278,19 @@ def _refused(name: str, change: Callable[[], Conveyor]) -> Conveyor:
 def _flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
     calculation = conveyor.calculation
     scenes = tuple(
-        Scene(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends
+        Variant(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends
     )
     low, high = (text(share) for share in ends)
     return _Variation("flexure share", low, text(calculation.flexure_share), high, scenes)
 
 
 def _temperature(conveyor: Conveyor, change: float) -> _Variation:
-    at = si(conveyor.ambient.belt)
-    ends = [from_si(float(f"{at + sign * change:.9g}"), "temperature", "K") for sign in (-1.0, 1.0)]
-    scenes = [Scene(_refused("temperature", partial(with_temperature, conveyor, end))) for end in ends]
-    low, given, high = (display(si(t), "temperature") for t in (ends[0], conveyor.ambient.belt, ends[1]))
-    return _Variation("temperature of the belt", low, given, high, tuple(scenes))
+    ends = [
+        _refused("temperature", partial(with_belt_temperature_changed, conveyor, sign * change))
+        for sign in (-1.0, 1.0)
+    ]
+    low, given, high = (display(c.temperature, "temperature") for c in (ends[0], conveyor, ends[1]))
+    return _Variation("temperature of the belt", low, given, high, tuple(map(Variant, ends)))
 
 
 def _with_flow(conveyor: Conveyor, factor: float) -> Conveyor:
@@ -357,30 +342,28 @@ def _scaled(
     conveyor: Conveyor,
     name: str,
     half: float,
+    *,
     change: Callable[[Conveyor, float], Conveyor],
     notes: list[str],
 ) -> _Variation:
     ends = [_refused(name, partial(change, conveyor, factor)) for factor in (1.0 - half, 1.0 + half)]
     if all(end == conveyor for end in ends):
         notes.append(f"uncertainty.{name}: the conveyor has none of it")
-    scenes = tuple(Scene(end) for end in ends)
+    scenes = tuple(Variant(end) for end in ends)
     return _Variation(name.replace("_", " "), f"-{half:.3g}", "as given", f"+{half:.3g}", scenes)
 
 
 def _rubber(conveyor: Conveyor, notes: list[str]) -> Iterator[_Variation]:
     """Replicas of each compound on the strands that run on it."""
-    at = si(conveyor.ambient.belt)
-    compounds: dict[Strand, RubberCompound] = {
-        "carry": conveyor.carry_compound,
-        "return": conveyor.return_compound,
-    }
+    at = conveyor.temperature
+    compounds = compounds_by_strand(conveyor)
     for compound in dict.fromkeys(compound.name for compound in compounds.values()):
         strands = [strand for strand, c in compounds.items() if c.name == compound]
         replicas: tuple[PronySeries, ...] = compounds[strands[0]].replicas(at)
         if not replicas:
             notes.append(f'compound "{compound}" has no replicas: its rubber is taken as certain')
             continue
-        scenes = tuple(Scene(conveyor, dict.fromkeys(strands, replica)) for replica in replicas)
+        scenes = tuple(Variant(conveyor, rubber=dict.fromkeys(strands, replica)) for replica in replicas)
         yield _Variation(
             f'rubber "{compound}"',
             "5 % of the replicas",

@@ -1,0 +1,493 @@
+"""What a conveyor is checked for: one function a criterion.
+
+A run, its load cases, the warnings and every output use these; nothing else says what passes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+from conveyor.figures import Said, band_words, quoted, said
+from conveyor.line.covers import compounds_by_strand
+from conveyor.line.roll_lives import set_life
+from conveyor.line.stretches import STRANDS
+from conveyor.loop.belt_duty import BeltDuty, CurveCheck
+from conveyor.pipeline import Calculation
+
+Verdict = Literal["pass", "FAIL", "not checked"]
+Relation = Literal["at least", "at most"]
+
+DEEP: Final = 0.2
+"""Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
+ASKED_LIFE: Final = 30e3
+"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
+HELD: Final = 1.0 - 1e-9
+"""Of what is needed; a setting typed to the computed figure is not short of it."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One criterion and how it stands.
+
+    Attributes
+    ----------
+    key : str
+        Of the criterion, for programs.
+    subject : Said
+        What is checked.
+    calculated, required : float or None
+        SI; None where no figure says it.
+    kind : str
+        Kind of both.
+    found, asked : Said
+        Both in words, with their units.
+    verdict : {"pass", "FAIL", "not checked"}
+        "not checked" where the spec does not say what is needed for it.
+    why : Said or None
+        What to say of it where it fails.
+    """
+
+    key: str
+    subject: Said
+    calculated: float | None
+    required: float | None
+    kind: str
+    found: Said
+    asked: Said
+    verdict: Verdict
+    why: Said | None = None
+
+    @property
+    def failed(self) -> bool:
+        """Whether the criterion is not met."""
+        return self.verdict == "FAIL"
+
+
+def verdict(*, holds: bool) -> Verdict:
+    """Return pass or FAIL."""
+    return "pass" if holds else "FAIL"
+
+
+def compared(
+    key: str,
+    subject: str | Said,
+    calculated: float,
+    relation: Relation,
+    required: float | None,
+    kind: str,
+    *,
+    source: str = "",
+    found: Said | None = None,
+    missing: str = "",
+    why: Said | None = None,
+) -> Check:
+    """Check a figure against its limit.
+
+    Parameters
+    ----------
+    key, subject : str
+        Of the criterion.
+    calculated, required : float
+        SI; `required` is None where it is not known.
+    relation : {"at least", "at most"}
+        How the calculated figure must stand to the required one.
+    kind : str
+        Kind of both.
+    source : str
+        Where the limit comes from.
+    found : Said, optional
+        The calculated figure in other words.
+    missing : str
+        What to say where no limit is known.
+    why : Said, optional
+        What to say where it fails.
+    """
+    shown = said("{}", (calculated, kind)) if found is None else found
+    name = said(subject) if isinstance(subject, str) else subject
+    if required is None:
+        return Check(key, name, calculated, None, kind, shown, said(missing), "not checked")
+    holds = calculated >= required if relation == "at least" else calculated <= required
+    asked = said(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
+    return Check(key, name, calculated, required, kind, shown, asked, verdict(holds=holds), why)
+
+
+def checks(found: Calculation) -> tuple[Check, ...]:
+    """Check one calculation for everything: drives, take-up, belt, pulleys, curves, start, stop, bulk, rolls, rubber."""
+    return tuple(check for criterion in CRITERIA for check in criterion(found))
+
+
+def filling(found: Calculation) -> Iterator[Check]:
+    """A spec that overfills its belt is refused; how full it is remains to be said."""
+    sections = found.conveyor.cross_sections
+    if sections is not None:
+        bulk, most = sections
+        yield compared(
+            "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
+            found=said(f"{bulk / most:.0%} of the cross-section"),
+        )  # fmt: skip
+
+
+def motor_power(found: Calculation) -> Iterator[Check]:
+    """Every drive's motors give or hold its share in steady running."""
+    steady = found.balance.settled.steady
+    for drive, side in zip(found.line.drives, steady.drives, strict=True):
+        yield drive_power(drive.name, found.balance.frame.motor(side.force), drive.power)
+
+
+def drive_power(name: str, power: float, installed: float | None, subject: Said | None = None) -> Check:
+    """A drive's power [W], negative where it generates, against what is installed."""
+    generating = " (generating)" if power < 0.0 else ""
+    why = None
+    if installed is not None:
+        words = f'"{quoted(name)}" needs {{}}, installed are {{}}'
+        why = said(words, (power, "power"), (installed, "power"))
+    return compared(
+        "motor_power",
+        said(f"motor power, {quoted(name)}") if subject is None else subject,
+        abs(power),
+        "at most",
+        installed,
+        "power",
+        found=said("{}" + generating, (abs(power), "power")),
+        missing="installed power not given",
+        why=why,
+    )
+
+
+def take_up_tension(found: Calculation) -> Iterator[Check]:
+    """The take-up holds what grip and sag ask for in every state."""
+    settled = found.balance.settled
+    short = {name: asked for name, asked in settled.conditions.items() if not holds(settled.setting, asked)}
+    governing = settled.condition_name(settled.governed_by)
+    for name, asked in (short or {governing: settled.needed}).items():
+        why = said(
+            f"the take-up holds {{}}, {quoted(name)} asks for {{}}",
+            (settled.setting, "force"),
+            (asked, "force"),
+        )
+        made = compared(
+            "take_up_tension", f"tension of the take-up ({quoted(name)})", settled.setting, "at least", asked,
+            "force", why=why,
+        )  # fmt: skip
+        yield replace(made, verdict=verdict(holds=not short))
+
+
+def holds(setting: float, asked: float) -> bool:
+    """Whether a setting of the take-up is enough [N]; one typed to the computed figure is."""
+    return setting >= asked * (HELD if asked > 0.0 else 1.0)
+
+
+def slack_belt(found: Calculation) -> Iterator[Check]:
+    """The belt is nowhere slack in any state of motion."""
+    states = (*found.balance.settled.states.values(), *found.motions.states.values())
+    slackest = min(states, key=lambda state: state.smallest)
+    yield not_slack(
+        slackest.smallest,
+        said(f"smallest tension of all states ({slackest.name})"),
+        said(
+            f'the belt goes slack in the state "{slackest.name}": down to {{}}; raise the take-up\'s tension, or slow '
+            "the stop by a flywheel or the drives",
+            (slackest.smallest, "force"),
+        ),
+    )
+
+
+def not_slack(tension: float, subject: Said, why: Said | None = None) -> Check:
+    """A tension [N] that must not be below zero."""
+    made = compared("slack_belt", subject, tension, "at least", 0.0, "force", why=why)
+    return replace(made, asked=said("not slack: at least 0"))
+
+
+def belt_safety(found: Calculation) -> Iterator[Check]:
+    """The belt's strength over its tension in steady running."""
+    yield steady_safety(found.belt_duty, said("safety of the belt, steady"))
+
+
+def steady_safety(duty: BeltDuty, subject: Said) -> Check:
+    """A belt's safety in steady running against the classic one."""
+    safety, needed = duty.safety_steady, duty.safety_needed
+    asked = said("at least {} (DIN 22101:1982)", (needed, "number"))
+    if safety is None:
+        shown = said("strength not given")
+        return Check("belt_safety", subject, None, needed, "safety", shown, asked, "not checked")
+    why = said(
+        "safety of the belt {} in steady running, {} are classic (DIN 22101:1982, general knowledge)",
+        (safety, "safety"),
+        (needed, "number"),
+    )
+    made = compared("belt_safety", subject, safety, "at least", needed, "safety", why=why)
+    return replace(made, asked=asked)
+
+
+def belt_breakage(found: Calculation) -> Iterator[Check]:
+    """The largest tension of all states is below the belt's strength; said only where it is not."""
+    safety = found.belt_duty.safety
+    if safety is not None and safety < 1.0:
+        why = said(
+            "the belt's strength is exceeded: safety {} at {}",
+            (safety, "safety"),
+            (found.belt_duty.largest, "force"),
+        )
+        yield compared(
+            "belt_breakage", "safety of the belt, all states", safety, "at least", 1.0, "safety", why=why
+        )
+
+
+def splice_strength(found: Calculation) -> Iterator[Check]:
+    """The belt is as strong as its splice asks for."""
+    duty, strength = found.belt_duty, found.line.belt.strength
+    if duty.safety_steady is None or duty.strength_needed is None or strength is None:
+        return
+    why = said(
+        "the splice asks for a belt of {} (DIN 22101:2002, factors general knowledge), given are {}",
+        (duty.strength_needed, "belt strength"),
+        (strength, "belt strength"),
+    )
+    yield compared(
+        "splice_strength", "strength of the belt for its splice", strength, "at least", duty.strength_needed,
+        "belt strength", source="DIN 22101:2002", why=why,
+    )  # fmt: skip
+
+
+def pulley_diameter(found: Calculation) -> Iterator[Check]:
+    """Every pulley is as large as the carcass asks for."""
+    for pulley in found.belt_duty.pulleys:
+        size, figures = "", [(pulley.diameter, "thickness"), (pulley.least, "thickness")]
+        if pulley.next_size is not None:
+            size = ", of the series {}"
+            figures.append((pulley.next_size, "thickness"))
+        name, group = quoted(pulley.name), f"DIN 22101, group {pulley.group}"
+        words = f'pulley "{name}" is {{}} in diameter, the carcass asks for {{}}{size} ({group})'
+        yield compared(
+            "pulley_diameter", f"diameter, {name} pulley", pulley.diameter, "at least", pulley.least, "thickness",
+            source=group, why=Said(words, tuple(figures)),
+        )  # fmt: skip
+
+
+def curve_radius(found: Calculation) -> Iterator[Check]:
+    """Every vertical curve is wide enough that the belt stays down and its strips are neither overstressed nor slack."""
+    for curve in found.belt_duty.curves:
+        for least, fine, bad in (
+            (curve.lift_off, "empty belt stays down", "the empty belt lifts off"),
+            (curve.overstress, "no strip overstressed", "a strip of the belt is overstressed"),
+            (curve.buckling, "no strip slack", "a strip of the belt goes slack"),
+        ):
+            if least is not None:
+                yield _radius(curve, least, fine, bad)
+
+
+def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
+    section = quoted(curve.section)
+    words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
+    helps = math.isfinite(least)
+    why = said(words + "at least {} are needed", (curve.radius, "length"), (least, "length"))
+    made = compared(
+        "curve_radius", f"{curve.kind} curve, {section}, {curve.strand}: {fine}", curve.radius, "at least",
+        least if helps else None, "length", missing="no radius helps",
+        why=why if helps else said(words + "no radius helps", (curve.radius, "length")),
+    )  # fmt: skip
+    return (
+        made
+        if helps
+        else replace(made, verdict="FAIL", why=said(words + "no radius helps", (curve.radius, "length")))
+    )
+
+
+def starting_force(found: Calculation) -> Iterator[Check]:
+    """The motors give the starting force, and it overcomes the resistance after standstill."""
+    start = found.motions.start
+    if start.force <= 0.0:
+        return
+    if start.available is not None:
+        why = said(
+            "the motors give {} at the start (drive.torque_factor), {} are asked for (drive.start_factor): more power, "
+            "torque or a softer start",
+            (start.available, "force"),
+            (start.force, "force"),
+        )
+        yield compared(
+            "starting_force",
+            "starting force, motors",
+            start.force,
+            "at most",
+            start.available,
+            "force",
+            why=why,
+        )
+    why = said(
+        "the starting force of {} does not overcome the resistance after standstill, up to {}: raise drive.start_factor",
+        (start.force, "force"),
+        (start.breakaway, "force"),
+    )
+    yield compared(
+        "breakaway",
+        "starting force after standstill",
+        start.force,
+        "at least",
+        start.breakaway,
+        "force",
+        why=why,
+    )
+
+
+def comes_to_rest(found: Calculation) -> Iterator[Check]:
+    """The conveyor stops without power, with its brakes where it has any."""
+    moving, brakes = found.motions, math.fsum(found.line.brakes)
+    stopping = moving.coasting_least if moving.braked is None else moving.braked
+    if brakes > 0.0:
+        why = said("brakes of {} do not stop the conveyor", (brakes, "force"))
+    else:
+        why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
+    words = said("does not")
+    if stopping is not None:
+        words = said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
+    yield Check(
+        "comes_to_rest", said("comes to rest without power"), None if stopping is None else stopping.time, None,
+        "time", words, said("a stop, least friction"), verdict(holds=stopping is not None), why,
+    )  # fmt: skip
+
+
+def holding(found: Calculation) -> Iterator[Check]:
+    """A brake or backstop holds the loaded belt, and brakes give the deceleration wanted."""
+    moving, line = found.motions, found.line
+    given = any(drive.brake is not None for drive in line.drives)
+    brakes = math.fsum(line.brakes)
+    shown = None if given else said("no brake or backstop given")
+    if moving.brake_to_hold > 0.0:
+        what = "backstop" if moving.rolls_back else "brake"
+        why = said(
+            f"the loaded belt needs a {what} of {{}} at the belt to stay at rest",
+            (moving.brake_to_hold, "force"),
+        )
+        made = compared(
+            "holding_brake", f"{what} that holds the loaded belt", brakes, "at least", moving.brake_to_hold, "force",
+            found=shown, why=why,
+        )  # fmt: skip
+        yield made if given else replace(made, verdict="not checked")
+    if moving.brake_to_stop is not None:
+        why = said(
+            "drive.stop_deceleration asks for brakes of {} at the belt, given are {}",
+            (moving.brake_to_stop, "force"),
+            (brakes, "force"),
+        )
+        yield compared(
+            "stopping_brake", "brakes for the deceleration wanted", brakes, "at least", moving.brake_to_stop, "force",
+            found=shown, why=why,
+        )  # fmt: skip
+
+
+def bulk_slip(found: Calculation) -> Iterator[Check]:
+    """The bulk stays on the belt in running, stopping and starting."""
+    slip = found.motions.slip
+    if slip is None:
+        return
+    if slip.sliding:
+        where = quoted(", ".join(slip.sliding))
+        why = said(
+            f'the bulk slides on the belt in section "{where}" at any speed: too steep for its friction'
+        )
+        yield Check(
+            "bulk_slip", said("bulk lies on the belt"), None, None, "acceleration", said(f"slides in {where}"),
+            said("no sliding"), "FAIL", why,
+        )  # fmt: skip
+        return
+    hardest, fastest = found.motions.hardest
+    for key, when, occurs, allowed, where in (
+        ("bulk_slip_stopping", "while stopping", -hardest, -slip.braking, slip.braking_at),
+        ("bulk_slip_start", "at the start", fastest, slip.starting, slip.starting_at),
+    ):
+        why = said(
+            f'the bulk slides {when}: {{}}, "{quoted(where)}" allows {{}}',
+            (occurs, "acceleration"),
+            (allowed, "acceleration"),
+        )
+        yield compared(
+            key,
+            f"bulk lies still {when}, {quoted(where)}",
+            occurs,
+            "at most",
+            allowed,
+            "acceleration",
+            why=why,
+        )
+
+
+def penetration(found: Calculation) -> Iterator[Check]:
+    """No roll presses deeper into its cover than the law of small strain bears."""
+    for strand in STRANDS:
+        deepest, thickness = found.contacts.deepest(strand), found.contacts.covers[strand].thickness
+        why = said(
+            f"{strand} rolls press in by {deepest:.0%} of the cover ({{}}): beyond small strain, the linear law is "
+            "strained",
+            (thickness, "thickness"),
+        )
+        yield Check(
+            "penetration", said(f"penetration of the cover, {strand} rolls"), deepest, DEEP, "fraction",
+            said(f"{deepest:.1%} of its thickness"), said(f"at most {DEEP:.0%} (small strain)"),
+            verdict(holds=deepest <= DEEP), why,
+        )  # fmt: skip
+
+
+def roll_life(found: Calculation) -> Iterator[Check]:
+    """Idler sets last as long as light series are rated for, where their bearings are given."""
+    for strand in STRANDS:
+        lives = [
+            set_life(stretch, found.line.speed)
+            for stretch in found.line.stretches
+            if stretch.strand == strand
+        ]
+        known = [life for life in lives if life is not None]
+        if known:
+            yield Check(
+                "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * min(known), 3600.0 * ASKED_LIFE,
+                "duration", said(f"{min(known):,.0f} h"), said(f"at least {ASKED_LIFE:,.0f} h"),
+                verdict(holds=min(known) >= ASKED_LIFE),
+            )  # fmt: skip
+
+
+def rubber_data(found: Calculation) -> Iterator[Check]:
+    """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
+    at = found.temperature
+    for strand, compound in compounds_by_strand(found.conveyor).items():
+        band, data = found.contacts.excited_band(strand), compound.frequencies(at)
+        if band is None:
+            continue
+        if compound.kind == "illustrative":
+            yield Check(
+                "rubber_data", said(f"rubber, {strand}"), None, None, "frequency", said("constructed spectrum"),
+                said("a measured compound"), "not checked",
+            )  # fmt: skip
+            continue
+        subject = said(f"rubber data cover the excited band, {strand}")
+        shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
+        if data is None:
+            asked, judged = said("range of the data not stated"), "not checked"
+        else:
+            asked, judged = (
+                said(f"within {band_words(data)}"),
+                verdict(holds=data[0] <= band[0] and band[1] <= data[1]),
+            )
+        yield Check("rubber_data", subject, None, None, "frequency", shown, asked, judged)
+
+
+CRITERIA: Final[tuple[Callable[[Calculation], Iterable[Check]], ...]] = (
+    filling,
+    motor_power,
+    take_up_tension,
+    slack_belt,
+    belt_safety,
+    belt_breakage,
+    splice_strength,
+    pulley_diameter,
+    curve_radius,
+    starting_force,
+    comes_to_rest,
+    holding,
+    bulk_slip,
+    penetration,
+    roll_life,
+    rubber_data,
+)

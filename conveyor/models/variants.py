@@ -1,0 +1,185 @@
+"""Variants of a conveyor: loaded as a case says, at another speed or temperature, with another compound."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from conveyor.errors import ConveyorError, InputError, RangeError
+from conveyor.models.cases import LoadCase
+from conveyor.models.compound import RubberCompound
+from conveyor.models.conveyor import Conveyor
+from conveyor.models.route import Route, Section
+from conveyor.units import Quantity, from_si, si
+
+CoverChoice = Literal["bottom", "top", "both"]
+"""Which cover is made of another compound."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A variant at a temperature of the covers [K] and a belt speed [m/s]; its conveyor, or why there is none."""
+
+    temperature: float
+    speed: float
+    conveyor: Conveyor | ConveyorError
+
+
+def scaled(value: Quantity, factor: float) -> Quantity:
+    """A quantity times a factor, in its own unit."""
+    changed: Quantity = value * factor
+    return changed
+
+
+def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = None) -> Conveyor:
+    """The conveyor loaded as a case says, at a belt speed.
+
+    A loading point resists only where bulk lies on the section it feeds.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    case : LoadCase
+        What is loaded.
+    speed : Quantity, optional
+        Of the belt; that of the spec without it.
+
+    Raises
+    ------
+    InputError
+        The bulk does not fit the belt, or a loading point is faster than it.
+    """
+    changes: dict[str, object] = {}
+    if speed is not None and si(speed) != si(conveyor.belt.speed):
+        changes["belt"] = conveyor.belt.replace(speed=speed)
+    if case.loading in {"empty", "part load"}:
+        share = 0.0 if case.share is None else si(case.share)
+        changes["material"] = conveyor.material.replace(flow=scaled(conveyor.material.flow, share))
+    if case.loading in {"full", "inclines only", "declines only"}:
+        sections = [_loaded(section, case) for section in conveyor.route.sections]
+        if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
+            changes["route"] = _fed(conveyor, sections, conveyor.belt.speed if speed is None else speed)
+    return conveyor.replace(**changes) if changes else conveyor
+
+
+def _loaded(section: Section, case: LoadCase) -> Section:
+    loaded = {
+        "full": True,
+        "inclines only": section.rise > 0.0,
+        "declines only": section.rise < 0.0,
+    }[case.loading]
+    return section if section.loaded is loaded else section.replace(loaded=loaded)
+
+
+def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
+    """The route with those sections; loading points above unloaded ones do not resist."""
+    route = conveyor.route
+    bearing = {section.name: section.loaded for section in sections}
+    points = [
+        point
+        if bearing[sections[0].name if point.section is None else point.section]
+        else point.replace(speed=speed, skirt_length="0 m")
+        for point in route.feeding_points
+    ]
+    if not points:
+        return route.replace(sections=sections)
+    return route.replace(sections=sections, feeding=points[0], further_feeding=points[1:])
+
+
+def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
+    """The conveyor with its covers at a temperature; the air keeps its distance to them.
+
+    Raises
+    ------
+    InputError
+        A compound is not known there.
+    """
+    ambient = conveyor.ambient
+    change = si(temperature) - si(ambient.belt)
+    if change == 0.0:
+        return conveyor
+    if ambient.belt_temperature is None:
+        return conveyor.replace(ambient=ambient.replace(temperature=temperature))
+    air = from_si(float(f"{si(ambient.temperature) + change:.9g}"), "temperature", "K")
+    return conveyor.replace(ambient=ambient.replace(temperature=air, belt_temperature=temperature))
+
+
+def distinct(values: Iterable[Quantity]) -> list[Quantity]:
+    """Values without those that say the same in another unit."""
+    return list({si(value): value for value in values}.values())
+
+
+def case_settings(conveyor: Conveyor, case: LoadCase) -> Iterator[Setting]:
+    """A conveyor loaded as a case says, at each of its speeds and temperatures."""
+    for speed in case.speeds or (conveyor.belt.speed,):
+        loaded: Conveyor | ConveyorError
+        try:
+            loaded = with_case(conveyor, case, speed=speed)
+        except ConveyorError as error:
+            loaded = error
+        for temperature in case.temperatures or (conveyor.ambient.belt,):
+            yield _setting(loaded, temperature, speed)
+
+
+def crossed_settings(
+    conveyor: Conveyor, temperatures: Iterable[Quantity], speeds: Iterable[Quantity]
+) -> Iterator[Setting]:
+    """A conveyor at every speed and temperature; where roll drag follows the air, it keeps its distance to the belt.
+
+    Otherwise nothing but the rubber changes with the temperature, and the conveyors of one speed are one.
+    """
+    given = tuple(temperatures)
+    for speed in speeds:
+        running: Conveyor | ConveyorError
+        try:
+            running = conveyor.replace(belt=conveyor.belt.replace(speed=speed))
+        except InputError as error:
+            running = error
+        for temperature in given:
+            if conveyor.idlers.drag_follows_air:
+                yield _setting(running, temperature, speed)
+            else:
+                yield Setting(si(temperature), si(speed), running)
+
+
+def _setting(loaded: Conveyor | ConveyorError, temperature: Quantity, speed: Quantity) -> Setting:
+    if isinstance(loaded, Conveyor):
+        try:
+            loaded = with_temperature(loaded, temperature)
+        except (InputError, RangeError) as error:
+            loaded = error
+    return Setting(si(temperature), si(speed), loaded)
+
+
+def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice) -> Conveyor:
+    """The conveyor with a cover, or both, of another compound.
+
+    A top cover without a compound of its own follows the bottom cover, as the spec says of it: where only the bottom
+    cover changes, it is given the old one first.
+
+    Raises
+    ------
+    InputError
+        The belt's mass does not fit the compound's density.
+    """
+    belt = conveyor.belt
+    top, bottom = belt.top_cover, belt.bottom_cover
+    above = (top.compound or bottom.compound) if cover == "bottom" else compound
+    below = bottom.compound if cover == "top" else compound
+    return conveyor.replace(
+        belt=belt.replace(top_cover=top.replace(compound=above), bottom_cover=bottom.replace(compound=below))
+    )
+
+
+def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor:
+    """The conveyor with its covers warmer or colder [K].
+
+    Raises
+    ------
+    InputError
+        A compound is not known there.
+    """
+    at = float(f"{conveyor.temperature + change:.9g}")
+    return with_temperature(conveyor, from_si(at, "temperature", "K"))
