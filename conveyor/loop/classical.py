@@ -107,12 +107,12 @@ def _acceleration(conveyor: Conveyor) -> float:
 def _pulleys(conveyor: Conveyor) -> float:
     """Of the pulleys that are not driven."""
     places = Places(conveyor)
-    driven = {places.drive(pulley) for pulley in conveyor.drive.pulleys}
+    driven = {places.before(pulley.position, pulley.section) for pulley in conveyor.drive.pulleys}
     return cema_pulley_friction(
         [
             _place(pulley)
             for pulley in conveyor.route.pulleys
-            if pulley.position == "take-up" or places.boundary(pulley.position, pulley.section) not in driven
+            if pulley.position == "take-up" or places.before(pulley.position, pulley.section) not in driven
         ]
     )
 

@@ -1,13 +1,15 @@
 """Forces at single places of the belt: loading points, skirts, cleaners, pulleys; SI, once for a conveyor.
 
 Places of the loop are boundaries between stretches, counted in running direction from the head: the n stretches of the
-return strand first, the tail is boundary n, then the n of the carry strand; boundary 2n is the head again.
+return strand first, the tail is boundary n, then the n of the carry strand; boundary 2n is the head again. What stands
+at one boundary the belt meets in the order of `Stand`.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Literal
 
 from conveyor.errors import NoSolutionError
@@ -28,6 +30,7 @@ from conveyor.units import si
 
 Kind = Literal["secondary", "special"]
 
+_TURNS = frozenset({"head", "tail"})
 _SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
 
 
@@ -42,12 +45,29 @@ class SingleForce:
     source: str
 
 
-@dataclass(frozen=True)
+class Stand(IntEnum):
+    """In which order the belt meets what stands at one boundary: the strand's end, head or tail, the next strand."""
+
+    END = 0
+    """Pulleys and ploughs behind a section."""
+    END_DRIVE = 1
+    END_BEHIND = 2
+    """A take-up behind it."""
+    TURN = 3
+    """Pulleys of head or tail, ploughs before the head."""
+    TURN_DRIVE = 4
+    TURN_BEHIND = 5
+    """Snubs and cleaners behind the head; the take-up behind head or tail."""
+    LANDING = 6
+    """Bulk that lands on the next section, and its skirts."""
+
+
+@dataclass(frozen=True, order=True)
 class Spot:
-    """A place of the loop: a boundary, and whether behind the drives that stand there."""
+    """A place of the loop: a boundary, and where among what stands there; sorted as the belt meets them."""
 
     boundary: int
-    behind: bool = False
+    stand: Stand
 
 
 @dataclass(frozen=True)
@@ -107,7 +127,8 @@ class Places:
 
     def __init__(self, conveyor: Conveyor) -> None:
         self.count = len(conveyor.route.sections)
-        self._index = {section.name: i for i, section in enumerate(conveyor.route.sections)}
+        self._names = [section.name for section in conveyor.route.sections]
+        self._index = {name: i for i, name in enumerate(self._names)}
         self._drive = conveyor.drive
 
     def boundary(self, position: str, section: str | None) -> int:
@@ -119,23 +140,37 @@ class Places:
         index = self._index[section]
         return self.count + index + 1 if position == "carry" else self.count - index
 
-    def tail_end(self, section: str | None) -> int:
-        """Boundary at which bulk lands on a section."""
-        return self.count + (0 if section is None else self._index[section])
+    def landing(self, section: str | None) -> Spot:
+        """Where bulk lands on a section, behind all else that stands at its tail end."""
+        return Spot(self.count + (0 if section is None else self._index[section]), Stand.LANDING)
 
-    def behind(self, boundary: int) -> Spot:
-        """Place behind the drives of a boundary; behind the head the loop begins."""
-        return Spot(0 if boundary == 2 * self.count else boundary, behind=True)
+    def name(self, landing: Spot) -> str:
+        """Where bulk lands, in words."""
+        section = landing.boundary - self.count
+        return "tail" if section == 0 else f"tail end of {self._names[section]}"
 
-    def drive(self, pulley: DrivePulley) -> int:
-        """Boundary of a drive."""
-        return self.boundary(pulley.position, pulley.section)
+    def before(self, position: str, section: str | None) -> Spot:
+        """Place before the drives of a position."""
+        stand = Stand.TURN if position in _TURNS else Stand.END
+        return Spot(self.boundary(position, section), stand)
+
+    def drive(self, pulley: DrivePulley) -> Spot:
+        """Place of a drive."""
+        stand = Stand.TURN_DRIVE if pulley.position in _TURNS else Stand.END_DRIVE
+        return Spot(self.boundary(pulley.position, pulley.section), stand)
+
+    def behind(self, position: str, section: str | None) -> Spot:
+        """Place behind the drives of a position; behind the head the loop begins."""
+        if position == "head":
+            return Spot(0, Stand.TURN_BEHIND)
+        stand = Stand.TURN_BEHIND if position == "tail" else Stand.END_BEHIND
+        return Spot(self.boundary(position, section), stand)
 
     def take_up(self, take_up: TakeUp | None) -> Spot:
         """Place of the take-up's pulleys: behind the first drive without one."""
         if take_up is None or take_up.position == "drive":
-            return self.behind(self.drive(self._drive))
-        return self.behind(self.boundary(take_up.position, take_up.section))
+            return self.behind(self._drive.position, self._drive.section)
+        return self.behind(take_up.position, take_up.section)
 
 
 def fixed_singles(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
@@ -156,7 +191,7 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
         )
         place = "head" if plough.section is None else f"behind {plough.section}, carry"
         single = SingleForce(f"plough {i} (x{plough.count})", "special", place, force, "ISO 5048, F_a")
-        found.append(Placed(Spot(places.boundary(plough.position, plough.section)), single))
+        found.append(Placed(places.before(plough.position, plough.section), single))
     return tuple(found)
 
 
@@ -167,8 +202,8 @@ def _feeding(conveyor: Conveyor, feeding: Feeding, places: Places) -> tuple[Plac
         return ()
     density, gravity = si(conveyor.material.density), si(conveyor.calculation.gravity)
     landing = si(feeding.speed)
-    spot = Spot(places.tail_end(feeding.section))
-    place = "tail" if spot.boundary == places.count else f"tail end of {feeding.section}"
+    spot = places.landing(feeding.section)
+    place = places.name(spot)
     which = f", {feeding.section or 'first'}" if conveyor.route.further_feeding else ""
     length = acceleration_length(
         belt_speed=speed, initial_speed=landing, belt_friction=feeding.belt_friction, gravity=gravity
@@ -222,14 +257,14 @@ def places_name(conveyor: Conveyor, feeding: Feeding) -> str:
 
 
 def _cleaners(conveyor: Conveyor) -> tuple[Placed, ...]:
-    """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
+    """Cleaners behind the head."""
     return tuple(
         Placed(
-            Spot(0, behind=True),
+            Spot(0, Stand.TURN_BEHIND),
             SingleForce(
                 f"cleaner {i} (x{cleaner.count})",
                 "special",
-                "take-up",
+                "head",
                 cleaner.count
                 * cleaner_resistance(
                     si(cleaner.width) * si(cleaner.thickness),
@@ -247,17 +282,20 @@ def bends(conveyor: Conveyor, places: Places) -> tuple[Bend, ...]:
     """Wraps, and bearings of every pulley but the driven ones; none beside the length coefficient C."""
     if conveyor.calculation.secondary == "C":
         return ()
-    driven = {places.drive(pulley) for pulley in conveyor.drive.pulleys}
+    driven = {
+        places.before(pulley.position, pulley.section): places.drive(pulley)
+        for pulley in conveyor.drive.pulleys
+    }
     return tuple(_bend(conveyor, pulley, places, driven) for pulley in conveyor.route.pulleys)
 
 
-def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: set[int]) -> Bend:
+def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: dict[Spot, Spot]) -> Bend:
     if pulley.position == "take-up":
-        spot, place, drives = places.take_up(conveyor.route.take_up), "take-up", False
+        spot, place = places.take_up(conveyor.route.take_up), "take-up"
     else:
-        spot = Spot(places.boundary(pulley.position, pulley.section))
+        spot = places.before(pulley.position, pulley.section)
+        spot = driven.get(spot, spot)
         place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
-        drives = spot.boundary in driven
     slack, taut = (_wrap(conveyor, pulley, tension) for tension in (0.0, _SLOPE_OVER))
     turn = pulley_bearing_resistance(
         1.0, shaft_diameter=si(pulley.shaft_diameter), pulley_diameter=si(pulley.diameter)
@@ -267,7 +305,7 @@ def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: set[int]) 
         spot=spot,
         place=place,
         wrap=(slack, (taut - slack) / _SLOPE_OVER),
-        bearings=None if drives else turn,
+        bearings=None if spot in driven.values() else turn,
         mass=si(pulley.mass),
     )
 
