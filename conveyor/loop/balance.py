@@ -10,7 +10,8 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.power import annual_cost, annual_energy_kwh, belt_power, motor_power, specific_energy
+from conveyor.laws.energy import DutyStep, duty_sums
+from conveyor.laws.power import belt_power, motor_power, specific_energy
 from conveyor.laws.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
@@ -23,6 +24,7 @@ from conveyor.loop.data import LoopData, loop_data
 from conveyor.loop.settled import Settled, settle
 from conveyor.loop.single_forces import Placed, SingleForce
 from conveyor.loop.tensions import Loop, State
+from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -240,21 +242,20 @@ def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
     motor = data.motor(force)
     mains = motor_power(motor, efficiency=conveyor.drive.mains_efficiency)
     flow, operation = data.flow, conveyor.operation
-    price = None if operation is None else operation.price
-    year = (
-        None if operation is None else annual_energy_kwh(mains, operating_time=si(operation.hours_per_year))
-    )
+    energy = cost = currency = None
+    if operation is not None:
+        year = duty_sums([DutyStep(time=si(operation.hours_per_year), power=mains, mass_flow=flow)])
+        energy, cost = year.net_kwh, year_cost(operation, year)
+        currency = None if operation.price is None else operation.price.currency
     specific = specific_energy(mains, mass_flow=flow, length=data.length) if flow > 0.0 else None
     return Power(
         belt=belt,
         motor=motor,
         mains=mains,
         energy_per_tonne_km=specific,
-        energy_per_year=year,
-        cost_per_year=None
-        if year is None or price is None
-        else annual_cost(year, price_per_kwh=price.amount),
-        currency=None if price is None else price.currency,
+        energy_per_year=energy,
+        cost_per_year=cost,
+        currency=currency,
     )
 
 
