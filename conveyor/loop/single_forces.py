@@ -31,6 +31,10 @@ from conveyor.units import si
 Kind = Literal["secondary", "special"]
 
 _TURNS = frozenset({"head", "tail"})
+_LEAST_DRIVEN_WRAP = math.radians(90.0)
+"""Nobody drives a pulley that the belt lies on for less; general knowledge."""
+_MOST_DRIVEN_WRAP = math.radians(270.0)
+"""On one pulley; a drive of more stands for several, general knowledge."""
 _SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
 
 
@@ -91,6 +95,7 @@ class Bend:
     bearings: float | None
     """Bearing resistance per newton of load [-]; None of a driven pulley, whose bearings the efficiency holds."""
     mass: float
+    wrap_angle: float = math.pi
 
     def forces(self, tight: float, slack: float, gravity: float) -> tuple[float, float]:
         """Wrap and bearings at the tensions of both sides [N].
@@ -109,7 +114,13 @@ class Bend:
         bend = base + slope * 0.5 * (tight + slack)
         if self.bearings is None:
             return bend, 0.0
-        load = pulley_load(tight_tension=tight, slack_tension=slack, pulley_mass=self.mass, gravity=gravity)
+        load = pulley_load(
+            tight_tension=tight,
+            slack_tension=slack,
+            pulley_mass=self.mass,
+            gravity=gravity,
+            wrap_angle=self.wrap_angle,
+        )
         return bend, self.bearings * load
 
     def singles(self, tight: float, slack: float, gravity: float) -> tuple[SingleForce, ...]:
@@ -282,20 +293,45 @@ def bends(conveyor: Conveyor, places: Places) -> tuple[Bend, ...]:
     """Wraps, and bearings of every pulley but the driven ones; none beside the length coefficient C."""
     if conveyor.calculation.secondary == "C":
         return ()
-    driven = {
-        places.before(pulley.position, pulley.section): places.drive(pulley)
-        for pulley in conveyor.drive.pulleys
-    }
-    return tuple(_bend(conveyor, pulley, places, driven) for pulley in conveyor.route.pulleys)
+    driven = driven_pulleys(conveyor)
+    return tuple(
+        _bend(conveyor, pulley, places, driven=i in driven) for i, pulley in enumerate(conveyor.route.pulleys)
+    )
 
 
-def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: dict[Spot, Spot]) -> Bend:
+def driven_pulleys(conveyor: Conveyor) -> frozenset[int]:
+    """Which pulleys of the route the drives turn: at each drive's place as many as stand there, those most wrapped.
+
+    What else stands there bends the belt or is a snub, and is not driven.
+    """
+    found: set[int] = set()
+    for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
+        wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
+        count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
+        beside = [
+            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
+            for i, pulley in enumerate(conveyor.route.pulleys)
+            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
+        ]
+        found.update(i for _, _, i in sorted(beside)[:count])
+    return frozenset(found)
+
+
+def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Spot:
+    """Where the belt meets a pulley; one beside a driven one on the return strand, on a strand before the drive."""
     if pulley.position == "take-up":
-        spot, place = places.take_up(conveyor.route.take_up), "take-up"
-    else:
-        spot = places.before(pulley.position, pulley.section)
-        spot = driven.get(spot, spot)
-        place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
+        return places.take_up(conveyor.route.take_up)
+    before = places.before(pulley.position, pulley.section)
+    at = {(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys}
+    drive = at.get((pulley.position, pulley.section))
+    if drive is not None and driven:
+        return drive
+    return places.behind("head", None) if drive is not None and pulley.position == "head" else before
+
+
+def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Bend:
+    spot = _pulley_spot(conveyor, pulley, places, driven=driven)
+    place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
     slack, taut = (_wrap(conveyor, pulley, tension) for tension in (0.0, _SLOPE_OVER))
     turn = pulley_bearing_resistance(
         1.0, shaft_diameter=si(pulley.shaft_diameter), pulley_diameter=si(pulley.diameter)
@@ -305,8 +341,9 @@ def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: dict[Spot,
         spot=spot,
         place=place,
         wrap=(slack, (taut - slack) / _SLOPE_OVER),
-        bearings=None if spot in driven.values() else turn,
+        bearings=None if driven else turn,
         mass=si(pulley.mass),
+        wrap_angle=si(pulley.wrap_angle),
     )
 
 

@@ -31,7 +31,8 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
         "at the default tolerance.",
         *roll_assumptions(conveyor),
-        "Bearings of the driven pulley are in the drive's efficiency; tension changes the load of the rolls on "
+        "Bearings of the driven pulleys (at each drive's place the most wrapped, as many as it stands for) are in the "
+        "drive's efficiency; tension changes the load of the rolls on "
         "vertical curves only.",
         f"Covers are at {text(conveyor.ambient.belt)} throughout.",
         *_energy(conveyor),

@@ -165,3 +165,40 @@ def test_feeding_lies_behind_a_tail_drive():
     assert short == {"grip, drive, steady", "grip, drive, start"}
     # carry starts with the feeding added
     assert found.settled.steady.starts[1] == pytest.approx(steady.leaving + feeding, rel=1e-12)
+
+
+SNUB = {
+    "name": "beside",
+    "diameter": "630 mm",
+    "shaft_diameter": "120 mm",
+    "mass": "0.5 t",
+    "wrap_angle": "30 deg",
+}
+
+
+@pytest.mark.parametrize(("position", "driven"), [("head", "head"), ("tail", "tail")])
+def test_only_the_driven_pulley_leaves_its_bearings_to_the_drive(position, driven):
+    """A snub beside it turns in bearings of its own, on the return strand."""
+    route = {
+        "pulleys": [SNUB | {"position": position}, *ROUTE["pulleys"][:3]],
+        "take_up": {"kind": "gravity", "position": "return", "section": "c"},
+    }
+    conveyor = line(route=route, drive={"position": position})
+    found = balance(conveyor, forced(conveyor))
+    with_bearings = {
+        s.name.removeprefix("bearings, ") for s in found.singles if s.name.startswith("bearings")
+    }
+    assert with_bearings == {"beside", "head", "bend", "tail"} - {driven}
+    # 0.005 d0/D over the vector sum of the belt's tensions and the weight, where the return strand meets it
+    (side,) = found.settled.steady.drives
+    tension = side.leaving if position == "head" else found.settled.steady.ends[3]
+    load = math.hypot(2.0 * tension * math.sin(math.radians(15.0)), 500.0 * 9.81)
+    force = next(s.force for s in found.singles if s.name == "bearings, beside")
+    assert force == pytest.approx(0.005 * 120.0 / 630.0 * load, rel=1e-9)
+
+
+def test_a_drive_of_two_wraps_turns_two_pulleys_and_never_a_snub():
+    twice = [SNUB | {"position": "head"}, ROUTE["pulleys"][0], ROUTE["pulleys"][0] | {"name": "second"}]
+    conveyor = line(route={"pulleys": twice}, drive={"wrap_angle": "400 deg"})
+    found = balance(conveyor, forced(conveyor))
+    assert [s.name for s in found.singles if s.name.startswith("bearings")] == ["bearings, beside"]
