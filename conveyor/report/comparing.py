@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from conveyor.figures import celsius
+from conveyor.loop.year import earns_nothing
 from conveyor.units import si
 
 if TYPE_CHECKING:
@@ -185,6 +186,11 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         lines.append(
             "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
         )
+    fed_back = any(scene.motor < 0.0 for scene in comparison.scenes) or any(
+        study.year.fed_back_kwh > 0.0 for study in comparison.years.values()
+    )
+    if fed_back and earns_nothing(comparison.conveyor.operation):
+        lines.append("operation.feed_in_price not given: energy that is fed back earns nothing")
     if comparison.conveyor.duty:
         lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
         lines += [

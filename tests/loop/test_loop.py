@@ -120,14 +120,20 @@ def test_the_take_up_holds_what_it_holds(case):
     for state in (*settled.states.values(), *motions(conveyor, results, found).states.values()):
         if take_up is None:
             # of all drives at the first one's place: a take-up stands behind the station, not between its pulleys
-            first = settled.loop.data.drives[0].boundary
-            beside = [drive.boundary == first for drive in settled.loop.data.drives]
+            first = settled.loop.data.drives[0].spot
+            beside = [drive.spot == first for drive in settled.loop.data.drives]
             held = min(side.slack for side, here in zip(state.drives, beside, strict=True) if here)
         elif take_up.kind == "fixed":
             held = float((0.5 * (state.starts + state.ends)) @ geometry.length / geometry.length.sum())
         else:
             boundary = _boundary(conveyor, take_up.position, take_up.section)
             held = float(state.starts[boundary % len(state.starts)])
+            if take_up.position == "tail":  # the bulk lands behind it
+                held -= sum(
+                    s.force * (1.0 if "acceleration" in s.name else state.friction)
+                    for s in found.singles
+                    if "bulk" in s.name or "skirts" in s.name
+                )
         assert held == pytest.approx(settled.setting, rel=1e-12), state.name
 
 
