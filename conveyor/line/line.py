@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -14,8 +14,8 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
-from conveyor.line.stretches import Pressing, Stretch, stretches
-from conveyor.models import Conveyor, DrivePulley, Feeding, Pulley, Section
+from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
+from conveyor.models import Conveyor, DrivePulley, Feeding, Pulley
 from conveyor.models.methods import Cema
 from conveyor.units import Quantity, si
 
@@ -25,20 +25,6 @@ _LEAST_DRIVEN_WRAP = math.radians(90.0)
 """Nobody drives a pulley that the belt lies on for less; general knowledge."""
 _MOST_DRIVEN_WRAP = math.radians(270.0)
 """On one pulley; a drive of more stands for several, general knowledge."""
-
-
-@dataclass(frozen=True)
-class RouteSection:
-    """A section of the route: length and rise in running direction of the carry strand [m], its vertical curve.
-
-    `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m].
-    """
-
-    name: str
-    length: float
-    rise: float
-    curve: str | None
-    radius: float
 
 
 @dataclass(frozen=True)
@@ -240,11 +226,11 @@ class Line:
             A law of roll drag does not hold at a load.
         """
         drive, route, calculation = conveyor.drive, conveyor.route, conveyor.calculation
-        places = Places(conveyor)
+        places, sections = Places(conveyor), route_sections(conveyor)
         efficiency = si(drive.efficiency)
         return cls(
-            stretches=stretches(conveyor, pressing),
-            sections=tuple(map(_section, route.sections)),
+            stretches=stretches(conveyor, sections, pressing),
+            sections=sections,
             belt=_belt(conveyor),
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
@@ -274,16 +260,6 @@ class Line:
             softened=calculation.strain != "off",
             gauss_points=calculation.gauss_points,
         )
-
-    def pressed(self, conveyor: Conveyor, pressing: Pressing) -> Line:
-        """Return the line with other masses pressing on the rolls of its vertical curves [kg/m].
-
-        Raises
-        ------
-        NoSolutionError
-            The belt lifts off with all that lies on it.
-        """
-        return replace(self, stretches=stretches(conveyor, pressing))
 
     @property
     def count(self) -> int:
@@ -337,10 +313,6 @@ def _known(value: Quantity | None) -> float | None:
 
 def _given(value: Quantity | None, default: float) -> float:
     return default if value is None else si(value)
-
-
-def _section(section: Section) -> RouteSection:
-    return RouteSection(section.name, si(section.length), section.rise, section.curve, section.signed_radius)
 
 
 def _belt(conveyor: Conveyor) -> BeltBody:

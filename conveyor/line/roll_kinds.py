@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.line.stretches import Strand, Stretch, roll_at
-from conveyor.units import si
+from conveyor.line.stretches import Strand, Stretch
 
 Array = NDArray[np.float64]
 
@@ -64,8 +63,7 @@ def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, .
     """Sort the rolls of a line by the contact they share; `points` of the quadrature along a roll."""
     gathered: dict[tuple[Strand, float, float], list[tuple[int, int]]] = {}
     for i, stretch in enumerate(stretches):
-        for place in range(len(stretch.loads)):
-            radius = 0.5 * si(roll_at(stretch.idlers, place).diameter)
+        for place, radius in enumerate(stretch.radii):
             gathered.setdefault((stretch.strand, radius, stretch.spacing), []).append((i, place))
     kinds = []
     for (strand, radius, spacing), rolls in gathered.items():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,12 +16,52 @@ from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
 
-__all__ = ["STRANDS", "Pressing", "Strand", "Stretch", "roll_at", "roll_masses", "stretches"]
+__all__ = [
+    "STRANDS", "Pressing", "RouteSection", "Strand", "Stretch", "roll_at", "roll_masses", "route_sections",
+    "stretches",
+]  # fmt: skip
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
 Pressing = Mapping[tuple[str, Strand], float]
 """Mass per length with which tension presses on the rolls of a section and strand [kg/m], negative where it lifts."""
+
+
+@dataclass(frozen=True)
+class RouteSection:
+    """A section of the route: length and rise in running direction of the carry strand [m], its vertical curve.
+
+    `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m]; `spacing` that of
+    each strand's sets where the section has its own [m].
+    """
+
+    name: str
+    length: float
+    rise: float
+    loaded: bool
+    spacing: Mapping[Strand, float | None]
+    curve: str | None
+    radius: float
+
+
+def route_sections(conveyor: Conveyor) -> tuple[RouteSection, ...]:
+    """The sections of a route, from the tail; SI."""
+    return tuple(map(_route_section, conveyor.route.sections))
+
+
+def _route_section(section: Section) -> RouteSection:
+    return RouteSection(
+        name=section.name,
+        length=si(section.length),
+        rise=section.rise,
+        loaded=section.loaded,
+        spacing={
+            "carry": None if section.carry_spacing is None else si(section.carry_spacing),
+            "return": None if section.return_spacing is None else si(section.return_spacing),
+        },
+        curve=section.curve,
+        radius=section.signed_radius,
+    )
 
 
 @dataclass(frozen=True)
@@ -42,6 +82,8 @@ class Stretch:
         The sets, as the spec has them.
     trough_angle, tilt_angle, roll_length : float
         Of the sets [rad, rad, m].
+    radii : tuple of float
+        Of each roll of a set [m].
     belt_mass, bulk_mass : float
         m'_belt, m'_bulk [kg/m].
     loads : tuple of RollLoad
@@ -65,6 +107,7 @@ class Stretch:
     trough_angle: float
     tilt_angle: float
     roll_length: float
+    radii: tuple[float, ...]
     belt_mass: float
     bulk_mass: float
     loads: tuple[RollLoad, ...]
@@ -89,9 +132,10 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(conveyor: Conveyor, pressing: Pressing | None = None) -> tuple[Stretch, ...]:
+def stretches(
+    conveyor: Conveyor, sections: Sequence[RouteSection], pressing: Pressing | None = None
+) -> tuple[Stretch, ...]:
     """Both strands of every section, SI; `pressing` as of `roll_masses`."""
-    sections = conveyor.route.sections
     carry, back = _Strand(conveyor, "carry", pressing or {}), _Strand(conveyor, "return", pressing or {})
     return (
         *(carry.stretch(section) for section in sections),
@@ -133,21 +177,22 @@ class _Strand:
         self.set_mass = _set_mass(self.idlers)
         self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
         self.roll_length = si(self.idlers.roll.length)
+        self.radii = tuple(0.5 * si(roll_at(self.idlers, i).diameter) for i in range(self.idlers.rolls))
         self.set_loads = SetLoads(conveyor, self.idlers)
         self.set_drags = SetDrags(conveyor, self.idlers, strand)
         self.flexure = FlexureLaw(conveyor, self.set_loads)
 
-    def stretch(self, section: Section) -> Stretch:
+    def stretch(self, section: RouteSection) -> Stretch:
         """One section."""
-        own = section.carry_spacing if self.carrying else section.return_spacing
-        spacing = self.spacing if own is None else si(own)
+        own = section.spacing[self.strand]
+        spacing = self.spacing if own is None else own
         flow = self.full if self.carrying and section.loaded else 0.0
         flow *= self.flow_shares[section.name]
         pressing = self.pressing.get((section.name, self.strand), 0.0)
         belt_on_rolls, bulk_on_rolls = roll_masses(
             self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
         )
-        length = si(section.length)
+        length = section.length
         rise = section.rise if self.carrying else -section.rise
         inclination = math.asin(rise / length)
         loads = self.set_loads.of(
@@ -170,6 +215,7 @@ class _Strand:
             trough_angle=self.trough,
             tilt_angle=self.tilt,
             roll_length=self.roll_length,
+            radii=self.radii,
             belt_mass=self.belt_mass,
             bulk_mass=flow,
             loads=loads,
