@@ -12,6 +12,7 @@ from typing import Final, Literal
 
 from conveyor.figures import Said, band_words, quoted, said
 from conveyor.line.covers import compounds_by_strand
+from conveyor.line.line import DriveUnit
 from conveyor.line.roll_lives import set_life
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.belt_duty import BeltDuty, CurveCheck
@@ -71,7 +72,7 @@ def verdict(*, holds: bool) -> Verdict:
     return "pass" if holds else "FAIL"
 
 
-def compared(
+def compared(  # noqa: PLR0917 reads as the sentence it checks
     key: str,
     subject: str | Said,
     calculated: float,
@@ -115,7 +116,7 @@ def compared(
 
 
 def checks(found: Calculation) -> tuple[Check, ...]:
-    """Check one calculation for everything: drives, take-up, belt, pulleys, curves, start, stop, bulk, rolls, rubber."""
+    """Check one calculation for every criterion, in the order of `CRITERIA`."""
     return tuple(check for criterion in CRITERIA for check in criterion(found))
 
 
@@ -134,22 +135,24 @@ def motor_power(found: Calculation) -> Iterator[Check]:
     """Every drive's motors give or hold its share in steady running."""
     steady = found.balance.settled.steady
     for drive, side in zip(found.line.drives, steady.drives, strict=True):
-        yield drive_power(drive.name, found.balance.frame.motor(side.force), drive.power)
+        alone = len(found.line.drives) == 1
+        yield drive_power(
+            "the motor" if alone else f'"{quoted(drive.name)}"', drive, found.balance.frame.motor(side.force)
+        )
 
 
-def drive_power(name: str, power: float, installed: float | None, subject: Said | None = None) -> Check:
+def drive_power(who: str, drive: DriveUnit, power: float, subject: Said | None = None) -> Check:
     """A drive's power [W], negative where it generates, against what is installed."""
     generating = " (generating)" if power < 0.0 else ""
     why = None
-    if installed is not None:
-        words = f'"{quoted(name)}" needs {{}}, installed are {{}}'
-        why = said(words, (power, "power"), (installed, "power"))
+    if drive.power is not None:
+        why = said(f"{who} needs {{}}, installed are {{}}", (power, "power"), (drive.power, "power"))
     return compared(
         "motor_power",
-        said(f"motor power, {quoted(name)}") if subject is None else subject,
+        said(f"motor power, {quoted(drive.name)}") if subject is None else subject,
         abs(power),
         "at most",
-        installed,
+        drive.power,
         "power",
         found=said("{}" + generating, (abs(power), "power")),
         missing="installed power not given",
@@ -268,7 +271,7 @@ def pulley_diameter(found: Calculation) -> Iterator[Check]:
 
 
 def curve_radius(found: Calculation) -> Iterator[Check]:
-    """Every vertical curve is wide enough that the belt stays down and its strips are neither overstressed nor slack."""
+    """On every vertical curve the belt stays down, its strips neither overstressed nor slack."""
     for curve in found.belt_duty.curves:
         for least, fine, bad in (
             (curve.lift_off, "empty belt stays down", "the empty belt lifts off"),
@@ -318,7 +321,8 @@ def starting_force(found: Calculation) -> Iterator[Check]:
             why=why,
         )
     why = said(
-        "the starting force of {} does not overcome the resistance after standstill, up to {}: raise drive.start_factor",
+        "the starting force of {} does not overcome the resistance after standstill, up to {}: "
+        "raise drive.start_factor",
         (start.force, "force"),
         (start.breakaway, "force"),
     )
@@ -441,10 +445,15 @@ def roll_life(found: Calculation) -> Iterator[Check]:
         ]
         known = [life for life in lives if life is not None]
         if known:
+            why = said(
+                f"{strand} idler sets: L10 of all bearings together is {min(known):,.0f} h, less than the "
+                f"{ASKED_LIFE:,.0f} h that light series are rated for (CEMA, as commonly reproduced); seals and dirt "
+                "may end it sooner"
+            )
             yield Check(
                 "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * min(known), 3600.0 * ASKED_LIFE,
                 "duration", said(f"{min(known):,.0f} h"), said(f"at least {ASKED_LIFE:,.0f} h"),
-                verdict(holds=min(known) >= ASKED_LIFE),
+                verdict(holds=min(known) >= ASKED_LIFE), why,
             )  # fmt: skip
 
 
@@ -464,13 +473,17 @@ def rubber_data(found: Calculation) -> Iterator[Check]:
         subject = said(f"rubber data cover the excited band, {strand}")
         shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
         if data is None:
-            asked, judged = said("range of the data not stated"), "not checked"
-        else:
-            asked, judged = (
-                said(f"within {band_words(data)}"),
-                verdict(holds=data[0] <= band[0] and band[1] <= data[1]),
-            )
-        yield Check("rubber_data", subject, None, None, "frequency", shown, asked, judged)
+            asked = said("range of the data not stated")
+            yield Check("rubber_data", subject, None, None, "frequency", shown, asked, "not checked")
+            continue
+        why = said(
+            f'compound "{quoted(compound.name)}": nine tenths of the {strand} rolls\' loss lie between {band[0]:.3g} and '
+            f"{band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz at {{}}: the series is extrapolated",
+            (at, "temperature"),
+        )
+        covered = verdict(holds=data[0] <= band[0] and band[1] <= data[1])
+        asked = said(f"within {band_words(data)}")
+        yield Check("rubber_data", subject, None, None, "frequency", shown, asked, covered, why)
 
 
 CRITERIA: Final[tuple[Callable[[Calculation], Iterable[Check]], ...]] = (

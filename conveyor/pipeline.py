@@ -172,8 +172,11 @@ def calculate_many(
                 found = _closed(variants[i], loaded[i][0], contacts, going[i])
             except NoSolutionError as error:
                 answers[i] = error
+                continue
+            if isinstance(found, _Step):
+                again[i] = found
             else:
-                (answers if isinstance(found, Calculation) else again)[i] = found  # type: ignore[index]
+                answers[i] = found
         told(len(answers), 0)
         going = again
     return [answers[i] for i in range(len(variants))]

@@ -37,26 +37,6 @@ class Studies:
         held = [name for name in ("cases", "duty", "uncertainty") if getattr(self, name) is not None]
         return f"Studies({', '.join(held) or 'nothing asked for'})"
 
-    def _repr_html_(self) -> str:
-        """For notebooks: what there is, one after the other."""
-        held = (self.cases, self.duty, self.uncertainty)
-        return (
-            "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
-        )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain numbers for JSON, only of what there is; units in the keys."""
-        from conveyor.report import case_tables
-
-        found: dict[str, Any] = {}
-        if self.cases is not None:
-            found["load_cases"] = case_tables.cases_data(self.cases)
-        if self.duty is not None:
-            found["duty"] = case_tables.duty_data(self.duty)
-        if self.uncertainty is not None:
-            found["uncertainty"] = case_tables.uncertainty_data(self.uncertainty)
-        return found
-
 
 def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> Studies:
     """Calculate what the spec asks for.

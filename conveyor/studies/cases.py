@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
-from conveyor.checks import Check, drive_power, holds, not_slack, steady_safety
+from conveyor.checks import Check, drive_power, holds, not_slack, steady_safety, verdict
 from conveyor.errors import InputError
 from conveyor.figures import Said, quoted, said
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
@@ -287,7 +287,7 @@ def _of_case(criterion: str, result: CaseResult) -> Said:
 def _motor_checks(most: Governing) -> Iterator[Check]:
     for drive in most.result.found.line.drives:
         subject = _of_case(f"motor power, {quoted(drive.name)}", most.result)
-        yield drive_power(drive.name, drive.share * most.value, drive.power, subject)
+        yield drive_power(quoted(drive.name), drive, drive.share * most.value, subject)
 
 
 def _take_up_check(study: CaseStudy, most: Governing) -> Iterator[Check]:
@@ -295,7 +295,7 @@ def _take_up_check(study: CaseStudy, most: Governing) -> Iterator[Check]:
     subject = _of_case("tension of the take-up", most.result)
     asked = said("at least {}", (most.value, "force"))
     if held is not None:
-        passed = "pass" if holds(held, most.value) else "FAIL"
+        passed = verdict(holds=holds(held, most.value))
         shown = said("{}", (held, "force"))
         yield Check("take_up_tension", subject, held, most.value, "force", shown, asked, passed)
     elif len(study.results) > 1:
