@@ -4,11 +4,12 @@ from conveyor.models.base import Model
 from conveyor.models.belt import Belt, Carcass, Cover, TopCover
 from conveyor.models.cases import LoadCase, standard_cases
 from conveyor.models.compound import RubberCompound
-from conveyor.models.conveyor import Ambient, Calculation, Conveyor
+from conveyor.models.conveyor import Conveyor
 from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.idlers import Idlers, IdlerSet
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
+from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.report import Report
 from conveyor.models.rolls import Roll
 from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp

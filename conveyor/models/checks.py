@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from conveyor.errors import RangeError
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
@@ -12,14 +11,12 @@ from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.models.base import Location, Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.idlers import IdlerSet, overlap_problems
+from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
 from conveyor.units import Quantity, display, from_si, si, text
 
-if TYPE_CHECKING:
-    from conveyor.models.conveyor import Conveyor
 
-
-def conflicts(conveyor: Conveyor) -> list[Problem]:
+def conflicts(conveyor: ConveyorParts) -> list[Problem]:
     """Return every conflict between the parts, not the first only."""
     checks = (
         _rolls_span,
@@ -35,11 +32,11 @@ def conflicts(conveyor: Conveyor) -> list[Problem]:
     return [problem for check in checks for problem in check(conveyor)]
 
 
-def _sets(conveyor: Conveyor) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
+def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
     return (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
 
 
-def _rolls_span(conveyor: Conveyor) -> Iterator[Problem]:
+def _rolls_span(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Rolls side by side are as wide as the belt, and the inner ones leave belt for the outer ones."""
     width = conveyor.belt.width
     for strand, idlers in _sets(conveyor):
@@ -65,7 +62,7 @@ def _like(length: float, idlers: IdlerSet) -> str:
     return text(from_si(float(f"{length:.6g}"), "length", unit))
 
 
-def cross_sections(conveyor: Conveyor) -> tuple[float, float] | None:
+def cross_sections(conveyor: ConveyorParts) -> tuple[float, float] | None:
     """Cross-section of the bulk, and the largest one that the belt holds (ISO 5048) [m²].
 
     None without bulk, and for 4 and 5 rolls, which have no rule there.
@@ -84,7 +81,7 @@ def cross_sections(conveyor: Conveyor) -> tuple[float, float] | None:
     return bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density), area
 
 
-def _flow_fits(conveyor: Conveyor) -> Iterator[Problem]:
+def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
     found, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
     if found is None or found[0] <= found[1]:
@@ -109,7 +106,7 @@ def _rounded(value: Quantity, *, down: bool) -> str:
     return f"{whole * step:.6g} {unit}"
 
 
-def _sets_apart(conveyor: Conveyor) -> Iterator[Problem]:
+def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Also where a section has its own spacing, rolls of neighbouring sets do not overlap."""
     for i, section in enumerate(conveyor.route.sections):
         for strand, idlers in _sets(conveyor):
@@ -118,7 +115,7 @@ def _sets_apart(conveyor: Conveyor) -> Iterator[Problem]:
                 yield from overlap_problems(("route", "sections", i, f"{strand}_spacing"), spacing, idlers)
 
 
-def _covers_thin(conveyor: Conveyor) -> Iterator[Problem]:
+def _covers_thin(conveyor: ConveyorParts) -> Iterator[Problem]:
     """A cover is a layer on the roll, not a block: thinner than the radius of every roll on it."""
     belt, idlers = conveyor.belt, conveyor.idlers
     bottom_on_both = conveyor.route.turned_over
@@ -137,7 +134,7 @@ def _covers_thin(conveyor: Conveyor) -> Iterator[Problem]:
             )
 
 
-def _warm_enough(conveyor: Conveyor) -> Iterator[Problem]:
+def _warm_enough(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The compounds are known at the belt's temperature."""
     ambient = conveyor.ambient
     field = "temperature" if ambient.belt_temperature is None else "belt_temperature"
@@ -153,7 +150,7 @@ def _warm_enough(conveyor: Conveyor) -> Iterator[Problem]:
             )
 
 
-def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
+def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Feeding, cleaners and ploughs are no faster and no wider than the belt."""
     belt, route = conveyor.belt, conveyor.route
     points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
@@ -178,7 +175,7 @@ def _feeding_fits(conveyor: Conveyor) -> Iterator[Problem]:
             )
 
 
-def _drives_placed(conveyor: Conveyor) -> Iterator[Problem]:
+def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Every section that a drive stands at exists."""
     drive = conveyor.drive
     named: dict[Location, str | None] = {("drive", "section"): drive.section}
@@ -190,7 +187,7 @@ def _drives_placed(conveyor: Conveyor) -> Iterator[Problem]:
             yield from conveyor.route.section_problem(location, name)
 
 
-def _flexure_applies(conveyor: Conveyor) -> Iterator[Problem]:
+def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The law of the bulk's flexure knows troughs of up to 3 rolls only; so does the width under the bulk."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
     if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
@@ -200,7 +197,7 @@ def _flexure_applies(conveyor: Conveyor) -> Iterator[Problem]:
         )
 
 
-def _coefficient_holds(conveyor: Conveyor) -> Iterator[Problem]:
+def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The length coefficient stands for the secondary resistances of long conveyors only."""
     length = conveyor.route.length
     if conveyor.calculation.secondary == "C" and length <= SHORTEST_FOR_FACTOR:

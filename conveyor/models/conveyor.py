@@ -1,88 +1,22 @@
-"""The whole conveyor: its parts, and the checks between them."""
+"""The whole conveyor: its parts, checked against each other, and what is asked of it."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.resistance import FLEXURE_SHARE, FRICTION_FACTOR
-from conveyor.models.base import Model, Name, Number, Problem, refuse
-from conveyor.models.belt import Belt
+from conveyor.models.base import refuse
 from conveyor.models.cases import LoadCase, named_once
-from conveyor.models.compound import RubberCompound
-from conveyor.models.drive import Drive
-from conveyor.models.idlers import Idlers
-from conveyor.models.material import BulkMaterial
-from conveyor.models.methods import Cema, Flexure
-from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
+from conveyor.models.checks import conflicts, cross_sections
+from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
-from conveyor.models.route import Route
 from conveyor.models.uncertainty import Uncertainty
-from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, si, text
 
 
-class Ambient(Model):
-    """Where the conveyor stands."""
-
-    temperature: EarthTemperature
-    """Temperature of the air."""
-    belt_temperature: EarthTemperature | None = None
-    """Temperature of the running belt's covers, where it differs."""
-
-    @property
-    def belt(self) -> Quantity:
-        """Temperature of the covers."""
-        return self.temperature if self.belt_temperature is None else self.belt_temperature
-
-
-class Calculation(Model):
-    """How to calculate."""
-
-    support: Literal["confined", "free", "half-space"] = "confined"
-    """What holds the cover: a stiff carcass (confined), nothing (free), endless rubber (half-space)."""
-    rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-6
-    """Relative tolerance of the rolling contact."""
-    strain: Literal["where known", "off"] = "where known"
-    """Moduli at the strain the rolls work the cover at, for compounds with strain sweeps at the belt's temperature."""
-    gauss_points: Annotated[int, Field(ge=1, le=64, strict=True)] = 8
-    """Points along a roll at which the contact is solved."""
-    secondary: Literal["itemised", "C"] = "itemised"
-    """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
-    friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
-    """Friction factor f of the classical estimate, for comparison."""
-    flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(
-        FLEXURE_SHARE.value, "fraction"
-    )
-    """Share of the flexure of belt and bulk in the main resistance."""
-    flexure: Flexure | None = None
-    """Laws for the flexure instead of the share."""
-    cema: Cema | None = None
-    """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
-    gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
-    """Acceleration of gravity at the site."""
-
-    @model_validator(mode="after")
-    def _one_flexure(self) -> Self:
-        if self.flexure is not None and "flexure_share" in self.model_fields_set:
-            message = f"given beside flexure_share {text(self.flexure_share)}; give one of the two, remove the other"
-            refuse("Calculation", [Problem(("flexure",), message)])
-        return self
-
-
-class Conveyor(Model):
+class Conveyor(ConveyorParts):
     """A belt conveyor as its designers list it."""
 
-    name: Name
-    """What the conveyor is called in reports."""
-    belt: Belt
-    idlers: Idlers
-    material: BulkMaterial
-    route: Route
-    drive: Drive
-    ambient: Ambient
-    operation: Operation | None = None
-    calculation: Calculation = Calculation()
     cases: Annotated[tuple[LoadCase, ...], Field(max_length=100)] = ()
     """Load cases to calculate beside the conveyor as given."""
     uncertainty: Uncertainty | None = None
@@ -94,51 +28,10 @@ class Conveyor(Model):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        from conveyor.models.checks import conflicts
-
         refuse("Conveyor", [*conflicts(self), *named_once(self.cases)])
         return self
 
     @property
-    def duty(self) -> tuple[DutyEntry, ...]:
-        """Histogram of the year; empty where all hours are alike or there is no operation."""
-        return () if self.operation is None else self.operation.duty
-
-    @property
-    def temperature(self) -> float:
-        """Of the covers [K]."""
-        return si(self.ambient.belt)
-
-    @property
-    def belt_speed(self) -> float:
-        """Of the belt [m/s]."""
-        return si(self.belt.speed)
-
-    @property
-    def air_temperature(self) -> float:
-        """Of the air [K]."""
-        return si(self.ambient.temperature)
-
-    @property
     def cross_sections(self) -> tuple[float, float] | None:
         """Cross-section of the bulk and the largest the belt holds (ISO 5048) [m²]; None where there is no rule."""
-        from conveyor.models.checks import cross_sections
-
         return cross_sections(self)
-
-    @property
-    def carry_compound(self) -> RubberCompound:
-        """Rubber that the carry rolls run on: the bottom cover's."""
-        return self.belt.bottom_cover.compound
-
-    @property
-    def return_compound(self) -> RubberCompound:
-        """Rubber that the return rolls run on: the top cover's, unless turned over or not stated."""
-        top = self.belt.top_cover.compound
-        return self.carry_compound if self.route.turned_over or top is None else top
-
-    @property
-    def return_cover_thickness(self) -> Quantity:
-        """Thickness of the cover that the return rolls run on."""
-        belt = self.belt
-        return belt.bottom_cover.thickness if self.route.turned_over else belt.top_cover.thickness

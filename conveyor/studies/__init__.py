@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from conveyor.models import Conveyor
 from conveyor.studies.cases import CaseStudy, analyse_cases
