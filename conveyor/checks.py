@@ -13,9 +13,10 @@ from typing import Final, Literal
 from conveyor.figures import Said, band_words, quoted, said
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import DriveUnit
-from conveyor.line.roll_lives import set_life
+from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.belt_duty import BeltDuty, CurveCheck
+from conveyor.loop.starting import every_state
 from conveyor.pipeline import Calculation
 
 Verdict = Literal["pass", "FAIL", "not checked"]
@@ -23,10 +24,6 @@ Relation = Literal["at least", "at most"]
 
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
-ASKED_LIFE: Final = 30e3
-"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
-HELD: Final = 1.0 - 1e-9
-"""Of what is needed; a setting typed to the computed figure is not short of it."""
 
 
 @dataclass(frozen=True)
@@ -163,9 +160,8 @@ def drive_power(who: str, drive: DriveUnit, power: float, subject: Said | None =
 def take_up_tension(found: Calculation) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state."""
     settled = found.balance.settled
-    short = {name: asked for name, asked in settled.conditions.items() if not holds(settled.setting, asked)}
     governing = settled.condition_name(settled.governed_by)
-    for name, asked in (short or {governing: settled.needed}).items():
+    for name, asked in (settled.short or {governing: settled.needed}).items():
         why = said(
             f"the take-up holds {{}}, {quoted(name)} asks for {{}}",
             (settled.setting, "force"),
@@ -175,27 +171,20 @@ def take_up_tension(found: Calculation) -> Iterator[Check]:
             "take_up_tension", f"tension of the take-up ({quoted(name)})", settled.setting, "at least", asked,
             "force", why=why,
         )  # fmt: skip
-        yield replace(made, verdict=verdict(holds=not short))
-
-
-def holds(setting: float, asked: float) -> bool:
-    """Whether a setting of the take-up is enough [N]; one typed to the computed figure is."""
-    return setting >= asked * (HELD if asked > 0.0 else 1.0)
+        yield replace(made, verdict=verdict(holds=not settled.short))
 
 
 def slack_belt(found: Calculation) -> Iterator[Check]:
-    """The belt is nowhere slack in any state of motion."""
-    states = (*found.balance.settled.states.values(), *found.motions.states.values())
-    slackest = min(states, key=lambda state: state.smallest)
-    yield not_slack(
-        slackest.smallest,
-        said(f"smallest tension of all states ({slackest.name})"),
-        said(
-            f'the belt goes slack in the state "{slackest.name}": down to {{}}; raise the take-up\'s tension, or slow '
+    """The belt is nowhere slack in any state of motion; the slackest state is named, or every one that fails."""
+    states = every_state(found.balance, found.motions)
+    slack = [state for state in states if state.slack]
+    for state in slack or [min(states, key=lambda state: state.smallest)]:
+        why = said(
+            f'the belt goes slack in the state "{state.name}": down to {{}}; raise the take-up\'s tension, or slow '
             "the stop by a flywheel or the drives",
-            (slackest.smallest, "force"),
-        ),
-    )
+            (state.smallest, "force"),
+        )
+        yield not_slack(state.smallest, said(f"smallest tension of all states ({state.name})"), why)
 
 
 def not_slack(tension: float, subject: Said, why: Said | None = None) -> Check:
@@ -438,23 +427,21 @@ def penetration(found: Calculation) -> Iterator[Check]:
 def roll_life(found: Calculation) -> Iterator[Check]:
     """Idler sets last as long as light series are rated for, where their bearings are given."""
     for strand in STRANDS:
-        lives = [
-            set_life(stretch, found.line.speed)
-            for stretch in found.line.stretches
-            if stretch.strand == strand
-        ]
-        known = [life for life in lives if life is not None]
-        if known:
-            why = said(
-                f"{strand} idler sets: L10 of all bearings together is {min(known):,.0f} h, less than the "
-                f"{ASKED_LIFE:,.0f} h that light series are rated for (CEMA, as commonly reproduced); seals and dirt "
-                "may end it sooner"
-            )
-            yield Check(
-                "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * min(known), 3600.0 * ASKED_LIFE,
-                "duration", said(f"{min(known):,.0f} h"), said(f"at least {ASKED_LIFE:,.0f} h"),
-                verdict(holds=min(known) >= ASKED_LIFE), why,
-            )  # fmt: skip
+        life = shortest_life(found.line.stretches, strand, found.line.speed)
+        if life is None:
+            continue
+        why = said(
+            f"{strand} rolls: L10 of all bearings of a set in {quoted(life.section)} is {life.hours:,.0f} h (of the "
+            f"{life.weakest} alone {life.weakest_hours:,.0f} h), less than the {ASKED_LIFE:,.0f} h that light "
+            "series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
+        )
+        asked, judged = said(f"at least {ASKED_LIFE:,.0f} h"), verdict(holds=not life.too_short)
+        if not life.whole and not life.too_short:
+            asked, judged = said("bearings of some rolls not given"), "not checked"
+        yield Check(
+            "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * life.hours, 3600.0 * ASKED_LIFE,
+            "duration", said(f"{life.hours:,.0f} h"), asked, judged, why,
+        )  # fmt: skip
 
 
 def rubber_data(found: Calculation) -> Iterator[Check]:

@@ -87,6 +87,11 @@ class State:
         return max(float(self.starts.max()), float(self.ends.max()), self.leaving, self.arriving, *sides)
 
     @property
+    def slack(self) -> bool:
+        """Whether the belt is slack anywhere."""
+        return self.smallest < 0.0
+
+    @property
     def smallest(self) -> float:
         """Lowest tension round the loop [N]."""
         sides = [drive.slack for drive in self.drives]

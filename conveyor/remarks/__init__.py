@@ -135,7 +135,7 @@ def _drive(found: Calculation) -> Iterator[Said]:
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )
-    if found.motions.start.force > 0.0 and "start_factor" not in drive.model_fields_set:
+    if "start_factor" not in drive.model_fields_set:
         yield said(f"drive.start_factor not given: {drive.start_factor:g} assumed, 1.2 to 1.5 are usual")
     if balance.power.mains < 0.0 and earns_nothing(found.conveyor.operation):
         yield said("operation.feed_in_price not given: energy that is fed back earns nothing")

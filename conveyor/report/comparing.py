@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -173,12 +174,13 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
             lines.append(f'compound "{compound.name}" is illustrative, not measured: no choice rests on it')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
-            at = ", ".join(f"{celsius(row.temperature):g}" for row in rows)
+            at = _listed([celsius(row.temperature) for row in rows])
             lines.append(
                 f'compound "{compound.name}": its data do not cover what the rolls excite at {at} degC'
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
+    lines += turned(comparison)
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
@@ -202,6 +204,36 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )
     return tuple(lines)
+
+
+def turned(comparison: Comparison) -> list[str]:
+    """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
+    lines = []
+    for speed in sorted({scene.speed for scene in comparison.scenes}):
+        at: dict[float, list[Scene]] = {}
+        for scene in sorted(comparison.scenes, key=lambda s: (s.temperature, s.motor)):
+            if scene.speed == speed:
+                at.setdefault(scene.temperature, []).append(scene)
+        shared = {warmth: row for warmth, row in at.items() if len(row) == len(comparison.compounds)}
+        before = {
+            (one.compound, other.compound)
+            for row in shared.values()
+            for one, other in combinations(row, 2)
+            if other.motor - one.motor > one.error * abs(one.motor) + other.error * abs(other.motor)
+        }
+        if any((second, first) in before for first, second in before):
+            by_order: dict[tuple[str, ...], list[float]] = {}
+            for warmth, row in shared.items():
+                by_order.setdefault(tuple(s.compound for s in row), []).append(celsius(warmth))
+            orders = (f"{_listed(warm)} degC: {' < '.join(order)}" for order, warm in by_order.items())
+            lines.append(
+                f"the ranking turns with the temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
+            )
+    return lines
+
+
+def _listed(values: list[float]) -> str:
+    return ", ".join(f"{value:g}" for value in values)
 
 
 def to_dict(comparison: Comparison) -> dict[str, object]:

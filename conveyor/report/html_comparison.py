@@ -77,15 +77,18 @@ def _power(comparison: Comparison, system: System) -> list[Part]:
     content = []
     if len({scene.temperature for scene in comparison.scenes}) > 1:
         made = plots.power_against_temperature(comparison, system=system)
-        slowest = min(scene.speed for scene in comparison.scenes)
-        at = display(slowest, "speed", system)
+        at = display(plots.drawn_speed(comparison), "speed", system)
         caption = f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber."
         content.append(drawn(made, "power-temperature", caption))
-    if len({scene.speed for scene in comparison.scenes}) > 1:
+    warmth = plots.drawn_temperature(comparison)
+    if len({scene.speed for scene in comparison.scenes}) > 1 and warmth is not None:
         made = plots.power_against_speed(comparison, system=system)
-        content.append(
-            drawn(made, "power-speed", "Motor power over belt speed at the coldest common temperature.")
-        )
+        at = display(warmth, "temperature", system).replace("deg", "°")
+        caption = f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
+        turned = comparing.turned(comparison)
+        if turned:
+            caption += " The ranking turns with the temperature: see what to know."
+        content.append(drawn(made, "power-speed", caption))
     tangents = drawn(
         plots.compared_loss_tangents(comparison, system=system),
         "tangents",

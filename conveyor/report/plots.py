@@ -118,6 +118,23 @@ class Scenes(Protocol):
         """Where the data cover what the rolls ask for."""
 
 
+def drawn_speed(comparison: Scenes) -> float:
+    """Speed that power over temperature is drawn at: of those with an answer the next to the spec's [m/s]."""
+    spec = si(comparison.conveyor.belt.speed)
+    return min(
+        sorted({s.speed for s in comparison.scenes}), key=lambda given: abs(given - spec), default=spec
+    )
+
+
+def drawn_temperature(comparison: Scenes) -> float | None:
+    """Temperature that power over speed is drawn at: of those every compound answers the next to the spec's [K]."""
+    spec = si(comparison.conveyor.ambient.belt)
+    answered = [
+        {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
+    ]
+    return min(sorted(set.intersection(*answered)), key=lambda given: abs(given - spec), default=None)
+
+
 def power_against_temperature(
     comparison: Scenes, speed: float | None = None, *, system: System = "SI"
 ) -> Figure:
@@ -131,9 +148,7 @@ def power_against_temperature(
         No scene has an answer at that speed.
     """
     velocity = scale("speed", system)
-    spec = si(comparison.conveyor.belt.speed)
-    speeds = {scene.speed for scene in comparison.scenes}
-    chosen = min(speeds, key=lambda given: abs(given - spec), default=spec) if speed is None else speed
+    chosen = drawn_speed(comparison) if speed is None else speed
     found = [scene for scene in comparison.scenes if scene.speed == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.unit}: nothing to draw")
@@ -155,14 +170,9 @@ def power_against_speed(
         No scene has an answer at that temperature, or none that all compounds share.
     """
     warmth = scale("temperature", system)
-    answered = [
-        {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
-    ]
-    common = set.intersection(*answered)
-    if temperature is None and not common:
+    chosen = drawn_temperature(comparison) if temperature is None else temperature
+    if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
-    spec = si(comparison.conveyor.ambient.belt)
-    chosen = min(common, key=lambda given: abs(given - spec)) if temperature is None else temperature
     found = [scene for scene in comparison.scenes if scene.temperature == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.unit}: nothing to draw")

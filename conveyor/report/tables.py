@@ -123,7 +123,8 @@ def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
             for r in results
         ]
     )
-    lives = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
+    sets = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
+    lives = [life.hours if life is not None and life.whole else None for life in sets]
     return _with_lives(table, "idler set L10 life [h]", lives)
 
 

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
-from conveyor.checks import Check, drive_power, holds, not_slack, steady_safety, verdict
+from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
 from conveyor.errors import InputError
 from conveyor.figures import Said, quoted, said
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
+from conveyor.loop.settled import holds
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
