@@ -465,7 +465,8 @@ def rubber_data(found: Calculation) -> Iterator[Check]:
             continue
         why = said(
             f'compound "{quoted(compound.name)}": nine tenths of the {strand} rolls\' loss lie between '
-            f"{band[0]:.3g} and {band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz at {{}}: the series is extrapolated",
+            f"{band[0]:.3g} and {band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz "
+            "at {}: the series is extrapolated",
             (at, "temperature"),
         )
         covered = verdict(holds=data[0] <= band[0] and band[1] <= data[1])

@@ -214,35 +214,6 @@ def duty_specific_energy(duty: Duty, *, length: float) -> float:
     return duty.net_kwh / (duty.mass * length) * TONNE_KM
 
 
-def chain_efficiency(*efficiencies: float) -> float:
-    """Efficiency of a drive train, the product of its parts.
-
-    Parameters
-    ----------
-    *efficiencies : float
-        η of gear, coupling, motor, converter [-], each above 0, at most 1.
-
-    Returns
-    -------
-    float
-        η [-].
-
-    Raises
-    ------
-    InputError
-        There is no part, or one is outside its range.
-
-    Examples
-    --------
-    >>> round(chain_efficiency(0.95, 0.97), 4)
-    0.9215
-    """
-    require(len(efficiencies) > 0, "efficiencies", efficiencies, "at least one part is needed")
-    for efficiency in efficiencies:
-        require(0.0 < efficiency <= 1.0, "efficiencies", efficiency, "above 0 and at most 1 is needed")
-    return math.prod(efficiencies)
-
-
 def next_motor(shaft_power: float, *, reserve: float = 1.0) -> float:
     """Smallest motor of the series that gives the power with its reserve (IEC 60072-1, customary steps).
 

@@ -18,40 +18,6 @@ from conveyor.require import (
 )
 
 
-def shell_reduced_mass(mass: float, *, outer_diameter: float, inner_diameter: float) -> float:
-    """Mass of a rotating tube reduced to its rim, m (1 + (d/D)²)/2.
-
-    Parameters
-    ----------
-    mass : float
-        m, rotating [kg], at least 0.
-    outer_diameter : float
-        D [m], positive.
-    inner_diameter : float
-        d [m], from 0 (solid) to below D.
-
-    Returns
-    -------
-    float
-        Reduced mass [kg].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> round(shell_reduced_mass(10.0, outer_diameter=0.159, inner_diameter=0.150), 3)
-    9.45
-    """
-    require_not_negative(mass=mass)
-    require_positive(outer_diameter=outer_diameter)
-    ok = 0.0 <= inner_diameter < outer_diameter
-    require(ok, "inner_diameter", inner_diameter, f"0 to below outer_diameter = {outer_diameter!r} m")
-    return mass * (1.0 + (inner_diameter / outer_diameter) ** 2) / 2.0
-
-
 def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
     """Mass of a rotating part reduced to the belt, m = J i²/r².
 
@@ -82,39 +48,6 @@ def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
     require_not_negative(inertia=inertia)
     require_positive(radius=radius, ratio=ratio)
     return inertia * (ratio / radius) ** 2
-
-
-def strand_moving_mass(length: float, *, belt_mass: float, bulk_mass: float, roll_mass: float) -> float:
-    """Moving mass of a strand section, l (m'_belt + m'_bulk + m'_R,red).
-
-    Parameters
-    ----------
-    length : float
-        l [m], at least 0.
-    belt_mass : float
-        m'_belt [kg/m], at least 0.
-    bulk_mass : float
-        m'_bulk [kg/m], at least 0; 0 on the return strand.
-    roll_mass : float
-        m'_R,red of the rolls reduced to the rim [kg/m], at least 0.
-
-    Returns
-    -------
-    float
-        Mass [kg].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> strand_moving_mass(100.0, belt_mass=16.0, bulk_mass=133.0, roll_mass=11.0)
-    16000.0
-    """
-    require_not_negative(length=length, belt_mass=belt_mass, bulk_mass=bulk_mass, roll_mass=roll_mass)
-    return length * (belt_mass + bulk_mass + roll_mass)
 
 
 def start_force(
@@ -151,46 +84,6 @@ def start_force(
     require_positive(rated_power=rated_power, torque_factor=torque_factor, rated_belt_speed=rated_belt_speed)
     require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
     return torque_factor * efficiency * rated_power / rated_belt_speed
-
-
-def start_acceleration(drive_force: float, *, resistance: float, moving_mass: float) -> float:
-    """Acceleration of the belt at the start, a = (F - W)/m.
-
-    Parameters
-    ----------
-    drive_force : float
-        F at the belt [N], at least 0, see `start_force`.
-    resistance : float
-        W, all resistances with the lift, after standstill [N]; negative if the belt runs by itself.
-    moving_mass : float
-        m, everything reduced to the belt [kg], positive.
-
-    Returns
-    -------
-    float
-        a [m/s²].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-    NoSolutionError
-        The force does not overcome the resistance: the conveyor does not start.
-
-    Examples
-    --------
-    >>> start_acceleration(30e3, resistance=20e3, moving_mass=50e3)
-    0.2
-    """
-    require_not_negative(drive_force=drive_force)
-    require_finite(resistance=resistance)
-    require_positive(moving_mass=moving_mass)
-    if drive_force <= resistance:
-        raise NoSolutionError(
-            f"the starting force of {drive_force:.6g} N does not overcome {resistance:.6g} N: "
-            "choose a larger motor or torque factor, or start with less bulk"
-        )
-    return (drive_force - resistance) / moving_mass
 
 
 def bulk_slip_limits(belt_friction: float, *, inclination: float, gravity: float) -> tuple[float, float]:

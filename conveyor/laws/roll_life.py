@@ -123,47 +123,6 @@ def rating_life_hours(
     return revolutions / (rotation * SECONDS_PER_HOUR)
 
 
-def equivalent_bearing_load(
-    loads: Sequence[float], *, revolutions: Sequence[float], exponent: float = BALL_EXPONENT
-) -> float:
-    """Equivalent load of a duty, P = (Σ P_i^p N_i/Σ N_i)^(1/p) (ISO 281, linear damage).
-
-    Parameters
-    ----------
-    loads : sequence of float
-        P_i of each step of the duty [N], at least 0.
-    revolutions : sequence of float
-        N_i of each step, or its share [-], at least 0, not all 0.
-    exponent : float
-        p [-], 3 for ball and 10/3 for roller bearings.
-
-    Returns
-    -------
-    float
-        P [N].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range, or the lengths differ.
-
-    Examples
-    --------
-    >>> round(equivalent_bearing_load([1000.0, 2000.0], revolutions=[0.5, 0.5]), 1)
-    1651.0
-    """
-    ok = len(revolutions) == len(loads)
-    require(ok, "revolutions", list(revolutions), f"one for each of {len(loads)} loads is needed")
-    require(1.0 <= exponent <= 4.0, "exponent", exponent, "3 (ball) or 10/3 (roller) is needed")
-    for load, number in zip(loads, revolutions, strict=True):
-        require_not_negative(loads=load, revolutions=number)
-    whole = math.fsum(revolutions)
-    require(whole > 0.0, "revolutions", list(revolutions), "some revolutions are needed")
-    damage = math.fsum(n * load**exponent for load, n in zip(loads, revolutions, strict=True)) / whole
-    mean: float = damage ** (1.0 / exponent)
-    return mean
-
-
 def system_life_hours(lives: Sequence[float], *, weibull_slope: float = WEIBULL_SLOPE_BALL) -> float:
     """Rating life of several bearings together, L = (Σ L_i^-e)^(-1/e) (Lundberg and Palmgren).
 

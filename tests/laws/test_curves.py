@@ -48,29 +48,6 @@ def test_curve_mass_presses_like_the_curve():
     assert mass * 9.81 * math.cos(0.2) * 1.2 == pytest.approx(600.0, rel=ROUNDING)
 
 
-def test_middle_share_is_the_tension_of_its_strip():
-    width, middle, angle, k, E, r = 1.2, 0.44, math.radians(35), 1e5, 36e6, 400.0
-    z = vertical_curve.trough_section(width, middle_roll_length=middle, trough_angle=angle).middle_below
-    n = 1000
-    wing = (width - middle) / 2
-    heights = [wing * (i + 0.5) / n * math.sin(angle) for i in range(n)]
-    wings = 2 * wing / n * math.fsum(k + E * (h - z) / r for h in heights)
-    centre = middle * (k - E * z / r)
-    assert wings + centre == pytest.approx(k * width, rel=1e-12)
-    share = curves.curve_middle_share(
-        middle / width, tension_per_width=k, middle_below=z, stiffness_per_width=E, radius=r
-    )
-    assert share == pytest.approx(centre / (k * width), rel=1e-12)
-
-
-def test_even_tension_shares_evenly():
-    for soft in (
-        {"stiffness_per_width": 0.0, "radius": 400.0},
-        {"stiffness_per_width": 72e6, "radius": math.inf},
-    ):
-        assert curves.curve_middle_share(0.4, tension_per_width=1e5, middle_below=0.05, **soft) == 0.4
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -85,18 +62,6 @@ def test_even_tension_shares_evenly():
             r"set_force = nan",
         ),
         (lambda: curves.effective_tension(1.0, line_mass=-1.0, belt_speed=1.0), r"line_mass = -1\.0"),
-        (
-            lambda: curves.curve_middle_share(
-                0.4, tension_per_width=1e4, middle_below=0.07, stiffness_per_width=72e6, radius=100.0
-            ),
-            r"radius = 100\.0 is not allowed: a strip of the belt goes slack, choose a larger radius",
-        ),
-        (
-            lambda: curves.curve_middle_share(
-                1.4, tension_per_width=1e4, middle_below=0.07, stiffness_per_width=0.0, radius=100.0
-            ),
-            r"even_share = 1\.4",
-        ),
     ],
 )
 def test_refusals(call, message):

@@ -61,13 +61,6 @@ def test_a_leap_year_is_the_longest():
         energy.duty_sums([whole, energy.DutyStep(time=HOUR, power=1.0, mass_flow=0.0)])
 
 
-def test_chain_does_not_depend_on_order():
-    assert energy.chain_efficiency(0.95, 0.97, 0.98) == pytest.approx(
-        energy.chain_efficiency(0.98, 0.95, 0.97), rel=ROUNDING
-    )
-    assert energy.chain_efficiency(0.9) == 0.9
-
-
 def test_motor_is_the_next_of_the_series():
     for small, large in pairwise(energy.MOTOR_SERIES):
         assert small < large
@@ -104,8 +97,6 @@ def test_too_much_for_one_motor():
             ),
             r"duty\.mass = 0\.0 .* some mass conveyed",
         ),
-        (energy.chain_efficiency, r"efficiencies = \(\) .* at least one part"),
-        (lambda: energy.chain_efficiency(0.9, 1.1), r"efficiencies = 1\.1"),
         (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve = 0\.9 is not allowed: at least 1"),
     ],
 )

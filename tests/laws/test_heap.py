@@ -17,18 +17,6 @@ TROUGH = {
 }
 
 
-def test_both_heaps_hold_the_standards_area():
-    area = loading.cross_section(1.03, **TROUGH)
-    width = 0.436 + (1.03 - 0.436) * math.cos(math.radians(45))
-    slope = heap.equivalent_slope(TROUGH["surcharge_angle"])
-    assert width**2 * math.tan(slope) / 4 == pytest.approx(area.top, rel=1e-13)
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.1, 0.35, 1.2])
-def test_conversions_are_inverse(angle):
-    assert heap.surcharge_from_slope(heap.equivalent_slope(angle)) == pytest.approx(angle, rel=1e-13)
-
-
 @pytest.mark.parametrize("shape", ["parabola", "triangle"])
 def test_share_is_the_area_above_the_roll(shape):
     n, lam, theta, middle = 20000, math.radians(45), math.radians(20), 0.436
@@ -70,7 +58,6 @@ def test_a_pointed_heap_puts_more_on_the_middle():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: heap.equivalent_slope(20.0), r"surcharge_angle = 20\.0 .* angle in rad"),
         (lambda: heap.surcharge_from_slope(-0.1), r"slope = -0\.1"),
         (
             lambda: heap.middle_share_by_area(

@@ -163,14 +163,6 @@ def test_usable_width_of_standard_and_wide_belts():
     assert loading.usable_width(2.4) == pytest.approx(2.15, rel=ULPS)
 
 
-def test_fill_ratio_is_one_where_the_section_is_full():
-    area, density, speed = 0.18, 850.0, 4.8
-    full = area * density * speed
-    assert loading.fill_ratio(full, belt_speed=speed, bulk_density=density, area=area) == pytest.approx(
-        1, rel=ULPS
-    )
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -217,10 +209,6 @@ def test_refusals_of_roll_loads(change, message):
                 1.0, middle_roll_length=0.4, trough_angle=0.5, surcharge_angle=-0.2
             ),
             r"surcharge_angle = -0\.2 is not allowed",
-        ),
-        (
-            lambda: loading.fill_ratio(1.0, belt_speed=1.0, bulk_density=1.0, area=0.0),
-            r"area = 0\.0 is not allowed",
         ),
         (
             lambda: loading.middle_share_belt(1.19, belt_width=1.2),

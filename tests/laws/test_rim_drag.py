@@ -134,11 +134,6 @@ def test_makers_line_goes_through_the_measurement():
     assert away == pytest.approx(1.9 + 0.5 + 0.1, rel=ROUNDING)
 
 
-def test_standstill_factor_of_the_acceptance_limit():
-    assert drag.standstill_drag(2.0) == 3.0
-    assert drag.standstill_drag(2.0, factor=1.0) == 2.0
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -178,7 +173,6 @@ def test_standstill_factor_of_the_acceptance_limit():
             lambda: drag.linear_roll_drag(0.1, load=0.0, rotation=1.0, load_slope=1e-3, rotation_slope=0.0),
             r"reference_drag = 0\.1 is not allowed: its line gives -0\.15 N at 0 N and 1 1/s",
         ),
-        (lambda: drag.standstill_drag(1.0, factor=0.9), r"factor = 0\.9 is not allowed: at least 1"),
     ],
 )
 def test_refusals(call, message):

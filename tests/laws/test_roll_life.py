@@ -45,17 +45,6 @@ def test_wing_by_moments():
     assert load > outer
 
 
-def test_equivalent_load_does_the_same_damage():
-    loads, turns = [500.0, 1500.0, 3000.0], [6e6, 3e6, 1e6]
-    equal = roll_life.equivalent_bearing_load(loads, revolutions=turns)
-    used = sum(n / (1e6 * (20e3 / p) ** 3) for p, n in zip(loads, turns, strict=True))
-    assert 1e7 / (1e6 * (20e3 / equal) ** 3) == pytest.approx(used, rel=1e-12)
-    assert roll_life.equivalent_bearing_load([700.0, 700.0], revolutions=[1.0, 9.0]) == pytest.approx(
-        700, rel=1e-12
-    )
-    assert roll_life.equivalent_bearing_load([0.0], revolutions=[1.0]) == 0
-
-
 def test_a_system_is_shorter_lived_than_its_weakest():
     assert roll_life.system_life_hours([3e4]) == pytest.approx(3e4, rel=ROUNDING)
     assert roll_life.system_life_hours([3e4, 3e4]) == pytest.approx(3e4 * 2**-0.9, rel=ROUNDING)
@@ -73,12 +62,6 @@ def test_a_system_is_shorter_lived_than_its_weakest():
             ),
             r"loaded_length = 0\.6 is not allowed: at most bearing_distance \+ 2 inset = 0\.5 m",
         ),
-        (
-            lambda: roll_life.equivalent_bearing_load([1.0], revolutions=[]),
-            r"revolutions = \[\] .* one for each of 1",
-        ),
-        (lambda: roll_life.equivalent_bearing_load([1.0], revolutions=[0.0]), r"some revolutions are needed"),
-        (lambda: roll_life.equivalent_bearing_load([-1.0], revolutions=[1.0]), r"loads = -1\.0"),
         (lambda: roll_life.system_life_hours([]), r"lives = \[\] .* at least one bearing"),
         (lambda: roll_life.system_life_hours([0.0]), r"lives = 0\.0"),
     ],

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from conveyor.line.stretches import FixedForces, stretches
-from conveyor.line.walk import StretchResult, Surface
+from conveyor.checks import CRITERIA, penetration, rubber_data
+from conveyor.forces import along_the_belt, without_rubber
+from conveyor.line.contacts import Contacts
+from conveyor.line.line import Line
+from conveyor.line.stretches import Stretch
 from conveyor.loop.balance import Balance, balance
+from conveyor.loop.frame import Frame
 from conveyor.models import Conveyor
-from conveyor.rubber import PronySeries
+from conveyor.pipeline import Calculation
 from conveyor.spec import from_data
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
-SURFACE = Surface(5e-3, PronySeries(8e6, [2e6], [1e-3]), 0.5)
 FRICTION = 0.011  # of indentation over the load, of the size real belts have
 
 DATA: dict[str, Any] = {
@@ -74,28 +78,37 @@ def line(**changes: dict[str, Any]) -> Conveyor:
     return from_data(data(**changes))
 
 
-def forced(conveyor: Conveyor, friction: float = FRICTION) -> tuple[StretchResult, ...]:
-    """Forces along the belt with an indentation of `friction` times the load."""
-    gravity = 9.81
-    found = []
-    for stretch in stretches(conveyor):
-        fixed = FixedForces.of(stretch, gravity)
-        found.append(
-            StretchResult(
-                stretch=stretch,
-                surface=SURFACE,
-                rolls=(),
-                indentation=friction * fixed.unit_main,
-                rotation=fixed.rotation,
-                flexure=0.002 * fixed.unit_main,
-                tilt=fixed.tilt,
-                lift=fixed.lift,
-                unit_main=fixed.unit_main,
-            )
-        )
-    return tuple(found)
+def closed(conveyor: Conveyor, friction: float = FRICTION) -> Balance:
+    """The loop around forces along the belt with an indentation of `friction` times the load."""
+    made = Line.of(conveyor)
+    fixed = without_rubber(made)
+    fixed = replace(fixed, flexure=0.002 * fixed.unit_main)
+    along = along_the_belt(made, fixed, friction * fixed.unit_main)
+    return balance(Frame(made), along, float(fixed.unit_main.sum()))
 
 
 def balanced(**changes: dict[str, Any]) -> Balance:
-    conveyor = line(**changes)
-    return balance(conveyor, forced(conveyor))
+    return closed(line(**changes))
+
+
+class OnStretch(NamedTuple):
+    """A stretch, and of the forces along it [N] the lift and all together."""
+
+    stretch: Stretch
+    lift: float
+    total: float
+
+
+def along(found: Balance) -> tuple[OnStretch, ...]:
+    """The forces along the belt, carry strand from the tail, return strand from the head."""
+    (lift,) = (force.along for force in found.along if force.key == "lift")
+    total = sum(force.along for force in found.along)
+    return tuple(map(OnStretch, found.line.stretches, lift.tolist(), total.tolist()))
+
+
+def told(conveyor: Conveyor, found: Balance) -> list[str]:
+    """What every criterion that needs no contact says where it fails."""
+    given = Calculation(conveyor, conveyor.temperature, Contacts(found.line, {}, (), ()), found)
+    criteria = [criterion for criterion in CRITERIA if criterion not in (penetration, rubber_data)]
+    checked = [check for criterion in criteria for check in criterion(given)]
+    return [check.why.text() for check in checked if check.failed and check.why is not None]

@@ -10,11 +10,9 @@ import pytest
 from conveyor.errors import NoSolutionError
 from conveyor.laws import drive as drive_laws
 from conveyor.laws import tension
-from conveyor.loop.balance import balance
 from conveyor.loop.starting import motions
-from conveyor.remarks.loop import loop_warnings
 from conveyor.units import quantity, si
-from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, balanced, forced, line
+from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, along, balanced, closed, line, told
 
 CLOSED = 1e-9
 """Of the largest tension: the figure the package promises; rounding alone leaves about 1e-14."""
@@ -49,8 +47,7 @@ CASES = {
 @pytest.fixture(scope="module", params=CASES, ids=list(CASES))
 def case(request):
     conveyor = line(**CASES[request.param])
-    results = forced(conveyor)
-    return conveyor, results, balance(conveyor, results)
+    return conveyor, closed(conveyor)
 
 
 def _boundary(conveyor, position, section):
@@ -62,8 +59,8 @@ def _boundary(conveyor, position, section):
 
 def test_the_loop_closes_in_every_state(case):
     """Resistances, masses and drives, summed anew from what went in, bring the tension back to where it began."""
-    conveyor, results, found = case
-    moving = motions(conveyor, results, found)
+    _, found = case
+    moving, results = motions(found), along(found)
     n = len(results) // 2
     order = (*results[n:], *results[:n])
     for state in (*found.settled.states.values(), *moving.states.values()):
@@ -77,7 +74,7 @@ def test_the_loop_closes_in_every_state(case):
             )
             level += step
         level += sum(
-            single.force * (1.0 if "acceleration" in single.name else state.friction)
+            single.total * (1.0 if "acceleration" in single.name else state.friction)
             for single in found.singles
         )
         level -= sum(side.force for side in state.drives)
@@ -86,10 +83,10 @@ def test_the_loop_closes_in_every_state(case):
 
 
 def test_drives_give_what_the_conveyor_takes(case):
-    conveyor, results, found = case
+    conveyor, found = case
     sides = found.settled.steady.drives
-    along = math.fsum(r.total for r in results) + math.fsum(s.force for s in found.singles)
-    assert found.forces.total == pytest.approx(along, rel=1e-12)
+    taken = math.fsum(r.total for r in along(found)) + math.fsum(s.total for s in found.singles)
+    assert found.forces.total == pytest.approx(taken, rel=1e-12)
     assert sum(side.force for side in sides) == pytest.approx(found.forces.total, rel=1e-12)
     assert found.power.belt == pytest.approx(sum(s.force for s in sides) * si(conveyor.belt.speed), rel=1e-12)
     for side in sides:
@@ -97,15 +94,14 @@ def test_drives_give_what_the_conveyor_takes(case):
 
 
 def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
-    _, _, found = case
+    _, found = case
     settled = found.settled
-    data = settled.loop.data
     for state in settled.states.values():
-        for drive, side in zip(data.drives, state.drives, strict=True):
+        for drive, side in zip(found.line.drives, state.drives, strict=True):
             assert side.tight / side.slack <= math.exp(drive.friction * drive.wrap_angle) * (1.0 + 1e-12)
         if state.acceleration == 0.0:
             lowest = np.minimum(state.starts, state.ends)
-            assert np.all(lowest >= settled.loop.geometry.least * (1.0 - 1e-12))
+            assert np.all(lowest >= found.line.loop.least * (1.0 - 1e-12))
     # the least setting: one condition holds exactly, and the figure is that condition's
     margins = [settled.setting - needed for needed in settled.conditions.values()]
     assert min(margins) == pytest.approx(0.0, abs=1e-9 * settled.setting)
@@ -113,24 +109,24 @@ def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
 
 
 def test_the_take_up_holds_what_it_holds(case):
-    conveyor, results, found = case
+    conveyor, found = case
     settled = found.settled
     take_up = conveyor.route.take_up
-    geometry = settled.loop.geometry
-    for state in (*settled.states.values(), *motions(conveyor, results, found).states.values()):
+    length = found.line.loop.length
+    for state in (*settled.states.values(), *motions(found).states.values()):
         if take_up is None:
             # of all drives at the first one's place: a take-up stands behind the station, not between its pulleys
-            first = settled.loop.data.drives[0].spot
-            beside = [drive.spot == first for drive in settled.loop.data.drives]
+            first = found.line.drives[0].spot
+            beside = [drive.spot == first for drive in found.line.drives]
             held = min(side.slack for side, here in zip(state.drives, beside, strict=True) if here)
         elif take_up.kind == "fixed":
-            held = float((0.5 * (state.starts + state.ends)) @ geometry.length / geometry.length.sum())
+            held = float((0.5 * (state.starts + state.ends)) @ length / length.sum())
         else:
             boundary = _boundary(conveyor, take_up.position, take_up.section)
             held = float(state.starts[boundary % len(state.starts)])
             if take_up.position == "tail":  # the bulk lands behind it
                 held -= sum(
-                    s.force * (1.0 if "acceleration" in s.name else state.friction)
+                    s.total * (1.0 if "acceleration" in s.name else state.friction)
                     for s in found.singles
                     if "bulk" in s.name or "skirts" in s.name
                 )
@@ -147,19 +143,6 @@ def test_one_drive_is_the_law():
     )
     assert found.tensions.governed_by == "grip"
     assert found.settled.condition_name(found.settled.governed_by) == "grip, drive, start"
-
-
-def test_two_drives_at_the_head_are_the_law_of_the_row():
-    found = balanced(drive={"further_drives": [SECOND]})
-    force = found.forces.total
-    index, slack = drive_laws.tandem_slack(
-        [1.3 * 0.5 * force] * 2, frictions=[0.35, 0.3], wrap_angles=[math.radians(200.0), math.pi]
-    )
-    assert index == 1
-    assert found.settled.condition_name(found.settled.governed_by) == "grip, second, start"
-    # without a take-up the first drive's slack side, the second's tight one, is held
-    start = found.settled.states["start"]
-    assert start.drives[1].leaving == pytest.approx(slack, rel=1e-12)
 
 
 def test_force_is_shared_by_power_or_as_told():
@@ -181,14 +164,14 @@ def test_a_booster_takes_tension_out_of_the_belt():
 @pytest.mark.parametrize("name", list(CASES))
 def test_splitting_a_section_renaming_and_units_change_nothing(name):
     conveyor = line(**CASES[name])
-    before = balance(conveyor, forced(conveyor))
+    before = closed(conveyor)
     old = conveyor.route.sections[0]
     halves = [old.replace(name=n, length=quantity("60 m" if len(conveyor.route.sections) == 4 else "50 m"))
               for n in ("new one", "new two")]  # fmt: skip
     route = conveyor.route.replace(sections=[*halves, *conveyor.route.sections[1:]])
     belt = conveyor.belt.replace(width="1 m", speed="14.4 km/h")
     split = conveyor.replace(route=route, belt=belt, material=conveyor.material.replace(flow="1200000 kg/h"))
-    after = balance(split, forced(split))
+    after = closed(split)
     assert after.forces.total == pytest.approx(before.forces.total, rel=1e-12)
     assert after.settled.setting == pytest.approx(before.settled.setting, rel=1e-11)
     assert after.tensions.largest == pytest.approx(before.tensions.largest, rel=1e-11)
@@ -208,25 +191,24 @@ def test_a_belt_that_drives_gives_its_motor_what_the_train_leaves():
 def test_bulk_lies_behind_its_feeding_points_only():
     conveyor = line(**CASES["two feeding points"])
     whole = 1200.0 / 3.6 / 4.0
-    carry = forced(conveyor)[:4]
-    assert [r.stretch.bulk_mass / whole for r in carry] == pytest.approx([0.7, 0.7, 1.0, 1.0], rel=1e-15)
-    found = balance(conveyor, forced(conveyor))
-    inertia = {s.name: s.force for s in found.singles if "acceleration" in s.name}
-    one = next(s.force for s in balanced().singles if "acceleration" in s.name)
+    found = closed(conveyor)
+    carry = found.line.stretches[:4]
+    assert [s.bulk_mass / whole for s in carry] == pytest.approx([0.7, 0.7, 1.0, 1.0], rel=1e-15)
+    inertia = {s.name: s.total for s in found.singles if "acceleration" in s.name}
+    one = next(s.total for s in balanced().singles if "acceleration" in s.name)
     assert inertia["acceleration of the bulk, first"] == pytest.approx(0.7 * one, rel=1e-14)
     assert inertia["acceleration of the bulk, c"] == pytest.approx(0.3 * one, rel=1e-14)
     late = line(route={"feeding": ROUTE["feeding"] | {"section": "c"}})
-    assert [r.stretch.bulk_mass for r in forced(late)[:4]] == pytest.approx(
+    assert [s.bulk_mass for s in closed(late).line.stretches[:4]] == pytest.approx(
         [0.0, 0.0, whole, whole], rel=1e-15
     )
 
 
 def test_least_friction_is_on_the_safe_side():
     conveyor = line(**CASES["downhill"])
-    results = forced(conveyor)
-    found = balance(conveyor, results)
-    lift = math.fsum(r.lift for r in results)
-    certain = next(s.force for s in found.singles if "acceleration" in s.name)
+    found = closed(conveyor)
+    lift = math.fsum(r.lift for r in along(found))
+    certain = next(s.total for s in found.singles if "acceleration" in s.name)
     expected = lift + certain + 0.6 * (found.forces.total - lift - certain)
     assert found.settled.least_force == pytest.approx(expected, rel=1e-12)
     assert found.settled.least_force < found.forces.total < 0.0
@@ -241,39 +223,36 @@ def test_a_given_take_up_is_held_and_judged():
         conveyor = line(
             route={"take_up": {"kind": "gravity", "position": "head", "tension": f"{factor * needed} N"}}
         )
-        results = forced(conveyor)
-        found = balance(conveyor, results)
+        found = closed(conveyor)
         assert found.settled.steady.starts[0] == pytest.approx(factor * needed, rel=1e-12)
-        told = [w for w in loop_warnings(conveyor, results, found) if w.startswith("the take-up holds")]
-        assert bool(told) == short
+        held = [w for w in told(conveyor, found) if w.startswith("the take-up holds")]
+        assert bool(held) == short
         if short:
-            assert any("grip, drive, start asks for" in w for w in told)
+            assert any("grip, drive, start asks for" in w for w in held)
     mass = line(route={"take_up": {"kind": "gravity", "position": "head", "mass": "10 t", "reeving": 2.0}})
-    assert balance(mass, forced(mass)).settled.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
+    assert closed(mass).settled.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
 
 
 def test_too_little_tension_for_a_pulley_has_no_answer():
     conveyor = line(route={"take_up": {"kind": "winch", "position": "tail", "tension": "100 N"}})
     with pytest.raises(NoSolutionError, match=r'the belt is slack at pulley ".*raise the take-up'):
-        balance(conveyor, forced(conveyor, 0.03))
+        closed(conveyor, 0.03)
 
 
 def test_the_numbers_follow_the_conveyor_not_its_predecessor():
     """Numbers kept for a conveyor serve that one only, and stretches made anew are read anew."""
     one, other = line(), line(drive={"friction": 0.2})
-    first = balance(one, forced(one)).tensions.slack
-    assert balance(other, forced(other)).tensions.slack > first
-    assert balance(one, forced(one)).tensions.slack == first
+    first = closed(one).tensions.slack
+    assert closed(other).tensions.slack > first
+    assert closed(one).tensions.slack == first
 
 
 def test_start_and_stop_are_newton():
     conveyor = line(drive={"reduced_mass": "20 t", "torque_factor": 1.5, "start_factor": 1.4})
-    results = forced(conveyor)
-    found = balance(conveyor, results)
-    moving = motions(conveyor, results, found)
+    found = closed(conveyor)
+    moving = motions(found)
     mass = sum(
-        r.stretch.length * (r.stretch.line_mass + (10.0 if r.stretch.strand == "carry" else 3.0))
-        for r in results
+        s.length * (s.line_mass + (10.0 if s.strand == "carry" else 3.0)) for s in found.line.stretches
     )
     assert moving.moving_mass == pytest.approx(mass, rel=1e-12)
     force = found.forces.total
@@ -292,39 +271,35 @@ def test_start_and_stop_are_newton():
 
 def test_brakes_hold_and_stop_a_downhill_conveyor():
     none = line(**CASES["downhill"] | {"drive": {"stop_deceleration": "0.2 m/s^2"}})
-    results = forced(none)
-    moving = motions(none, results, balance(none, results))
+    moving = motions(closed(none))
     assert moving.coasting is None
     assert moving.coasting_least is None
     assert not moving.rolls_back
     assert moving.brake_to_stop is not None
-    told = list(loop_warnings(none, results, balance(none, results)))
-    assert any(w.startswith("the conveyor does not stop by itself and has no brake") for w in told)
-    assert any("needs a brake of" in w for w in told)
+    said = told(none, closed(none))
+    assert any(w.startswith("the conveyor does not stop by itself and has no brake") for w in said)
+    assert any("needs a brake of" in w for w in said)
     held = line(
         **CASES["downhill"]
         | {"drive": {"brake_force": f"{moving.brake_to_stop} N", "stop_deceleration": "0.2 m/s^2"}}
     )
-    stopped = motions(held, forced(held), balance(held, forced(held))).braked
+    stopped = motions(closed(held)).braked
     assert stopped is not None
     # the brake's own grip asks for tension, wraps for 1e-4 of force with it
     assert stopped.deceleration == pytest.approx(0.2, rel=1e-3)
     weak = line(**CASES["downhill"] | {"drive": {"brake_force": "10 kN"}})
-    told = list(loop_warnings(weak, forced(weak), balance(weak, forced(weak))))
-    assert any(w == "brakes of 10,000 N do not stop the conveyor" for w in told)
+    assert "brakes of 10,000 N do not stop the conveyor" in told(weak, closed(weak))
 
 
 def test_bulk_slides_where_friction_ends():
     steep = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "20 deg"}], "pulleys": []},
                  drive={"start_factor": 2.5})  # fmt: skip
-    results = forced(steep)
-    found = balance(steep, results)
-    slip = motions(steep, results, found).slip
+    found = closed(steep)
+    slip = motions(found).slip
     assert slip is not None
     grip, pull = 0.5 * 9.81 * math.cos(math.radians(20.0)), 9.81 * math.sin(math.radians(20.0))
     assert (slip.braking, slip.starting) == pytest.approx((-grip - pull, grip - pull), rel=1e-9)
-    assert any(w.startswith("the bulk slides at the start") for w in loop_warnings(steep, results, found))
+    assert any(w.startswith("the bulk slides at the start") for w in told(steep, found))
     steeper = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "30 deg"}], "pulleys": []})
-    results = forced(steeper)
-    told = list(loop_warnings(steeper, results, balance(steeper, results)))
-    assert 'the bulk slides on the belt in section "s" at any speed: too steep for its friction' in told
+    said = told(steeper, closed(steeper))
+    assert 'the bulk slides on the belt in section "s" at any speed: too steep for its friction' in said

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance
 from conveyor.loop.tensions import State
 from conveyor.spec import from_data
-from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, forced, line
+from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, along, closed, line
 
 ROUTE = DATA["route"]
 CLOSED = 1e-9  # of the largest tension; rounding alone leaves about 1e-14
@@ -87,25 +87,25 @@ NAMES = {
 }
 
 
-def walk(met: list[str], found: Balance, along: dict[str, float], state: State) -> float:
+def walk(met: list[str], found: Balance, taken: dict[str, float], state: State) -> float:
     """Walk from the head back to it, held to the tensions reported on the way; returns what is left over [N]."""
     near = CLOSED * state.largest
     sides = {side.name: side for side in state.drives}
-    stretches = [f"{s.strand} {s.section}" for s in found.settled.loop.geometry.stretches]
+    stretches = [f"{s.strand} {s.section}" for s in found.line.loop.stretches]
     level = state.leaving
     for thing in met:
         if thing == "held":
             assert level == pytest.approx(state.held, abs=near), f"{state.name}: {thing}"
-        elif thing in along:
+        elif thing in taken:
             assert level == pytest.approx(state.starts[stretches.index(thing)], abs=near), thing
-            level += along[thing]
+            level += taken[thing]
             assert level == pytest.approx(state.ends[stretches.index(thing)], abs=near), thing
         elif thing in sides:
             assert level == pytest.approx(sides[thing].arriving, abs=near), thing
             level -= sides[thing].force
             assert level == pytest.approx(sides[thing].leaving, abs=near), thing
         else:
-            level += math.fsum(s.force for s in found.singles if s.name.startswith(NAMES[thing]))
+            level += math.fsum(s.total for s in found.singles if s.name.startswith(NAMES[thing]))
     return level - state.leaving
 
 
@@ -113,16 +113,14 @@ def walk(met: list[str], found: Balance, along: dict[str, float], state: State) 
 def test_the_loop_walked_by_hand(name):
     changes, met = WALKS[name]
     conveyor = line(**changes)
-    results = forced(conveyor)
-    found = balance(conveyor, results)
+    found = closed(conveyor)
     mass = {"carry": 12.0 / 1.2, "return": 9.0 / 3.0}  # of the rolls, per metre
     for state in (found.settled.states["steady"], found.settled.states["start"]):
-        along = {
-            f"{r.stretch.strand} {r.stretch.section}": r.indentation + r.rotation + r.flexure + r.tilt + r.lift
-            + state.acceleration * r.stretch.length * (r.stretch.line_mass + mass[r.stretch.strand])
-            for r in results
-        }  # fmt: skip
-        assert walk(met, found, along, state) == pytest.approx(0.0, abs=CLOSED * state.largest), state.name
+        taken = {
+            f"{s.strand} {s.section}": total + state.acceleration * s.length * (s.line_mass + mass[s.strand])
+            for s, _, total in along(found)
+        }
+        assert walk(met, found, taken, state) == pytest.approx(0.0, abs=CLOSED * state.largest), state.name
 
 
 # a short, level, heavily fed conveyor driven at its tail: nearly all its force is feeding
@@ -151,9 +149,8 @@ def test_feeding_lies_behind_a_tail_drive():
     given = copy.deepcopy(FED)
     given["route"]["take_up"] = {"kind": "gravity", "position": "head", "tension": "14.3 kN"}
     conveyor = from_data(given)
-    results = forced(conveyor, 0.003)
-    found = balance(conveyor, results)
-    carry, back = (r.total for r in results)
+    found = closed(conveyor, 0.003)
+    carry, back = (r.total for r in along(found))
     whole = carry + back + feeding
     (steady,), (start,) = found.settled.steady.drives, found.settled.states["start"].drives
     assert steady.force == pytest.approx(whole, rel=1e-12)
@@ -184,7 +181,7 @@ def test_only_the_driven_pulley_leaves_its_bearings_to_the_drive(position, drive
         "take_up": {"kind": "gravity", "position": "return", "section": "c"},
     }
     conveyor = line(route=route, drive={"position": position})
-    found = balance(conveyor, forced(conveyor))
+    found = closed(conveyor)
     with_bearings = {
         s.name.removeprefix("bearings, ") for s in found.singles if s.name.startswith("bearings")
     }
@@ -193,12 +190,12 @@ def test_only_the_driven_pulley_leaves_its_bearings_to_the_drive(position, drive
     (side,) = found.settled.steady.drives
     tension = side.leaving if position == "head" else found.settled.steady.ends[3]
     load = math.hypot(2.0 * tension * math.sin(math.radians(15.0)), 500.0 * 9.81)
-    force = next(s.force for s in found.singles if s.name == "bearings, beside")
+    force = next(s.total for s in found.singles if s.name == "bearings, beside")
     assert force == pytest.approx(0.005 * 120.0 / 630.0 * load, rel=1e-9)
 
 
 def test_a_drive_of_two_wraps_turns_two_pulleys_and_never_a_snub():
     twice = [SNUB | {"position": "head"}, ROUTE["pulleys"][0], ROUTE["pulleys"][0] | {"name": "second"}]
     conveyor = line(route={"pulleys": twice}, drive={"wrap_angle": "400 deg"})
-    found = balance(conveyor, forced(conveyor))
+    found = closed(conveyor)
     assert [s.name for s in found.singles if s.name.startswith("bearings")] == ["bearings, beside"]

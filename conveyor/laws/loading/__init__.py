@@ -4,17 +4,15 @@ from conveyor.laws.loading.bulk import (
     CrossSection,
     bulk_line_mass,
     cross_section,
-    fill_ratio,
     filled_width,
     usable_width,
 )
 from conveyor.laws.loading.curves import (
     curve_belt_mass,
-    curve_middle_share,
     curve_set_force,
     effective_tension,
 )
-from conveyor.laws.loading.heap import Heap, equivalent_slope, middle_share_by_area, surcharge_from_slope
+from conveyor.laws.loading.heap import Heap, middle_share_by_area, surcharge_from_slope
 from conveyor.laws.loading.rolls import RollLoad, middle_share_belt, middle_share_bulk, roll_loads
 
 __all__ = [
@@ -24,11 +22,8 @@ __all__ = [
     "bulk_line_mass",
     "cross_section",
     "curve_belt_mass",
-    "curve_middle_share",
     "curve_set_force",
     "effective_tension",
-    "equivalent_slope",
-    "fill_ratio",
     "filled_width",
     "middle_share_belt",
     "middle_share_bulk",

@@ -151,39 +151,6 @@ def cross_section(
     return CrossSection(top=top, bottom=bottom)
 
 
-def fill_ratio(mass_flow: float, *, belt_speed: float, bulk_density: float, area: float) -> float:
-    """Capacity check: needed over available cross-section, Q/(ρ v A) (ISO 5048).
-
-    Parameters
-    ----------
-    mass_flow : float
-        Q [kg/s], at least 0.
-    belt_speed : float
-        v [m/s], positive.
-    bulk_density : float
-        ρ [kg/m³], positive.
-    area : float
-        A, what the trough holds [m²], positive, see `cross_section`.
-
-    Returns
-    -------
-    float
-        Fill ratio [-]; above 1 the belt spills.
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> round(fill_ratio(2300 / 3.6, belt_speed=4.8, bulk_density=850.0, area=0.1802), 3)
-    0.869
-    """
-    require_positive(bulk_density=bulk_density, area=area)
-    return bulk_line_mass(mass_flow, belt_speed=belt_speed) / (bulk_density * area)
-
-
 def filled_width(
     area: float, *, middle_roll_length: float, trough_angle: float, surcharge_angle: float
 ) -> float:

@@ -109,7 +109,7 @@ def curve_belt_mass(set_force: float, *, spacing: float, inclination: float, gra
     Notes
     -----
     Tension spread evenly over the width acts strip by strip in the plane of the curve, as weight does, so it
-    shares out between the rolls like the belt's own weight; for uneven tension see `curve_middle_share`.
+    shares out between the rolls like the belt's own weight.
 
     Examples
     --------
@@ -120,59 +120,3 @@ def curve_belt_mass(set_force: float, *, spacing: float, inclination: float, gra
     require_positive(spacing=spacing, gravity=gravity)
     require_slope(inclination=inclination)
     return set_force / (spacing * gravity * math.cos(inclination))
-
-
-def curve_middle_share(
-    even_share: float,
-    *,
-    tension_per_width: float,
-    middle_below: float,
-    stiffness_per_width: float,
-    radius: float,
-) -> float:
-    """Share of a curve's force on the middle roll, s (1 - E z/(r k)): the lower middle is slacker on a hill.
-
-    Parameters
-    ----------
-    even_share : float
-        s, share of the belt's width on the middle roll [-], from 0 to 1, see `middle_share_belt`.
-    tension_per_width : float
-        k, mean of the belt [N/m], positive.
-    middle_below : float
-        z, depth of the middle below the belt's centre [m], at least 0, see `trough_section`.
-    stiffness_per_width : float
-        E of the belt per width [N/m], at least 0; 0 gives the even share.
-    radius : float
-        r [m], positive convex, negative concave, not 0; infinite on the straight.
-
-    Returns
-    -------
-    float
-        Share [-]; both wings together carry the rest.
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range, or the middle is slack, or the wings are: the curve is too sharp.
-
-    Notes
-    -----
-    Plane sections, as in `overstress_radius`.
-
-    Examples
-    --------
-    >>> round(
-    ...     curve_middle_share(
-    ...         0.4, tension_per_width=100e3, middle_below=0.05, stiffness_per_width=72e6, radius=300.0
-    ...     ),
-    ...     6,
-    ... )
-    0.352
-    """
-    require(0.0 <= even_share <= 1.0, "even_share", even_share, "from 0 to 1 is needed")
-    require_positive(tension_per_width=tension_per_width)
-    require_not_negative(middle_below=middle_below, stiffness_per_width=stiffness_per_width)
-    require(abs(radius) > 0.0, "radius", radius, "a number other than 0 is needed")
-    share = even_share * (1.0 - stiffness_per_width * middle_below / (radius * tension_per_width))
-    require(0.0 <= share <= 1.0, "radius", radius, "a strip of the belt goes slack, choose a larger radius")
-    return share

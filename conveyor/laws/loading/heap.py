@@ -15,33 +15,6 @@ Heap = Literal["parabola", "triangle"]
 EQUAL_AREA: Final = 2.0 / 3.0  # [-], tan β/tan θ: W² tan θ/6 = W² tan β/4
 
 
-def equivalent_slope(surcharge_angle: float) -> float:
-    """Equivalent slope of the triangular heap, tan β = 2/3 tan θ (DIN 22101 from ISO 5048).
-
-    Parameters
-    ----------
-    surcharge_angle : float
-        θ at the edge of the parabolic heap (ISO 5048) [rad], from 0 to below pi/2.
-
-    Returns
-    -------
-    float
-        β of the triangle of equal area [rad].
-
-    Raises
-    ------
-    InputError
-        The angle is outside its range.
-
-    Examples
-    --------
-    >>> round(math.degrees(equivalent_slope(math.radians(20))), 3)
-    13.639
-    """
-    require_angle(0.0, surcharge_angle=surcharge_angle)
-    return math.atan(EQUAL_AREA * math.tan(surcharge_angle))
-
-
 def surcharge_from_slope(slope: float) -> float:
     """Surcharge angle of the parabolic heap, tan θ = 3/2 tan β (ISO 5048 from DIN 22101).
 

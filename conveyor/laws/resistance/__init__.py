@@ -61,7 +61,6 @@ from conveyor.laws.resistance.rim_drag import (
     bearing_roll_drag,
     linear_roll_drag,
     roll_rotation,
-    standstill_drag,
 )
 from conveyor.laws.resistance.roll_bearing import (
     BEARING_F0,
@@ -147,6 +146,5 @@ __all__ = [
     "section_main_resistance",
     "skirt_resistance",
     "slope_resistance",
-    "standstill_drag",
     "steel_cord_wrap_resistance",
 ]

@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from typing import Final
 
 from conveyor.errors import InputError
-from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.resistance.roll_bearing import (
     PER_MINUTE,
     bearing_load_factor,
     bearing_load_moment,
     bearing_no_load_moment,
 )
-from conveyor.require import require, require_finite, require_not_negative, require_positive
+from conveyor.require import require, require_not_negative, require_positive
 
 TEST_LOAD: Final = 250.0  # [N], load at which rolls are accepted
 TEST_ROTATION: Final = 650.0 / PER_MINUTE  # [1/s], speed at which rolls are accepted
@@ -221,38 +220,3 @@ def linear_roll_drag(
             f"{rotation:g} 1/s; give smaller slopes or a measurement nearer by"
         )
     return drag
-
-
-def standstill_drag(running_drag: float, *, factor: float = ROLL_DRAG_STANDSTILL_FACTOR) -> float:
-    """Drag of a roll after standstill, at most 1.5 times the running one (acceptance limit of rolls).
-
-    Parameters
-    ----------
-    running_drag : float
-        At the rim [N], at least 0.
-    factor : float
-        Standstill over running [-], at least 1; 1.5 is the acceptance limit.
-
-    Returns
-    -------
-    float
-        Drag at the rim at the start [N].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Notes
-    -----
-    A limit for the start check, not a mean of rolls.
-
-    Examples
-    --------
-    >>> standstill_drag(2.0)
-    3.0
-    """
-    require_not_negative(running_drag=running_drag)
-    require_finite(factor=factor)
-    require(factor >= 1.0, "factor", factor, "at least 1 is needed")
-    return factor * running_drag
