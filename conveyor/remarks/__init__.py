@@ -55,7 +55,7 @@ def warnings(found: Calculation, checked: Iterable[Check]) -> tuple[Said, ...]:
                 *roll_warnings(found),
                 *_left_out(found),
                 *_drive(found),
-                *(check.why for check in checked if check.failed and check.why is not None),
+                *(check.why for check in checked if check.verdict != "pass" and check.why is not None),
             )
         )
     )
