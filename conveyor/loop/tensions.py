@@ -200,11 +200,15 @@ class Loop:
         forces: Sequence[float],
         singles: Singles,
         *,
+        driving: bool,
         acceleration: float = 0.0,
         friction: float = 1.0,
         may_sag: bool = False,
     ) -> Motion:
-        """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
+        """A state in which every drive gives its force [N]; they and the masses balance the resistances.
+
+        `driving` says whether the drives pull in steady running: a take-up on their slack side stands there always.
+        """
         sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
         along = self._at(friction, acceleration)
         ins, outs, shifts = [], [], [0.0] * len(along)
@@ -219,7 +223,9 @@ class Loop:
                 level -= forces[i]
             outs.append(level)
             shifts[k] = level - passed
-        anchor = self._anchor(sides, outs, shifts, friction, acceleration)
+        station = self.frame.station
+        slack_side = sides[station[-1]][2] if driving else sides[station[0]][1]
+        anchor = self._anchor(slack_side, outs, shifts, friction, acceleration)
         return Motion(
             name, math.fsum(forces), acceleration, friction, tuple(ins), ins[self.frame.head], tuple(sides),
             tuple(shifts), anchor, None if may_sag else self.sagging(friction),
@@ -246,7 +252,7 @@ class Loop:
 
     def _anchor(
         self,
-        sides: Sequence[tuple[float, float, float]],
+        slack_side: float,
         outs: Sequence[float],
         shifts: Sequence[float],
         friction: float,
@@ -261,7 +267,7 @@ class Loop:
             )
         if self.frame.anchor is not None:
             return outs[self.frame.anchor]
-        return min(offset for i in self.frame.station for offset in sides[i][1:])
+        return slack_side
 
     def conditions(self, motion: Motion) -> Iterator[Condition]:
         """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
