@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from conveyor.errors import NoSolutionError
-from conveyor.laws import drive as drive_laws
 from conveyor.laws import tension
 from conveyor.loop.starting import motions
 from conveyor.units import quantity, si
@@ -143,6 +142,18 @@ def test_one_drive_is_the_law():
     )
     assert found.tensions.governed_by == "grip"
     assert found.settled.condition_name(found.settled.governed_by) == "grip, drive, start"
+
+
+def test_two_drives_at_the_head_are_the_law_of_the_row():
+    """Euler-Eytelwein drive by drive: slack behind the last one is the most of F_i/(e^(μα) - 1) less what is behind."""
+    found = balanced(drive={"further_drives": [SECOND]})
+    force = 1.3 * 0.5 * found.forces.total
+    first, second = (force / math.expm1(grip) for grip in (0.35 * math.radians(200.0), 0.3 * math.pi))
+    assert second > first - force
+    assert found.settled.condition_name(found.settled.governed_by) == "grip, second, start"
+    # without a take-up the first drive's slack side, the second's tight one, is held
+    start = found.settled.states["start"]
+    assert start.drives[1].leaving == pytest.approx(second, rel=1e-12)
 
 
 def test_force_is_shared_by_power_or_as_told():
