@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-import conveyor
+from conveyor.checks import checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.resistance import belt_flexure_resistance, bulk_flexure_bound
 from conveyor.line.set_loads import SetLoads
-from conveyor.report import tables
+from conveyor.pipeline import calculate
+from conveyor.remarks import assumptions, warnings
+from conveyor.spec import load
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -23,16 +26,26 @@ LBF, FT, LB = 4.4482216152605, 0.3048, 0.45359237  # exact
 
 @pytest.fixture(scope="module")
 def line():
-    return conveyor.load(SPECS / "overland.yaml")
+    return load(SPECS / "overland.yaml")
 
 
 @pytest.fixture(scope="module")
 def result(line):
-    return conveyor.analyse(line)
+    return calculate(line)
 
 
 def with_flexure(line, **flexure):
     return line.replace(calculation=line.calculation.replace(flexure=flexure))
+
+
+def along(found, key):
+    """A force along the belt on every stretch [N]."""
+    (force,) = (force for force in found.balance.along if force.key == key)
+    return force.along
+
+
+def told(found):
+    return [warning.text() for warning in warnings(found, checks(found))]
 
 
 def by_hand(stretch, tension):
@@ -44,31 +57,32 @@ def by_hand(stretch, tension):
 
 
 def test_the_share_is_the_default(result):
-    for r in result.stretches:
-        assert r.stretch.span_flexure is None
-        assert r.flexure == pytest.approx(0.11 / 0.89 * (r.indentation + r.rotation), rel=1e-12)
+    assert all(stretch.span_flexure is None for stretch in result.line.stretches)
+    others = along(result, "indentation") + along(result, "idler_rotation")
+    assert along(result, "flexure") == pytest.approx(0.11 / 0.89 * others, rel=1e-12)
 
 
 def test_flexure_of_the_belt_at_the_least_tension(line):
-    found = conveyor.analyse(with_flexure(line, belt=BELT))
-    for r in found.stretches:
-        assert r.flexure == pytest.approx(by_hand(r.stretch, r.stretch.least_tension), rel=1e-12)
-    table = found.resistances.set_index("resistance")
-    assert table.loc["flexure of belt and bulk, carry", "source"] == "calculation.flexure, laws"
-    assert found.resistances["force [N]"].sum() == pytest.approx(found.balance.forces.total, rel=1e-12)
+    found = calculate(with_flexure(line, belt=BELT))
+    expected = [by_hand(stretch, stretch.least_tension) for stretch in found.line.stretches]
+    assert along(found, "flexure") == pytest.approx(np.array(expected), rel=1e-12)
+    (flexure,) = (force for force in found.balance.every if force.name == "flexure of belt and bulk")
+    assert flexure.source == "calculation.flexure, laws"
+    whole = math.fsum(force.total for force in found.balance.every)
+    assert whole == pytest.approx(found.balance.forces.total, rel=1e-12)
 
 
 def test_more_tension_less_flexure(line):
-    least = conveyor.analyse(with_flexure(line, belt=BELT)).balance.forces.flexure
-    taut = conveyor.analyse(with_flexure(line, belt=BELT | {"tension": "150 kN"}))
-    assert taut.balance.forces.flexure < least
-    for r in taut.stretches:
-        assert r.flexure == pytest.approx(by_hand(r.stretch, 150e3), rel=1e-12)
+    least = calculate(with_flexure(line, belt=BELT)).balance.forces.parts["flexure"]
+    taut = calculate(with_flexure(line, belt=BELT | {"tension": "150 kN"}))
+    assert taut.balance.forces.parts["flexure"] < least
+    expected = [by_hand(stretch, 150e3) for stretch in taut.line.stretches]
+    assert along(taut, "flexure") == pytest.approx(np.array(expected), rel=1e-12)
 
 
 def test_flexure_of_the_bulk_adds_to_the_loaded_strand_only(line):
-    belt = conveyor.analyse(with_flexure(line, belt=BELT))
-    both = conveyor.analyse(with_flexure(line, belt=BELT, bulk=BULK))
+    belt = calculate(with_flexure(line, belt=BELT))
+    both = calculate(with_flexure(line, belt=BELT, bulk=BULK))
     wing = SetLoads(line, line.idlers.carry).wing_contact(si(line.material.flow) / 5.0)
     assert 0.0 < wing < (1.03 - 0.465) / 2.0  # less than the usable width of a 1.2 m belt leaves
     bound = bulk_flexure_bound(
@@ -79,9 +93,8 @@ def test_flexure_of_the_bulk_adds_to_the_loaded_strand_only(line):
         trough_angle=math.radians(45.0),
         gravity=9.81,
     )
-    for before, after in zip(belt.stretches, both.stretches, strict=True):
-        added = after.stretch.sets * bound if after.stretch.strand == "carry" else 0.0
-        assert after.flexure == pytest.approx(before.flexure + added, rel=1e-12)
+    added = [s.sets * bound if s.strand == "carry" else 0.0 for s in both.line.stretches]
+    assert along(both, "flexure") == pytest.approx(along(belt, "flexure") + np.array(added), rel=1e-12)
 
 
 def test_splitting_a_section_changes_no_flexure(line):
@@ -89,17 +102,18 @@ def test_splitting_a_section_changes_no_flexure(line):
     halves = [made.route.sections[1].replace(name=f"half {i}", length="170 m", lift="0.75 m") for i in (1, 2)]
     sections = [made.route.sections[0], *halves, *made.route.sections[2:]]
     split = made.replace(route=made.route.replace(sections=sections))
-    before, after = (conveyor.analyse(each).balance.forces.flexure for each in (made, split))
+    before, after = (calculate(each).balance.forces.parts["flexure"] for each in (made, split))
     assert after == pytest.approx(before, rel=1e-11)
 
 
 def test_the_laws_say_how_far_to_trust_them(line):
-    told = conveyor.analyse(with_flexure(line, belt=BELT))
-    assert any("at the least tension that the sag allows, on the safe side" in a for a in told.assumptions)
-    assert "calculation.flexure.bulk not given: flexure of the bulk is not in the figures" in told.warnings
-    assert not any("flexure_share" in w for w in told.warnings)
-    bound = conveyor.analyse(with_flexure(line, bulk=BULK))
-    assert any("an upper bound; its opening angle is the spec's" in w for w in bound.warnings)
+    made = with_flexure(line, belt=BELT)
+    assert any("at the least tension that the sag allows, on the safe side" in a for a in assumptions(made))
+    said = told(calculate(made))
+    assert "calculation.flexure.bulk not given: flexure of the bulk is not in the figures" in said
+    assert not any("flexure_share" in w for w in said)
+    bound = told(calculate(with_flexure(line, bulk=BULK)))
+    assert any("an upper bound; its opening angle is the spec's" in w for w in bound)
 
 
 def test_a_tension_below_the_belts_momentum_is_refused(line):
@@ -107,7 +121,7 @@ def test_a_tension_below_the_belts_momentum_is_refused(line):
     with pytest.raises(
         NoSolutionError, match=r"m' v² is .* give a larger calculation\.flexure\.belt\.tension"
     ):
-        conveyor.analyse(slack)
+        calculate(slack)
 
 
 @pytest.mark.parametrize(
@@ -136,9 +150,9 @@ def test_ploughs_are_special_resistances_at_their_place(line, result):
     made = line.replace(
         route=line.route.replace(ploughs=[plough, {"width": "0.8 m", "scraping_factor": "2 kN/m"}])
     )
-    found = conveyor.analyse(made)
+    found = calculate(made)
     singles = {single.name: single for single in found.balance.singles if single.name.startswith("plough")}
-    assert {name: (single.force, single.place) for name, single in singles.items()} == {
+    assert {name: (single.total, single.place) for name, single in singles.items()} == {
         "plough 1 (x2)": (3000.0, "behind plateau, carry"),
         "plough 2 (x1)": (pytest.approx(1600.0, rel=1e-14), "head"),
     }
@@ -146,8 +160,8 @@ def test_ploughs_are_special_resistances_at_their_place(line, result):
     assert added == pytest.approx(4600.0, rel=1e-9)
     points = found.balance.points
     assert points[-1].tension - points[0].tension == pytest.approx(found.balance.forces.total, rel=1e-9)
-    assert any("route.ploughs: scraping factor 1500 N/m assumed" in w for w in found.warnings)
-    empty = conveyor.analyse(made.replace(material=made.material.replace(flow="0 t/h")))
+    assert any("route.ploughs: scraping factor 1500 N/m assumed" in w for w in told(found))
+    empty = calculate(made.replace(material=made.material.replace(flow="0 t/h")))
     assert not any(single.name.startswith("plough") for single in empty.balance.singles)
 
 
@@ -178,21 +192,16 @@ def test_ploughs_are_no_wider_than_the_belt(line):
 
 def test_cema_stands_beside_only_where_its_factors_are_given(line, result):
     assert result.balance.cema is None
-    assert list(tables.comparison(result.balance).columns) == ["this calculation", "classical, given f"]
-    found = conveyor.analyse(line.replace(calculation=line.calculation.replace(cema=CEMA)))
+    found = calculate(line.replace(calculation=line.calculation.replace(cema=CEMA)))
     assert found.balance.forces == result.balance.forces
-    table = tables.comparison(found.balance)["CEMA classic, given Ky"]
-    parts = table["main [N]"] + table["secondary [N]"] + table["special [N]"] + table["lift [N]"]
-    assert table["effective tension [N]"] == pytest.approx(parts, rel=1e-12)
-    told = found.to_dict()["cema"]
-    assert told["total_N"] == table["effective tension [N]"]
-    assert told["motor_kW"] == table["motor power [kW]"]
-    assert result.to_dict()["cema"] is None
-    assert any("CEMA classic form: formulas as commonly reproduced" in w for w in found.warnings)
+    cema = found.balance.cema
+    parts = cema.main + cema.secondary + cema.special + cema.lift
+    assert cema.total == pytest.approx(parts, rel=1e-12)
+    assert any("CEMA classic form: formulas as commonly reproduced" in w for w in told(found))
 
 
 def test_cema_by_hand_in_its_own_units(line):
-    found = conveyor.analyse(
+    found = calculate(
         line.replace(calculation=line.calculation.replace(cema=CEMA | {"temperature_factor": 1.2}))
     ).balance
     belt = 27.0 * 1.2 / LB * FT  # lb/ft
@@ -209,12 +218,13 @@ def test_cema_by_hand_in_its_own_units(line):
     tons, speeds = 2400.0 / 3.6 / (2000.0 * LB / 3600.0), (5.0 - 1.5) / (FT / 60.0)
     assert found.cema.secondary / LBF == pytest.approx(300.0 + 2.8755e-4 * tons * speeds, rel=1e-12)
     skirts_and_cleaners = math.fsum(
-        single.force for single in found.singles if single.name.startswith(("skirts", "cleaner"))
+        single.total for single in found.singles if single.name.startswith(("skirts", "cleaner"))
     )
     assert found.cema.special == pytest.approx(skirts_and_cleaners, rel=1e-12)
-    assert found.cema.motor == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
-    unit_main = math.fsum(r.unit_main for r in conveyor.analyse(line).stretches)
-    assert found.cema.friction_factor == pytest.approx(found.cema.main / unit_main, rel=1e-12)
+    assert found.frame.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
+    assert found.cema.friction_factor == pytest.approx(found.cema.main / found.unit_main, rel=1e-12)
+    whole = calculate(line).balance
+    assert found.unit_main == pytest.approx(whole.forces.main / whole.friction_factor, rel=1e-12)
 
 
 def test_cema_is_the_same_for_a_split_section(line):
@@ -222,7 +232,7 @@ def test_cema_is_the_same_for_a_split_section(line):
     halves = [made.route.sections[1].replace(name=f"half {i}", length="170 m", lift="0.75 m") for i in (1, 2)]
     sections = [made.route.sections[0], *halves, *made.route.sections[2:]]
     split = made.replace(route=made.route.replace(sections=sections))
-    before, after = (conveyor.analyse(each).balance.cema.total for each in (made, split))
+    before, after = (calculate(each).balance.cema.total for each in (made, split))
     assert after == pytest.approx(before, rel=1e-12)
 
 
@@ -230,5 +240,5 @@ def test_pulleys_of_little_wrap_count_less(line):
     made = line.replace(calculation=line.calculation.replace(cema=CEMA))
     pulleys = [p.replace(wrap_angle="90 deg") if p.name == "tail" else p for p in line.route.pulleys]
     less = made.replace(route=made.route.replace(pulleys=pulleys))
-    saved = conveyor.analyse(made).balance.cema.secondary - conveyor.analyse(less).balance.cema.secondary
+    saved = calculate(made).balance.cema.secondary - calculate(less).balance.cema.secondary
     assert saved == pytest.approx(50.0 * LBF, rel=1e-9)

@@ -7,7 +7,10 @@ import re
 import pytest
 
 import conveyor
-from conveyor.spec import fingerprint
+from conveyor.checks import checks
+from conveyor.pipeline import calculate
+from conveyor.remarks import warnings
+from conveyor.spec import fingerprint, load
 
 _NEWTON, _POUND = (
     re.compile(r"needs a backstop of ([\d,]+) N "),
@@ -24,6 +27,14 @@ def result() -> conveyor.Analysis:
 def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:
     (found,) = [float(match[1].replace(",", "")) for match in map(pattern.search, warnings) if match]
     return found
+
+
+def test_warnings_are_written_in_any_system() -> None:
+    found = calculate(load("examples/specs/overland.yaml"))
+    said = warnings(found, checks(found))
+    si, us = (tuple(one.text(system) for one in said) for system in ("SI", "US"))
+    assert _found(_POUND, us) * POUND == pytest.approx(_found(_NEWTON, si), abs=0.5 + 0.5 * POUND)
+    assert not any(re.search(r"\d N\b", warning) for warning in us)
 
 
 def test_remarks_follow_the_units(result: conveyor.Analysis) -> None:
