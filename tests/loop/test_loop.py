@@ -21,6 +21,7 @@ CASES = {
     "one drive": {},
     "tail drive alone": {"drive": {"position": "tail"}},
     "drive on the return strand": {"drive": {"position": "return", "section": "d"}},
+    "brake and flywheel": {"drive": {"brake_force": "60 kN", "reduced_mass": "20 t"}},
     "two at the head": {"drive": {"further_drives": [SECOND]}},
     "head, booster, tail": {"drive": {"further_drives": [BOOSTER, TAIL_DRIVE]}},
     "gravity at the tail": {"route": {"take_up": {"kind": "gravity", "position": "tail"}}},
@@ -114,10 +115,11 @@ def test_the_take_up_holds_what_it_holds(case):
     length = found.line.loop.length
     for state in (*settled.states.values(), *motions(found).states.values()):
         if take_up is None:
-            # of all drives at the first one's place: a take-up stands behind the station, not between its pulleys
+            # behind all drives at the first one's place, before them where they brake in steady running: in every state
             first = found.line.drives[0].spot
-            beside = [drive.spot == first for drive in found.line.drives]
-            held = min(side.slack for side, here in zip(state.drives, beside, strict=True) if here)
+            pairs = zip(found.line.drives, state.drives, strict=True)
+            beside = [side for drive, side in pairs if drive.spot == first]
+            held = beside[-1].leaving if found.forces.total >= 0.0 else beside[0].arriving
         elif take_up.kind == "fixed":
             held = float((0.5 * (state.starts + state.ends)) @ length / length.sum())
         else:
