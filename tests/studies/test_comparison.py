@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import replace
-
 import numpy as np
-import pandas as pd
 import pytest
 
-import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import RubberCompound
-from conveyor.report import comparing, plots
-from conveyor.studies.comparison import RTOL, compare_compounds, with_compound
+from conveyor.models.variants import with_compound
+from conveyor.pipeline import calculate
+from conveyor.spec import load
+from conveyor.studies.comparison import RTOL, compare_compounds
 from conveyor.studies.duty import analyse_duty
 from conveyor.units import quantity, si
 
@@ -27,7 +24,7 @@ COSTS = {"low-rolling-resistance-cover": 10_000.0, "S100": 50_000.0}
 
 @pytest.fixture(scope="module")
 def line():
-    return conveyor.load(SPEC)
+    return load(SPEC)
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +46,7 @@ def scene(found, name, temperature, speed):
 @pytest.mark.parametrize(("name", "celsius", "speed"), [("standard-cover", 20, 5.0), ("S100", 0, 4.5)])
 def test_scenes_are_analyses(line, found, name, celsius, speed):
     changed = with_compound(line, shelf.compound(name), "bottom")
-    alone = conveyor.analyse(
+    alone = calculate(
         changed.replace(
             belt=changed.belt.replace(speed=f"{speed} m/s"),
             ambient=changed.ambient.replace(temperature=f"{celsius} degC"),
@@ -60,7 +57,7 @@ def test_scenes_are_analyses(line, found, name, celsius, speed):
     assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=one.error)
     assert one.motor == pytest.approx(alone.balance.power.motor, rel=one.error)
     assert one.largest_tension == pytest.approx(alone.balance.tensions.largest, rel=one.error)
-    assert one.cost_per_year == pytest.approx(alone.balance.power.cost_per_year, rel=one.error)
+    assert one.cost_per_year == pytest.approx(alone.year.cost, rel=one.error)
 
 
 def test_every_scene_is_answered_once(found):
@@ -71,43 +68,9 @@ def test_every_scene_is_answered_once(found):
     assert max(s.error for s in found.scenes) <= 1e-4
 
 
-def test_the_table_is_the_scenes(line, found):
-    table = conveyor.compare(line, NAMES, temperatures=TEMPERATURES, speeds=SPEEDS)
-    pd.testing.assert_frame_equal(table, found.table)
-    assert table["temperature [degC]"].unique().tolist() == [-10.0, 0.0, 20.0]
-    assert table["motor power [kW]"].to_numpy() == pytest.approx([s.motor / 1e3 for s in found.scenes])
-
-
 def test_without_temperatures_and_speeds_those_of_the_spec(line):
     (one,) = compare_compounds(line, ["standard-cover"]).scenes
     assert (one.temperature, one.speed) == (si(line.ambient.belt), si(line.belt.speed))
-
-
-def test_ranking_is_the_mean_of_the_scenes(found):
-    ranking = found.ranking
-    for speed in (4.5, 5.0):
-        rows = ranking[ranking["belt speed [m/s]"] == speed]
-        means = rows["mean motor power [kW]"].tolist()
-        assert means == sorted(means)
-        for _, row in rows.iterrows():
-            group = [s for s in found.scenes if s.compound == row["compound"] and s.speed == speed]
-            assert row["mean motor power [kW]"] == pytest.approx(np.mean([s.motor for s in group]) / 1e3)
-            assert row["peak motor power [kW]"] == pytest.approx(max(s.motor for s in group) / 1e3)
-            assert row["temperatures averaged"] == 3
-
-
-def test_savings_and_payback(found):
-    rows = found.ranking.set_index(["compound", "belt speed [m/s]"])
-    base = rows.loc[("standard-cover", 5.0)]
-    for name, extra in COSTS.items():
-        row = rows.loc[(name, 5.0)]
-        saved = base["cost per year [EUR]"] - row["cost per year [EUR]"]
-        assert row["saving per year [EUR]"] == pytest.approx(saved)
-        if saved > 0.0:
-            assert row["payback [a]"] == pytest.approx(extra / saved)
-        else:
-            assert math.isnan(row["payback [a]"])
-    assert base["motor power against base [-]"] == 0.0
 
 
 def test_band_is_what_the_replicas_make_of_the_power(line, found):
@@ -136,16 +99,14 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
 
 def test_no_replicas_no_band(found):
     assert scene(found, "standard-cover", 293.15, 5.0).motor_low is None
-    assert "motor power, low [kW]" in found.table
 
 
 def test_coverage_is_the_excited_band_of_the_analysis(line, found):
     changed = with_compound(line, shelf.compound("standard-cover"), "bottom")
     bands = []
     for speed in SPEEDS:
-        result = conveyor.analyse(changed.replace(belt=changed.belt.replace(speed=speed)))
-        carry = result.rubber.set_index("strand").loc["carry"]
-        bands.append((carry["excited from [Hz]"], carry["excited to [Hz]"]))
+        result = calculate(changed.replace(belt=changed.belt.replace(speed=speed)))
+        bands.append(result.contacts.excited_band("carry"))
     (row,) = [
         c for c in found.coverage if c.compound == "standard-cover" and abs(c.temperature - 293.15) < 1e-9
     ]
@@ -160,7 +121,6 @@ def test_data_that_do_not_reach_are_said(line):
     narrow = RubberCompound.from_data(compound)
     found = compare_compounds(line, [narrow])
     assert not found.coverage[0].covered
-    assert any("do not cover what the rolls excite at 20 degC" in line for line in comparing.remarks(found))
 
 
 def test_refused_scenes_have_their_reasons(line):
@@ -175,9 +135,6 @@ def test_refused_scenes_have_their_reasons(line):
         ("standard-cover", -45),
         ("standard-cover", 20),
     }
-    # the means are over the one temperature that both answer
-    assert set(found.ranking["temperatures averaged"]) == {1}
-    assert len(comparing.refused(found)) == len(found.refused)
 
 
 @pytest.mark.parametrize(("cover", "carry", "back"), [("bottom", 1, 0), ("top", 0, 1), ("both", 1, 1)])
@@ -226,62 +183,12 @@ def test_progress_counts_the_compounds(line):
     assert seen == [(0, 2), (1, 2), (2, 2)]
 
 
-def test_workbook_and_figures(found, tmp_path):
-    import openpyxl
-
-    book = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))
-    assert book.sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
-    assert book["Scenes"].max_row == 2 + len(found.scenes)
-    header = [cell.value for cell in book["Scenes"][2]]
-    column = 1 + header.index("motor power [kW]")
-    written = [book["Scenes"].cell(3 + k, column).value for k in range(len(found.scenes))]
-    assert written == pytest.approx([s.motor / 1e3 for s in found.scenes])
-    assert len(book["Power"]._charts) == len(SPEEDS)
-    for make in (plots.power_against_temperature, plots.power_against_speed):
-        figure = make(found)
-        assert len(figure.axes[0].lines) == len(NAMES)
-        assert plots.save(figure, tmp_path / "p.svg").stat().st_size > 5000
-    with pytest.raises(InputError, match=r"ends in \.png, \.svg or \.pdf"):
-        plots.save(figure, tmp_path / "p.xyz")
-
-
-def test_captions_say_what_is_drawn(line, tmp_path):
-    """The caption named the coldest temperature, the figure drew the one next to the spec's; likewise the speed."""
-    turning = compare_compounds(
-        line.replace(ambient={"temperature": "15 degC"}), ["s100", "standard-cover"],
-        temperatures=["-10 degC", "20 degC"], speeds=["4.5 m/s", "5 m/s"],
-    )  # fmt: skip
-    page = turning.to_html(tmp_path / "c.html").read_text(encoding="utf-8")
-    assert "Motor power over belt speed at 20 °C" in page
-    assert "20 °C" in plots.power_against_speed(turning).axes[0].get_title()
-    assert "temperature at 5 m/s;" in page
-    assert "5 m/s" in plots.power_against_temperature(turning).axes[0].get_title()
-
-
-def test_a_ranking_that_turns_with_the_temperature_is_said(found):
-    told = [remark for remark in comparing.remarks(found) if "the ranking turns" in remark]
-    assert len(told) == len(SPEEDS)
-    for speed, line in zip((4.5, 5.0), told, strict=True):
-        assert line.startswith(f"the ranking turns with the temperature; motor power at {speed:g} m/s: ")
-        for celsius in (-10, 0, 20):
-            (order,) = (
-                part.rpartition(": ")[2].split(" < ")
-                for part in line.partition("m/s: ")[2].split("; ")
-                if str(celsius) in part.partition(" degC")[0].split(", ")
-            )
-            power = [scene(found, name, celsius + 273.15, speed).motor for name in order]
-            assert power == sorted(power)
-            assert len(power) == len(NAMES)
-    steady = replace(found, scenes=tuple(s for s in found.scenes if s.temperature > 280.0))
-    assert comparing.turned(steady) == []
-
-
 @pytest.mark.parametrize("spec", ["examples/specs/downhill_brakes.yaml", "examples/specs/in_plant_us.yaml"])
 def test_curves_and_regeneration_are_those_of_the_analysis(spec):
-    line = conveyor.load(spec)
+    line = load(spec)
     name = line.carry_compound.name
     (one,) = compare_compounds(line, [line.carry_compound], cover="bottom").scenes
-    alone = conveyor.analyse(line)
+    alone = calculate(line)
     assert one.compound == name
     # tensions in the curves are iterated to the tolerance of the contacts
     assert one.indentation == pytest.approx(alone.balance.forces.indentation, rel=3e-4)
@@ -291,7 +198,7 @@ def test_curves_and_regeneration_are_those_of_the_analysis(spec):
 
 def test_a_duty_decides_the_year():
     """Saving is the difference of two duty studies, not of full load at one temperature all year."""
-    line = conveyor.load(SPEC)
+    line = load(SPEC)
     duty = [
         {"hours": "3000 h", "share": "100 %"},
         {"hours": "1500 h", "share": "60 %", "temperature": "0 degC"},
@@ -299,14 +206,9 @@ def test_a_duty_decides_the_year():
     held = {key: value for key, value in line.operation.as_data().items() if key != "hours_per_year"}
     line = line.replace(operation={**held, "duty": duty})
     names = ["standard-cover", "low-rolling-resistance-cover"]
-    found = conveyor.compare_compounds(line, names, speeds=["5 m/s", "5.5 m/s"])
-    ranked = found.ranking.set_index(["compound", "belt speed [m/s]"])
-    years = [
-        analyse_duty(with_compound(line, shelf.compound(name), "bottom"), rtol=RTOL).cost for name in names
-    ]
-    assert ranked.loc[(names[1], 5.0), "saving per year [EUR]"] == pytest.approx(
-        years[0] - years[1], rel=1e-12
-    )
-    assert ranked.loc[(names[0], 5.0), "cost per year [EUR]"] == pytest.approx(years[0], rel=1e-12)
-    assert pd.isna(ranked.loc[(names[1], 5.5), "cost per year [EUR]"])  # the duty is that of the spec's speed
-    assert any("operation.duty" in remark for remark in comparing.remarks(found))
+    found = compare_compounds(line, names, speeds=["5 m/s", "5.5 m/s"])
+    assert set(found.years) == set(names)
+    for name in names:
+        alone = analyse_duty(with_compound(line, shelf.compound(name), "bottom"), rtol=RTOL)
+        assert found.years[name].cost == pytest.approx(alone.cost, rel=1e-12)
+        assert found.years[name].year.net_kwh == pytest.approx(alone.year.net_kwh, rel=1e-12)
