@@ -184,7 +184,15 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
         forces = [drive.share * over * force for drive in data.drives]
         push = (over - 1.0) * force / mass
         here = singles if friction == 1.0 else loop.singles(bends, friction)
-        return loop.motion(name, forces, here, acceleration=push, friction=friction, may_sag=over != 1.0)
+        return loop.motion(
+            name,
+            forces,
+            here,
+            driving=drive >= 0.0,
+            acceleration=push,
+            friction=friction,
+            may_sag=over != 1.0,
+        )
 
     found = [
         shared(STEADY, drive, 1.0, 1.0),
@@ -217,4 +225,7 @@ def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float],
         return None
     slowing = retarding / (loop.masses.whole + math.fsum(rotating))
     forces = [mass * slowing - brake for mass, brake in zip(rotating, brakes, strict=True)]
-    return loop.motion(name, forces, singles, acceleration=-slowing, friction=friction, may_sag=True)
+    driving = loop.resistance(loop.singles(bends)) >= 0.0
+    return loop.motion(
+        name, forces, singles, driving=driving, acceleration=-slowing, friction=friction, may_sag=True
+    )

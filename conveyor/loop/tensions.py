@@ -216,11 +216,15 @@ class Loop:
         forces: Sequence[float],
         singles: Singles,
         *,
+        driving: bool,
         acceleration: float = 0.0,
         friction: float = 1.0,
         may_sag: bool = False,
     ) -> Motion:
-        """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
+        """A state in which every drive gives its force [N]; they and the masses balance the resistances.
+
+        `driving` says whether the drives pull in steady running: a take-up on their slack side stands there always.
+        """
         sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
         along = self._at(friction, acceleration)
         ins, outs, shifts = [], [], [0.0] * len(along)
@@ -235,7 +239,8 @@ class Loop:
                 level -= forces[i]
             outs.append(level)
             shifts[k] = level - passed
-        anchor = self._anchor(sides, outs, shifts, friction, acceleration)
+        slack_side = sides[self._station[-1]][2] if driving else sides[self._station[0]][1]
+        anchor = self._anchor(slack_side, outs, shifts, friction, acceleration)
         return Motion(
             name, math.fsum(forces), acceleration, friction, tuple(ins), ins[self._head], tuple(sides), tuple(shifts),
             anchor, None if may_sag else self.sagging(friction),
@@ -260,7 +265,7 @@ class Loop:
 
     def _anchor(
         self,
-        sides: Sequence[tuple[float, float, float]],
+        slack_side: float,
         outs: Sequence[float],
         shifts: Sequence[float],
         friction: float,
@@ -275,7 +280,7 @@ class Loop:
             )
         if self._anchor_at is not None:
             return outs[self._anchor_at]
-        return min(offset for i in self._station for offset in sides[i][1:])
+        return slack_side
 
     def conditions(self, motion: Motion) -> Iterator[Condition]:
         """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
