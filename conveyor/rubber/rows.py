@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.rubber.non_negative import non_negative
 
 DUST = 1.0e-12
 """NNLS may return zero as rounding, 1e-16; no data resolve a modulus this far below the smallest E'."""
@@ -247,14 +248,12 @@ def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
     ----------
     C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23.
     """
-    from scipy.optimize import nnls
-
     unit = float(np.exp(np.mean(np.log(rows.storage))))
     matrix = rows.matrix(tau) * unit
     if held is None:
-        moduli, _ = nnls(matrix, rows.target)
+        moduli = non_negative(matrix, rows.target)
     else:
-        rest, _ = nnls(matrix[:, 1:], rows.target - matrix[:, 0] * (held / unit))
+        rest = non_negative(matrix[:, 1:], rows.target - matrix[:, 0] * (held / unit))
         moduli = np.concatenate([[held / unit], rest])
     return np.asarray(moduli * unit)
 
