@@ -71,9 +71,9 @@ def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
     """
     length = _lengths(matrix)
     falls = (target - matrix @ weights) @ matrix / length
-    falls[weights > 0.0] = np.abs(falls[weights > 0.0])
-    size = float(np.linalg.norm(target) + length @ weights)
-    return max(0.0, float(falls.max())) / size if size else 0.0
+    steepest = float(np.where(weights > 0.0, np.abs(falls), falls).max())
+    size = float(np.sqrt(target @ target) + length @ weights)
+    return max(0.0, steepest) / size if size else 0.0
 
 
 def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
@@ -149,5 +149,6 @@ def _entered(columns: FloatArray, target: FloatArray, weights: FloatArray, enter
 
 def _lengths(matrix: FloatArray) -> FloatArray:
     """Euclidean length of each column; 1 for a column of zeros, which then has no slope."""
-    length = np.linalg.norm(matrix, axis=0)
-    return np.asarray(np.where(length > 0.0, length, 1.0))
+    length = np.sqrt(np.einsum("ij,ij->j", matrix, matrix))
+    length[length == 0.0] = 1.0
+    return np.asarray(length)

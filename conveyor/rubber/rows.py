@@ -248,8 +248,13 @@ def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
     ----------
     C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23.
     """
+    return _solved(rows, kernel(rows.omega, tau), held)
+
+
+def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
+    """`plain`, of the `kernel` of its times."""
     unit = float(np.exp(np.mean(np.log(rows.storage))))
-    matrix = rows.matrix(tau) * unit
+    matrix = terms / rows.scale[:, None] * unit
     if held is None:
         moduli = non_negative(matrix, rows.target)
     else:
@@ -291,11 +296,12 @@ def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
     R. W. M. Wedderburn, Biometrika 61 (1974) 439-447.
     """
     spread = rows.scale / np.concatenate([rows.storage, rows.loss])
+    terms = kernel(rows.omega, tau)
     for _ in range(PASSES):
-        moduli = plain(rows, tau, held)
+        moduli = _solved(rows, terms, held)
         if not moduli[1:].any():
             raise NoSolutionError(NO_TERM)
-        rows = replace(rows, scale=kernel(rows.omega, tau) @ moduli * spread)
+        rows = replace(rows, scale=terms @ moduli * spread)
     return rows
 
 
