@@ -105,7 +105,7 @@ def _unpacked(data: bytes) -> int:
 
 
 def _grid(sheet: Any, name: str) -> Grid:
-    with sheet._get_source() as source:
+    with sheet._get_source() as source:  # noqa: SLF001
         if source.read().count(b"<c") > MOST_CELLS:
             raise refusal(
                 name, 1, 0, f"more than {MOST_CELLS:,} cells; save the one table as CSV", lettered=True
@@ -145,14 +145,14 @@ def _rows(sheet: Any) -> Iterator[tuple[int, list[Any]]]:
     from openpyxl.worksheet._reader import WorkSheetParser
 
     book = sheet.parent
-    with sheet._get_source() as source:
+    with sheet._get_source() as source:  # noqa: SLF001
         parser = WorkSheetParser(
             source,
-            sheet._shared_strings,
+            sheet._shared_strings,  # noqa: SLF001
             data_only=True,
             epoch=book.epoch,
-            date_formats=book._date_formats,
-            timedelta_formats=book._timedelta_formats,
+            date_formats=book._date_formats,  # noqa: SLF001
+            timedelta_formats=book._timedelta_formats,  # noqa: SLF001
         )
         for number, cells in parser.parse():
             yield number, [ReadOnlyCell(sheet, **cell) for cell in cells if cell["value"] is not None]
