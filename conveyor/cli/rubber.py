@@ -69,6 +69,13 @@ def fit(
     ] = None,
     sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook.")] = None,
     kind: Annotated[str | None, typer.Option(help="What the file holds, where it leaves it open.")] = None,
+    accept: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FINDING",
+            help="Insist on what is refused as hardly rubber: few-rows, modulus, contradiction; may be repeated.",
+        ),
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
@@ -94,6 +101,7 @@ def fit(
         terms_per_decade=terms_per_decade,
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
+        accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
     try:

@@ -267,7 +267,8 @@ def test_penalty_smooths_and_vanishes() -> None:
     bare = fit_prony(f, e1, e2, terms_per_decade=2.0)
     assert freedom[0] == pytest.approx(bare.active_terms + 1, rel=1e-12)
     assert residual[1] == pytest.approx(residual[0], rel=1e-6)
-    assert residual == sorted(residual)
+    # the first two are one minimum, each error a sum rounded as 1e-16 of its parts
+    assert np.all(np.diff(residual) >= -1e-12 * residual[0])
     # all that is free under an infinite one: E_e and a straight line of H/H0 over ln tau
     assert freedom[-1] == pytest.approx(3.0, abs=0.05)
 
