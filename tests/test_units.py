@@ -129,10 +129,10 @@ def test_trap_is_refused_with_advice(written: object, kind: str | None, message:
 
 
 def test_power_towers_do_not_hang() -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(InputError):
         quantity("9**9**9**9 m", "length")
-    assert time.perf_counter() - start < 0.1
+    assert time.process_time() - start < 1.0
 
 
 @given(
@@ -264,12 +264,9 @@ def test_json_schema_accepts_what_the_model_accepts() -> None:
     assert {"type": "number"} in schema["share"]["anyOf"]
 
 
-def test_ten_thousand_models_of_six_fields_in_a_second() -> None:
-    # 0.3 s measured on one core; three tries so that a busy machine does not decide.
-    def once() -> float:
-        start = time.perf_counter()
-        for _ in range(10_000):
-            Sample(**VALID)
-        return time.perf_counter() - start
-
-    assert min(once() for _ in range(3)) < 1.0
+def test_ten_thousand_models_of_six_fields_in_a_few_seconds() -> None:
+    # 0.3 s measured on one core, ten times it for slower ones; a parser of expressions takes 13 s
+    start = time.process_time()
+    for _ in range(10_000):
+        Sample(**VALID)
+    assert time.process_time() - start < 3.0

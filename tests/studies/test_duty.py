@@ -117,7 +117,7 @@ def test_the_year_is_the_sum_of_its_bars(line):
     assert study.energy_per_tonne_km == pytest.approx(total / tonne_km, rel=1e-12)
     table, summary = study.table, study.summary
     assert table["energy [MWh]"].sum() == pytest.approx(summary["drawn [MWh]"])
-    assert summary["cost [USD]"] == study.cost
+    assert summary["cost [USD]"] == pytest.approx(study.cost, rel=1e-14)
     assert summary["carbon dioxide [t]"] == pytest.approx(study.emission / 1e3)
     assert summary["in operation [h]"] == pytest.approx(1300.0)
 
