@@ -97,7 +97,17 @@ def read_workbook(path: Path) -> dict[str, Grid]:
         The file cannot be read, is no workbook, is damaged, protected by a password, larger than a filled-in
         template can be, or declares XML entities.
     """
-    content = _content(path)
+    return grids(path, _content(path))
+
+
+def grids(path: Path, content: bytes) -> dict[str, Grid]:
+    """Read every sheet of a workbook whose bytes are given; the path is for messages.
+
+    Raises
+    ------
+    InputError
+        As `read_workbook`.
+    """
     look_through(content, str(path), LIMITS)
     try:
         with warnings.catch_warnings():
