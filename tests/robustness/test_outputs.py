@@ -13,7 +13,7 @@ from conveyor.errors import InputError
 from conveyor.files.marks import mark
 from conveyor.files.saving import save
 from conveyor.report import excel, files, html, plots
-from tests.robustness.arrange import SPEC, Case
+from tests.robustness.arrange import SPEC, Case, given
 from tests.robustness.table import run
 
 ESC = "a\x1b[31mb\x9bc"
