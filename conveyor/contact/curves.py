@@ -31,10 +31,10 @@ from conveyor.contact.narrow import (
     ROOM,
     Group,
     Search,
+    alike,
     chosen_rows,
     fits,
     guess,
-    plain,
 )
 from conveyor.contact.orders import NARROW_ORDERS
 from conveyor.contact.problem import ContactProblem
@@ -98,14 +98,10 @@ def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | N
 
 def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[int, LoadCurve]:
     """Curves of the plainly narrow scenes, by their place in the list."""
-    kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(problem.creep) for problem in problems]
-    for i, problem in enumerate(problems):
-        if plain(problem, creeps[i]):
-            kinds.setdefault((str(problem.support), np.isinf(problem.thickness)), []).append(i)
     grade = grades_for(rtol)[0]
     curves: dict[int, LoadCurve] = {}
-    for members in kinds.values():
+    for members in alike(problems, creeps):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = ROOM * guess(group)
         panels = panels_beyond(group.layers.reach(grade.depth), widest, grade)

@@ -8,13 +8,14 @@ general ways.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.belt import Belt
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -24,11 +25,11 @@ from conveyor.contact.checks import (
     pulling_and_pressing,
     relative_difference,
 )
+from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
-from conveyor.contact.layers import Layers
 from conveyor.contact.orders import NARROW_ORDERS
-from conveyor.contact.problem import ContactProblem, Creeps, CreepSpectrum, Status
+from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
     COARSE,
@@ -42,6 +43,7 @@ from conveyor.contact.short_rule import (
 from conveyor.contact.single import LOAD_FLOOR
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, assemble, equilibrium
+from conveyor.contact.stack import Stack, kind, stacked
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
@@ -67,29 +69,19 @@ class Group:
 
     problems: list[ContactProblem]
     given: list[CreepSpectrum]  # as the solver sees them: terms without time are instantaneous
-    layers: Layers
+    layers: Stack
     creeps: Creeps
     rho: Array
     target: Array
 
     @classmethod
     def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> Group:
-        """Scenes of one support; terms are filled up with weights of zero."""
-        terms = max([1, *(creep.weights.size for creep in given)])
-        weights, times = np.zeros((len(given), terms)), np.ones((len(given), terms))
-        for row, creep in enumerate(given):
-            weights[row, : creep.weights.size] = creep.weights
-            times[row, : creep.times.size] = creep.times
-        support = str(problems[0].support)
+        """Scenes of one support; creeps are filled up with terms of weight zero."""
         return cls(
             problems,
             given,
-            Layers(
-                "half-space" if np.isinf(problems[0].thickness) else support,
-                np.array([p.thickness for p in problems]),
-                np.array([p.poisson for p in problems]),
-            ),
-            Creeps(np.array([c.instantaneous for c in given]), weights, times),
+            stacked([p.layer for p in problems], given),
+            Creeps.of(given),
             np.array([p.rho for p in problems]),
             np.log([p.pressure for p in problems]),
         )
@@ -108,13 +100,9 @@ class Group:
 def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | None]:
     """Outcome of every scene that is a plain narrow contact, None of the others; in their order."""
     outcomes: list[Outcome | None] = [None] * len(problems)
-    kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    for i, problem in enumerate(problems):
-        if isinstance(problem.support, str) and plain(problem, creeps[i]):
-            kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
     grades = grades_for(rtol)
-    for members in kinds.values():
+    for members in alike(problems, creeps):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         alpha = guess(group)
         half_width = ROOM * alpha
@@ -164,8 +152,20 @@ def shared_rules(
 
 
 def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
-    """Whether the short rules know the scene's layer and can square its retardation numbers."""
-    return isinstance(problem.support, str) and creep.times.max(initial=0.0) < _TIMES
+    """Whether the scene's retardation numbers can be squared."""
+    times = [creep.times]
+    if isinstance(problem.support, Belt):
+        times.append(problem.support.top_creep.times)
+    return all(float(zeta.max(initial=0.0)) < _TIMES for zeta in times)
+
+
+def alike(problems: Sequence[ContactProblem], creeps: Sequence[CreepSpectrum]) -> Iterable[list[int]]:
+    """Places of the scenes that can be solved side by side."""
+    kinds: dict[type, list[int]] = {}
+    for i, (problem, creep) in enumerate(zip(problems, creeps, strict=True)):
+        if plain(problem, creep):
+            kinds.setdefault(kind(problem.layer), []).append(i)
+    return kinds.values()
 
 
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
@@ -180,7 +180,8 @@ def guess(group: Group) -> Array:
     span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
     log_alpha = np.log(narrow)[:, None] + np.linspace(0.0, 1.0, _GUESSES) * span[:, None]
     alpha = np.exp(log_alpha)
-    compliance = np.abs(group.layers.factor(1.0 / alpha) * group.creeps.compliance(1.0 / alpha))
+    m = np.maximum(1.0 / alpha, 1.0)
+    compliance = np.abs(group.layers.symbol(m, group.creeps.compliance(m)))
     log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
     log_load = np.maximum.accumulate(log_load, axis=1)
     # a load beyond the table is no narrow contact: its place is the table's end and it is handed back

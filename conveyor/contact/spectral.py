@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients
-from conveyor.contact.problem import Creeps, CreepSpectrum
+from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.short_rule import ShortRule
 
