@@ -49,6 +49,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _SEARCH = 8
+_ROUGH = 1e-9  # relative error of eccentricities on the way
 LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
@@ -218,7 +219,8 @@ class Search:
         sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
         every = np.repeat(np.arange(size), _SAMPLES)
         rho = group.rho[every]
-        contact = equilibrium(assemble(rule[every], group.creeps[every], sampled, _SEARCH), sampled, rho)
+        matrix = assemble(rule[every], group.creeps[every], sampled, _SEARCH)
+        contact = equilibrium(matrix, sampled, rho, tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
         self.load = (
             np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform
