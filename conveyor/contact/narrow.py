@@ -9,7 +9,7 @@ general ways.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -32,7 +32,6 @@ from conveyor.contact.orders import NARROW_ORDERS
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
-    COARSE,
     WIDEST,
     Grade,
     ShortRule,
@@ -118,38 +117,6 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
             for row, outcome in _closed(search, rtol).items():
                 outcomes[members[chosen[row]]] = outcome
     return outcomes
-
-
-def places(problem: ContactProblem, pressures: Sequence[float]) -> Array | None:
-    """Half widths of one scene under several loads, good to about 1e-4 (order 8); None if not narrow."""
-    creep = instantly_relaxed(problem.creep)
-    if not plain(problem, creep):
-        return None
-    loads = [replace(problem, pressure=p) for p in pressures]
-    group = Group.of(loads, [creep] * len(loads))
-    alpha = guess(group)
-    widest = ROOM * float(alpha.max())
-    if not fits(group, np.full(len(loads), widest), COARSE[0]).all():
-        return None
-    first = group[np.zeros(1, dtype=int)]
-    rule = short_rule(first.layers, first.creeps, np.array([widest]), COARSE[0])
-    search = Search(group, rule.repeated(len(loads)), alpha)
-    return np.exp(search.middle + RANGE * search.place) if search.alive.all() else None
-
-
-def shared_rules(
-    problem: ContactProblem, half_width: float, rtol: float
-) -> tuple[ShortRule, ShortRule] | None:
-    """Rules for solving and checking one scene up to a half width, of one row; None if not narrow."""
-    creep = instantly_relaxed(problem.creep)
-    if not plain(problem, creep):
-        return None
-    group, width = Group.of([problem], [creep]), np.array([half_width])
-    solving, checking = grades_for(rtol)
-    if not fits(group, width, solving).all():
-        return None
-    rule = short_rule(group.layers, group.creeps, width, solving)
-    return rule, short_rule(group.layers, group.creeps, width, checking, rule.unit)
 
 
 def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.creep import Creeps
+from conveyor.contact.quadrature import Rule
 from conveyor.contact.stack import Stack
 
 Array = NDArray[np.float64]
@@ -81,6 +82,12 @@ class ShortRule:
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
         return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen])
+
+
+def full_rule(rule: Rule) -> ShortRule:
+    """One scene's full rule as a batch of one."""
+    empty = np.empty((1, 0), dtype=complex)
+    return ShortRule(rule.nodes[None], rule.weights[None], np.array([rule.half_width]), empty)
 
 
 @dataclass(frozen=True, eq=False)

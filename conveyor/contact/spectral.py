@@ -163,11 +163,11 @@ def _balanced(matrix: Array, alpha: Array, eps: Array, radius: Array) -> tuple[A
 def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:
     """Contacts whose eccentricity is far from where the search starts."""
     row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
-    eps, inside = eccentricity(row, alpha, radius, eps)
+    eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
     safe, eps = np.where(inside, alpha, 0.5 * radius), np.where(inside, eps, 0.0)
     n = matrix.shape[2]
     slope = slope_coefficients(safe, eps, radius, n + 2)
-    c = np.linalg.solve(matrix[:, 1:], slope[:, 1 : n + 1, None])[..., 0]
+    c = np.asarray(np.linalg.solve(matrix[:, 1:], slope[:, 1 : n + 1, None])[..., 0], dtype=np.float64)
     return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
 
 
