@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rich.text import Text
-
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, table
+from conveyor.cli.terminal import console, table, words
 from conveyor.figures import ZERO_CELSIUS
 from conveyor.report import comparing
 from conveyor.report.axes import scale
@@ -27,9 +25,9 @@ def show(found: Comparison, system: System) -> None:
     made = table(f"{found.conveyor.name}: {found.cover} cover, against {found.base}")
     columns = _columns(rows, several_speeds=frame["belt speed [m/s]"].nunique() > 1, system=system)
     for heading in columns:
-        made.add_column(Text(heading), justify="left" if heading == "compound" else "right", no_wrap=True)
+        made.add_column(words(heading), justify="left" if heading == "compound" else "right", no_wrap=True)
     for row in rows:
-        made.add_row(*(Text(shown(row)) for shown in columns.values()))
+        made.add_row(*(words(shown(row)) for shown in columns.values()))
     screen = console()
     screen.print(made)
     notes.show(screen, comparing.remarks(found))

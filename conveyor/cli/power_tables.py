@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, force, power, shown, table, wrapped
+from conveyor.cli.terminal import console, force, power, shown, table, words, wrapped
 from conveyor.units import System, si, text
 
 if TYPE_CHECKING:
@@ -50,10 +50,8 @@ def show(result: Analysis, asked: Studies, system: System) -> None:
 
 
 def _head(screen: Console, conveyor: Conveyor, system: System) -> None:
-    from rich.text import Text
-
     report, route, material = conveyor.report, conveyor.route, conveyor.material
-    screen.print(Text(conveyor.name, style="bold"))
+    screen.print(words(conveyor.name, style="bold"))
     said = (
         report.project,
         report.number,
@@ -62,9 +60,9 @@ def _head(screen: Console, conveyor: Conveyor, system: System) -> None:
         report.revision and f"revision {report.revision}",
     )
     if any(said):
-        screen.print(Text(", ".join(filter(None, said))))
+        screen.print(words(", ".join(filter(None, said))))
     screen.print(
-        Text(
+        words(
             f"{material.name}, {shown(si(material.flow), 'mass flow', system)} over "
             f"{shown(route.length, 'length', system)}, lift {shown(route.rise, 'length', system)}\n"
             f"belt {text(conveyor.belt.width)} at {shown(si(conveyor.belt.speed), 'speed', system)}, "
@@ -129,8 +127,6 @@ def _sums(result: Analysis, system: System) -> Table:
 
 
 def _checks(screen: Console, result: Analysis, asked: Studies, system: System) -> None:
-    from rich.text import Text
-
     from conveyor.report.checks import checks
 
     found = checks(result, system, asked)
@@ -139,11 +135,11 @@ def _checks(screen: Console, result: Analysis, asked: Studies, system: System) -
         f"{sum(check.verdict == word for check in found)} {word}" for word in ("pass", "FAIL", "not checked")
     ]
     screen.print(
-        Text("checks: " + ", ".join(count for count in counts if not count.startswith("0 ")), style="bold")
+        words("checks: " + ", ".join(count for count in counts if not count.startswith("0 ")), style="bold")
     )
     for check in failed:
         said = f"FAIL {check.subject}: {check.found}, {check.asked}"
-        screen.print(Text(wrapped(said, screen.width, first="  ", further="    "), style="red"))
+        screen.print(words(wrapped(said, screen.width, first="  ", further="    "), style="red"))
 
 
 def _cases(study: CaseStudy, system: System) -> Table:
@@ -151,33 +147,27 @@ def _cases(study: CaseStudy, system: System) -> Table:
     for heading, side in (("figure", "left"), ("value", "right"), ("case", "left"), ("at", "left")):
         made.add_column(heading, justify="right" if side == "right" else "left")
     written = {"force": force, "power": power}
-    from rich.text import Text
-
     for row in study.governing:
         at = f"{shown(row.result.temperature, 'temperature', system)}, {shown(row.result.speed, 'speed', system)}"
-        made.add_row(row.figure, written[row.kind](row.value, system), Text(row.result.case), at)
+        made.add_row(row.figure, written[row.kind](row.value, system), words(row.result.case), at)
     return made
 
 
 def _year(figures: Iterable[tuple[object, float]]) -> Table:
-    from rich.text import Text
-
     made = table("the year")
     made.add_column("figure")
     made.add_column("value", justify="right", no_wrap=True)
     for name, value in figures:
-        made.add_row(Text(str(name)), f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}")
+        made.add_row(words(str(name)), f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}")
     return made
 
 
 def _ranges(screen: Console, study: UncertaintyStudy, system: System) -> None:
-    from rich.text import Text
-
     low, high = study.band
     first = ", ".join(effect.name for effect in study.effects[:3])
-    screen.print(Text("\nranges of the inputs", style="bold"))
+    screen.print(words("\nranges of the inputs", style="bold"))
     said = (
         f"motor power {power(low, system)} to {power(high, system)} in nine tenths of the cases; "
         f"what matters first: {first}"
     )
-    screen.print(Text(wrapped(said, screen.width, first="  ", further="  ")))
+    screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeVar
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from openpyxl import Workbook
 
 from conveyor.errors import InputError
+from conveyor.files import marks
 from conveyor.files.saving import save, writable
 from conveyor.report import comparing_sheets, cover, sheets, study_sheets
 from conveyor.report.cells import legible, print_set_up
@@ -88,11 +88,19 @@ def write(
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor, system))
     _ready(path)
+    save(files(analysis, path, studies, system=system))
+    return path
+
+
+def files(
+    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
+) -> dict[Path, bytes]:
+    """Workbook of an analysis and the tables too long for it, by the files they go to; as `write`."""
+    shown = analysis.in_units(chosen(analysis.conveyor, system))
     with _uncollected():
         found = of_analysis(shown, studies)
-        return _saved(path, found, build(found, shown, path.stem))
+        return _encoded(path, found, build(found, shown, path.stem))
 
 
 def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
@@ -103,11 +111,18 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System | Non
     InputError
         As `write`.
     """
-    units = chosen(comparison.conveyor, system)
     _ready(path)
+    save(comparison_files(comparison, path, system=system))
+    return path
+
+
+def comparison_files(
+    comparison: Comparison, path: Path, *, system: System | None = None
+) -> dict[Path, bytes]:
+    """Workbook of a comparison and the tables too long for it, by the files they go to."""
     with _uncollected():
-        found = of_comparison(comparison, units)
-        return _saved(path, found, build_comparison(found, comparison, path.stem))
+        found = of_comparison(comparison, chosen(comparison.conveyor, system))
+        return _encoded(path, found, build_comparison(found, comparison, path.stem))
 
 
 @contextmanager
@@ -129,19 +144,16 @@ def _ready(path: Path) -> None:
     writable(path)
 
 
-def _saved(path: Path, found: Contents, book: Workbook) -> Path:
-    """Write a workbook, and beside it the tables too long for it."""
+def _encoded(path: Path, found: Contents, book: Workbook) -> dict[Path, bytes]:
+    """Bytes of a workbook, and of the tables too long for it, which go beside it."""
     content = BytesIO()
     try:
         book.save(content)  # by way of temporary files
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
     long = [part for part in found.parts if len(part.frame) > MOST_ROWS]
-    save(
-        {path.with_name(file_name(path.stem, part)): csv(part.frame) for part in long}
-        | {path: content.getbuffer()}
-    )
-    return path
+    beside = {path.with_name(file_name(path.stem, part)): csv(part.frame) for part in long}
+    return beside | {path: content.getvalue()}
 
 
 def build(contents: Contents, analysis: Analysis, stem: str = "") -> Workbook:
@@ -161,7 +173,7 @@ def _book(
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(conveyor.name)
-    book.properties.creator = f"conveyor {version('conveyor')}"
+    book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     paper = conveyor.report.sheet(contents.system)
     header = ", ".join(filter(None, (conveyor.report.project, conveyor.name)))
     for title, fill in fills.items():

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Final, Literal
 import pandas as pd
 
 from conveyor.errors import InputError
+from conveyor.files import marks
 from conveyor.files.saving import save
+from conveyor.printable import printable
 from conveyor.report import comparison_contents, contents
 from conveyor.report.contents import Contents
 from conveyor.report.unit_systems import chosen
@@ -60,9 +62,23 @@ def write(
     InputError
         No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor, system))
     _ready(folder, kind)
-    return _written(contents.of_analysis(shown, studies), folder, kind)
+    made = files(analysis, folder, studies, system=system, kind=kind)
+    save(made)
+    return tuple(made)
+
+
+def files(
+    analysis: Analysis,
+    folder: Path,
+    studies: Studies | None = None,
+    *,
+    system: System | None = None,
+    kind: FileKind = "csv",
+) -> dict[Path, bytes]:
+    """Tables of an analysis by the files they go to; as `write`."""
+    shown = analysis.in_units(chosen(analysis.conveyor, system))
+    return _encoded(contents.of_analysis(shown, studies), folder, kind)
 
 
 def write_comparison(
@@ -75,9 +91,18 @@ def write_comparison(
     InputError
         As `write`.
     """
-    units = chosen(comparison.conveyor, system)
     _ready(folder, kind)
-    return _written(comparison_contents.of_comparison(comparison, units), folder, kind)
+    made = comparison_files(comparison, folder, system=system, kind=kind)
+    save(made)
+    return tuple(made)
+
+
+def comparison_files(
+    comparison: Comparison, folder: Path, *, system: System | None = None, kind: FileKind = "csv"
+) -> dict[Path, bytes]:
+    """Tables of a comparison by the files they go to; as `write`."""
+    found = comparison_contents.of_comparison(comparison, chosen(comparison.conveyor, system))
+    return _encoded(found, folder, kind)
 
 
 def _ready(folder: Path, kind: str) -> None:
@@ -93,11 +118,9 @@ def _ready(folder: Path, kind: str) -> None:
         raise InputError(f"{folder}: is no folder; create it or choose another")
 
 
-def _written(found: Contents, folder: Path, kind: str) -> tuple[Path, ...]:
+def _encoded(found: Contents, folder: Path, kind: str) -> dict[Path, bytes]:
     encode = parquet if kind == "parquet" else csv
-    files = {folder / f"{part.key}.{kind}": encode(part.frame) for part in found.parts}
-    save(files)
-    return tuple(files)
+    return {folder / f"{part.key}.{kind}": encode(part.frame) for part in found.parts}
 
 
 def csv(frame: pd.DataFrame) -> bytes:
@@ -118,11 +141,15 @@ def csv(frame: pd.DataFrame) -> bytes:
 
 
 def _plain(value: object) -> object:
-    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
+    if not isinstance(value, str):
+        return value
+    return f"'{printable(value)}" if value.startswith(_FORMULA) else printable(value)
 
 
 def parquet(frame: pd.DataFrame) -> bytes:
     """Write a table as Parquet; a column of numbers with gaps keeps its gaps."""
     content = BytesIO()
-    frame.infer_objects().to_parquet(content, index=False, engine="pyarrow")
+    marked = frame.infer_objects()
+    marked.attrs = {marks.PARQUET: marks.maker()}
+    marked.to_parquet(content, index=False, engine="pyarrow")
     return content.getvalue()

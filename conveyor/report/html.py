@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
@@ -56,7 +55,9 @@ def write(
         The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
         and an older page is untouched. Or the system is neither SI nor US.
     """
-    return _saved(path, lambda: build(analysis, studies, system=system))
+    _ready(path)
+    save({path: build(analysis, studies, system=system).encode()})
+    return path
 
 
 def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
@@ -67,7 +68,9 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System | Non
     InputError
         As `write`.
     """
-    return _saved(path, lambda: build_comparison(comparison, system=system))
+    _ready(path)
+    save({path: build_comparison(comparison, system=system).encode()})
+    return path
 
 
 def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Html:
@@ -130,10 +133,8 @@ def stamp(conveyor: Conveyor) -> str:
     return f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec SHA-256 {fingerprint(conveyor)[:16]}"
 
 
-def _saved(path: Path, made: Callable[[], Html]) -> Path:
-    """Write a page under a temporary name beside its own, then rename."""
+def _ready(path: Path) -> None:
+    """Refuse a path that no page can stand at, before any time is spent on one."""
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
     writable(path)
-    save({path: made().encode()})
-    return path

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from threading import Lock
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import saving
+from conveyor.files import marks, saving
+from conveyor.printable import printable
 from conveyor.report.axes import scale
 from conveyor.units import System, display, si
 
@@ -24,6 +28,8 @@ if TYPE_CHECKING:
     from conveyor.studies.compared import Coverage, Scene
     from conveyor.studies.comparison import Comparison
 
+_NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
+_one_at_a_time = Lock()
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
@@ -88,14 +94,46 @@ def save(figure: Figure, path: str | Path) -> Path:
         is untouched.
     """
     where = Path(path)
-    known = figure.canvas.get_supported_filetypes()
-    if where.suffix.lower().removeprefix(".") not in known:
-        raise InputError(f'{where}: a figure\'s name ends in .png, .svg or .pdf, got "{where.suffix}"')
     saving.writable(where)
-    content = BytesIO()
-    figure.savefig(content, format=where.suffix.lower().removeprefix("."), dpi=150)
-    saving.save({where: content.getbuffer()})
+    saving.save({where: drawn(figure, where)})
     return where
+
+
+def drawn(figure: Figure, path: Path) -> bytes:
+    """Draw a figure in the format of a file's name: the same figure gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        An unknown ending.
+    """
+    maker = marks.maker()
+    about: dict[str, dict[str, str | None]] = {
+        ".png": {"Software": maker},
+        ".svg": {"Creator": maker, "Date": None},
+        ".pdf": {"Creator": maker, "CreationDate": None},
+    }
+    ending = path.suffix.lower()
+    if ending not in about:
+        raise InputError(f'{path}: a figure\'s name ends in .png, .svg or .pdf, got "{path.suffix}"')
+    content = BytesIO()
+    with drawing():
+        figure.savefig(content, format=ending[1:], dpi=150, metadata=about[ending])
+    return printable(content.getvalue().decode()).encode() if ending == ".svg" else content.getvalue()
+
+
+@contextmanager
+def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
+    """Draw one figure at a time, letters of SVG as paths or as text: settings and warnings are the whole process's.
+
+    Only what draws SVG reads these settings: figures that another thread makes meanwhile do not see them.
+    """
+    import matplotlib as mpl
+
+    settings = {"svg.fonttype": letters, "svg.hashsalt": "conveyor"}
+    with _one_at_a_time, mpl.rc_context(settings), warnings.catch_warnings():  # type: ignore[arg-type]
+        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
+        yield
 
 
 class Scenes(Protocol):

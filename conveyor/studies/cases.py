@@ -20,6 +20,7 @@ from conveyor.loop.settled import holds
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
+from conveyor.units import display
 
 MOTOR_RESERVE: Final = 1.1
 """Rated power over the largest needed one [-]; general knowledge (10 to 15 % is customary), not a source."""
@@ -331,6 +332,8 @@ def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tupl
         )
     ends = [(power, result) for result in results for power in reversed(result.motors)]
     power, decisive = max(ends, key=lambda end: abs(end[0]))
+    at, speed = display(decisive.temperature, "temperature"), display(decisive.speed, "speed")
+    case = f"{decisive.case.name}, {at}, {speed}"
     choices = []
     for drive in decisive.found.line.drives:
         if drive.share == 0.0:
@@ -338,5 +341,5 @@ def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tupl
         needed = drive.share * power
         count = max(1, math.ceil(round(abs(needed) * reserve / MOTOR_SERIES[-1], 9)))
         rated = next_motor(needed / count, reserve=reserve)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, decisive.label.text()))
+        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, case))
     return tuple(choices)

@@ -33,7 +33,7 @@ def test_specific_energy_of_a_conveyor_with_friction_only():
 def test_empirical_lift_is_the_potential_energy_with_367_for_3600_over_g():
     law = power.empirical_lift_power(100.0, lift=10.0)
     assert law == pytest.approx(100.0 * 10.0 * 3600 / 367, rel=ROUNDING)
-    assert power.empirical_lift_power(100.0, lift=-10.0) == -law
+    assert power.empirical_lift_power(100.0, lift=-10.0) == pytest.approx(-law, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(

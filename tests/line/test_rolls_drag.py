@@ -58,7 +58,7 @@ def test_one_figure_is_the_drag_of_every_roll(line):
 def test_a_flat_line_is_one_figure(line):
     one = calculate(carry_roll(line, drag="2 N")).balance
     flat = calculate(carry_roll(line, drag_law={"law": "maker", "drag": "2 N"})).balance
-    assert flat.forces == one.forces
+    assert flat.forces.parts == pytest.approx(one.forces.parts, rel=ROUNDING)
 
 
 def test_the_makers_line_takes_each_rolls_own_load_and_the_belts_speed(line):
@@ -230,7 +230,7 @@ def test_roller_bearings_and_single_rolls(line):
     )
     alone = line.replace(idlers=line.idlers.replace(**{"return": flat}))
     life = roll_life(Line.of(alone).stretches[-1], 0, 5.0)
-    assert life.heavier == life.lighter
+    assert life.heavier == pytest.approx(life.lighter, rel=1e-14)
 
 
 def test_a_short_life_is_warned_of(line):

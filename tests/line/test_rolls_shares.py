@@ -108,9 +108,10 @@ def test_the_conventions_of_the_heap_hold_the_same_bulk(line):
     slope = math.atan(2.0 / 3.0 * math.tan(math.radians(20.0)))
     din = line.material.replace(surcharge_convention="DIN 22101", surcharge_angle=f"{slope!r} rad")
     assert din.surcharge == pytest.approx(math.radians(20.0), rel=1e-14)
-    assert surcharge_from_slope(slope) == din.surcharge
+    assert surcharge_from_slope(slope) == pytest.approx(din.surcharge, rel=1e-14)
     other = line.replace(material=din)
-    assert calculate(other).balance.forces.total == calculate(line).balance.forces.total
+    total = calculate(line).balance.forces.total
+    assert calculate(other).balance.forces.total == pytest.approx(total, rel=ROUNDING)
     # by area the same width is covered; the triangle has more of its heap over the middle
     iso = SetLoads(with_carry(line, share_rule="cross-section"), line.idlers.carry)
     triangle = SetLoads(with_carry(other, share_rule="cross-section"), line.idlers.carry)
@@ -140,7 +141,7 @@ def test_an_even_load_on_the_wings_keeps_the_force_and_lowers_the_peak(line):
 
 def test_an_offset_changes_no_load_and_says_so(line):
     made = with_carry(line, offset="150 mm")
-    assert calculate(made).balance.forces == calculate(line).balance.forces
+    assert calculate(made).balance.forces.parts == pytest.approx(calculate(line).balance.forces.parts, rel=ROUNDING)
     assert any(
         "idlers.carry.offset: the loads of the rolls are those of a set in one plane" in w
         for w in warned(made)
