@@ -17,6 +17,8 @@ from conveyor.remarks import assumptions, warnings
 from conveyor.spec import load
 from conveyor.units import si
 
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
+
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 BELT = {"loss_tangent": 0.1, "bending_stiffness": "30 N*m^2"}
 BULK = {"opening_angle": "0.5 deg", "friction_angle": "37 deg"}

@@ -19,6 +19,8 @@ from conveyor.remarks import assumptions, warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
+
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 MAKER = {"law": "maker", "drag": "2 N", "load_slope": 0.001, "rotation_slope": "0.001 N/rpm"}
 BEARING = {

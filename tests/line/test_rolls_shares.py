@@ -17,6 +17,8 @@ from conveyor.remarks import assumptions, warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
+
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 TROUGH = {"middle_roll_length": 0.465, "trough_angle": math.radians(35), "surcharge_angle": math.radians(20)}
 
