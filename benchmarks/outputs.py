@@ -1,7 +1,7 @@
 """Every output of every example spec, to be compared before and after a change.
 
     python benchmarks/outputs.py FOLDER               # writes them, with the package of this checkout
-    python benchmarks/outputs.py --compare BEFORE AFTER
+    python benchmarks/outputs.py --compare BEFORE AFTER      # files that only one has are named, too
 
 Of each spec, in SI and US units: `power` and `compare` as JSON, tables, workbook, page and on the terminal. Numbers
 are compared to 1e-12 relative, text exactly; of a workbook its cells with their formats, and its names.
@@ -42,9 +42,9 @@ def _run(*arguments: str) -> str:
     return ran.stdout if ran.returncode == 0 else f"exit code {ran.returncode}\n{ran.stderr}"
 
 
-def write(folder: Path) -> None:
+def write(folder: Path, only: str) -> None:
     """Write every output into a folder: one a spec and command."""
-    for spec in sorted(SPECS.glob("*.yaml")):
+    for spec in sorted(SPECS.glob(only)):
         for command, options in (("power", ()), ("compare", COMPARED)):
             where = folder / f"{spec.stem}-{command}"
             where.mkdir(parents=True, exist_ok=True)
@@ -100,7 +100,7 @@ def _leaves(path: Path) -> Iterator[tuple[str, Any]]:
 
 def _inside(place: str, value: Any) -> Iterator[tuple[str, Any]]:
     if isinstance(value, dict):
-        yield f"{place} keys", list(value)
+        yield f"{place} keys", sorted(value)
         for key, item in value.items():
             yield from _inside(f"{place}.{key}", item)
     elif isinstance(value, list):
@@ -139,8 +139,9 @@ def compare(before: Path, after: Path) -> int:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--compare", action="store_true")
+    parser.add_argument("--only", default="*.yaml", help="pattern of the specs")
     parser.add_argument("folders", nargs="+", type=Path)
     given = parser.parse_args()
     if given.compare:
         sys.exit(bool(compare(*given.folders)))
-    write(given.folders[0].resolve())
+    write(given.folders[0].resolve(), given.only)

@@ -149,11 +149,12 @@ def compare(
     if as_json:
         from conveyor.report import comparing
 
-        print_json(comparing.to_dict(found))
+        print_json(comparing.plain(found))
     elif not quiet:
         from conveyor.cli.compare_tables import show
+        from conveyor.report.comparing import of_comparison
 
-        show(found, system)
+        show(of_comparison(found, system))
         if written:
             print("\n" + "\n".join(written))
 
@@ -185,10 +186,10 @@ def _written(found: Comparison, to: Outputs, system: System) -> list[str]:
         )
         written.append(f"tables: {len(made)} in {to.tables}")
     if to.table is not None:
+        from conveyor.report.comparing import scenes
         from conveyor.report.files import csv
-        from conveyor.report.unit_systems import converted
 
-        saving.save({to.table: csv(converted(found.table, system))})
+        saving.save({to.table: csv(scenes(found).frame(system))})
         written.append(f"table: {to.table}")
     figures = (
         (to.plot, found.plots.power_against_temperature),

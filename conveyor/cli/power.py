@@ -82,8 +82,9 @@ def power(
         print_json(result.to_dict() | asked.to_dict())
     elif not quiet:
         from conveyor.cli.power_tables import show
+        from conveyor.report.tables import of_analysis
 
-        show(shown, asked, system)
+        show(of_analysis(shown, asked))
         if written:
             print("\n" + "\n".join(written))
 

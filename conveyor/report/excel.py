@@ -8,19 +8,20 @@ from contextlib import contextmanager
 from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, TypeVar
+from typing import TYPE_CHECKING, Final
 
 from openpyxl import Workbook
 
+from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
-from conveyor.report import comparing_sheets, cover, sheets, study_sheets
+from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
-from conveyor.report.comparison_contents import of_comparison
-from conveyor.report.contents import CHECKS_AND_NOTES, Contents, of_analysis
+from conveyor.report.columns import CHECKS_AND_NOTES, Contents
+from conveyor.report.comparing import of_comparison
 from conveyor.report.files import csv
 from conveyor.report.places import MOST_ROWS, Page, file_name
-from conveyor.report.unit_systems import chosen
+from conveyor.report.tables import of_analysis
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
@@ -28,32 +29,30 @@ if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
-Subject = TypeVar("Subject", "Analysis", "Comparison")
-
 SHEETS: Final = {
     "Summary": cover.summary,
-    "Results": sheets.results,
-    "Inputs": sheets.inputs,
-    "Sections": sheets.sections,
+    "Results": sheets.single,
+    "Inputs": sheets.single,
+    "Sections": sheets.wide,
     "Resistances": sheets.resistances,
-    "Rolls": sheets.rolls,
+    "Rolls": sheets.wide,
     "Tensions": sheets.tensions,
-    "States": study_sheets.states,
-    "Loop": study_sheets.loop,
-    "Load cases": study_sheets.cases,
-    "Duty": study_sheets.duty,
-    "Uncertainty": study_sheets.uncertainty,
+    "States": sheets.states,
+    "Loop": sheets.stacked,
+    "Load cases": sheets.stacked,
+    "Duty": sheets.stacked,
+    "Uncertainty": sheets.uncertainty,
     "Indentation": sheets.indentation,
     "Rubber": sheets.rubber,
     CHECKS_AND_NOTES: sheets.notes,
 }
-"""What fills each sheet, in their order."""
+"""What fills each sheet, in their order; a sheet that only a table names holds its tables under one another."""
 COMPARISON_SHEETS: Final = {
-    "Ranking": comparing_sheets.ranking,
-    "Power": comparing_sheets.power,
-    "Scenes": comparing_sheets.scenes,
-    "Coverage": comparing_sheets.coverage,
-    "Notes": comparing_sheets.notes,
+    "Ranking": sheets.ranking,
+    "Power": sheets.power,
+    "Scenes": sheets.scenes,
+    "Coverage": sheets.coverage,
+    "Notes": sheets.compounds,
 }
 _WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them."""
@@ -88,11 +87,11 @@ def write(
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor, system))
+    shown = analysis.in_units(chosen(analysis.conveyor.report.units, system))
     _ready(path)
     with _uncollected():
         found = of_analysis(shown, studies)
-        return _saved(path, found, build(found, shown, path.stem))
+        return _saved(path, found, build(found, path.stem))
 
 
 def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
@@ -103,11 +102,11 @@ def write_comparison(comparison: Comparison, path: Path, *, system: System | Non
     InputError
         As `write`.
     """
-    units = chosen(comparison.conveyor, system)
+    units = chosen(comparison.conveyor.report.units, system)
     _ready(path)
     with _uncollected():
         found = of_comparison(comparison, units)
-        return _saved(path, found, build_comparison(found, comparison, path.stem))
+        return _saved(path, found, build_comparison(found, path.stem))
 
 
 @contextmanager
@@ -136,37 +135,34 @@ def _saved(path: Path, found: Contents, book: Workbook) -> Path:
         book.save(content)  # by way of temporary files
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
-    long = [part for part in found.parts if len(part.frame) > MOST_ROWS]
+    long = [part for part in found.tables if len(part.rows) > MOST_ROWS]
     save(
-        {path.with_name(file_name(path.stem, part)): csv(part.frame) for part in long}
+        {path.with_name(file_name(path.stem, part)): csv(part.frame(found.system)) for part in long}
         | {path: content.getbuffer()}
     )
     return path
 
 
-def build(contents: Contents, analysis: Analysis, stem: str = "") -> Workbook:
+def build(contents: Contents, stem: str = "") -> Workbook:
     """Workbook of an analysis whose tables are given, not yet saved; `stem` names files beside it."""
-    return _book(contents, SHEETS, analysis, stem)
+    return _book(contents, SHEETS, stem)
 
 
-def build_comparison(contents: Contents, comparison: Comparison, stem: str = "") -> Workbook:
+def build_comparison(contents: Contents, stem: str = "") -> Workbook:
     """Workbook of a comparison whose tables are given, not yet saved."""
-    return _book(contents, COMPARISON_SHEETS, comparison, stem)
+    return _book(contents, COMPARISON_SHEETS, stem)
 
 
-def _book(
-    contents: Contents, fills: Mapping[str, Callable[[Page, Subject], None]], subject: Subject, stem: str
-) -> Workbook:
-    conveyor = subject.conveyor
+def _book(contents: Contents, fills: Mapping[str, Callable[[Page], None]], stem: str) -> Workbook:
+    about = contents.document
     book = Workbook()
     book.remove(book.worksheets[0])
-    book.properties.title = legible(conveyor.name)
+    book.properties.title = legible(about.title)
     book.properties.creator = f"conveyor {version('conveyor')}"
-    paper = conveyor.report.sheet(contents.system)
-    header = ", ".join(filter(None, (conveyor.report.project, conveyor.name)))
-    for title, fill in fills.items():
+    header = ", ".join(filter(None, (about.said.get("project"), about.title)))
+    for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or title not in _WHERE_ASKED:
             sheet = book.create_sheet(title)
-            fill(Page(sheet, contents, stem), subject)
-            print_set_up(sheet, header, paper=paper, portrait=title in _PORTRAIT)
+            fills.get(title, sheets.stacked)(Page(sheet, contents, stem))
+            print_set_up(sheet, header, paper=about.paper, portrait=title in _PORTRAIT)
     return book

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Final, Literal
 
 import pandas as pd
 
+from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.files.saving import save
-from conveyor.report import comparison_contents, contents
-from conveyor.report.contents import Contents
-from conveyor.report.unit_systems import chosen
+from conveyor.report.columns import Contents
+from conveyor.report.comparing import of_comparison
+from conveyor.report.tables import of_analysis
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
@@ -60,9 +61,9 @@ def write(
     InputError
         No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor, system))
+    shown = analysis.in_units(chosen(analysis.conveyor.report.units, system))
     _ready(folder, kind)
-    return _written(contents.of_analysis(shown, studies), folder, kind)
+    return _written(of_analysis(shown, studies), folder, kind)
 
 
 def write_comparison(
@@ -75,9 +76,9 @@ def write_comparison(
     InputError
         As `write`.
     """
-    units = chosen(comparison.conveyor, system)
+    units = chosen(comparison.conveyor.report.units, system)
     _ready(folder, kind)
-    return _written(comparison_contents.of_comparison(comparison, units), folder, kind)
+    return _written(of_comparison(comparison, units), folder, kind)
 
 
 def _ready(folder: Path, kind: str) -> None:
@@ -95,7 +96,7 @@ def _ready(folder: Path, kind: str) -> None:
 
 def _written(found: Contents, folder: Path, kind: str) -> tuple[Path, ...]:
     encode = parquet if kind == "parquet" else csv
-    files = {folder / f"{part.key}.{kind}": encode(part.frame) for part in found.parts}
+    files = {folder / f"{part.key}.{kind}": encode(part.frame(found.system)) for part in found.tables}
     save(files)
     return tuple(files)
 

@@ -46,16 +46,9 @@ class Studies:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, only of what there is; units in the keys."""
-        from conveyor.report import case_tables
+        from conveyor.report.study_tables import plain
 
-        found: dict[str, Any] = {}
-        if self.cases is not None:
-            found["load_cases"] = case_tables.cases_data(self.cases)
-        if self.duty is not None:
-            found["duty"] = case_tables.duty_data(self.duty)
-        if self.uncertainty is not None:
-            found["uncertainty"] = case_tables.uncertainty_data(self.uncertainty)
-        return found
+        return plain(self)
 
 
 def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> Studies:

@@ -166,14 +166,14 @@ class CaseStudy:
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row a case, temperature and speed; units in the names."""
-        from conveyor.report import case_tables
+        from conveyor.report.study_tables import cases
 
-        return case_tables.cases(self)
+        return cases(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_cases
+        from conveyor.report.study_tables import notebook_of_cases
 
-        return of_cases(self)
+        return notebook_of_cases(self)
 
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.

@@ -81,14 +81,14 @@ class Comparison:
         """One row a scene; units in the names."""
         from conveyor.report import comparing
 
-        return comparing.scenes(self)
+        return comparing.scenes(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row a compound and speed, the least mean power first; savings and payback against the base."""
         from conveyor.report import comparing
 
-        return comparing.ranking(self)
+        return comparing.ranking(self).frame()
 
     def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the workbook.
@@ -161,9 +161,9 @@ class Comparison:
 
     def _repr_html_(self) -> str:
         """For notebooks: the ranking and what to know of it."""
-        from conveyor.report.representations import of_comparison
+        from conveyor.report import comparing
 
-        return of_comparison(self)
+        return comparing.notebook(self)
 
 
 def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:

@@ -101,21 +101,21 @@ class DutyStudy:
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row a bar; units in the names."""
-        from conveyor.report import case_tables
+        from conveyor.report.study_tables import duty
 
-        return case_tables.duty(self)
+        return duty(self).frame()
 
     @cached_property
     def summary(self) -> pd.Series:
         """Sums of the year; units in the names."""
-        from conveyor.report import case_tables
+        from conveyor.report.study_tables import year
 
-        return case_tables.year(self)
+        return year(self).series("year")
 
     def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_duty
+        from conveyor.report.study_tables import notebook_of_duty
 
-        return of_duty(self)
+        return notebook_of_duty(self)
 
 
 def analyse_duty(

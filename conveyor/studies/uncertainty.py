@@ -103,14 +103,14 @@ class UncertaintyStudy:
     @cached_property
     def table(self) -> pd.DataFrame:
         """The tornado: one row an input, the largest swing first; units in the names."""
-        from conveyor.report import case_tables
+        from conveyor.report.study_tables import sensitivity
 
-        return case_tables.tornado(self)
+        return sensitivity(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.representations import of_uncertainty
+        from conveyor.report.study_tables import notebook_of_uncertainty
 
-        return of_uncertainty(self)
+        return notebook_of_uncertainty(self)
 
 
 @dataclass(frozen=True)

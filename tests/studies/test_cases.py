@@ -14,7 +14,8 @@ from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.cases import STANDARD_LOADINGS
-from conveyor.report import case_tables
+from conveyor.report import study_tables
+from conveyor.studies import Studies
 from conveyor.studies.cases import CaseStudy, analyse_cases, mains_power, shaft_power
 from conveyor.studies.scenes import Scene, runs
 from conveyor.studies.variants import with_case, with_temperature
@@ -248,7 +249,7 @@ def test_governing_cases_are_the_extremes_of_the_table(found):
         assert row.value == pytest.approx(getattr(table[column], which)() * unit, rel=1e-12), figure
         place = getattr(table[column], f"idx{which}")()
         assert (row.result.case, row.result.speed) == (table["case"][place], table["belt speed [m/s]"][place])
-    assert case_tables.governing(found)["figure"].tolist() == list(by_figure)
+    assert [row["figure"] for row in study_tables.governing(found).records()] == list(by_figure)
 
 
 def test_cold_inclines_need_the_largest_motor(found):
@@ -272,7 +273,7 @@ def test_motors_give_the_governing_power_with_their_reserve(found):
         assert motor.count * motor.rated >= reserve * needed
         assert (motor.count - 1) * MOTOR_SERIES[-1] < reserve * needed  # no fewer of the largest would do
         assert "inclines only, 0 degC" in motor.case
-    table = case_tables.motors(found.motors())
+    table = study_tables.motors(found).frame()
     assert table["installed [kW]"].sum() * 1e3 >= 1.1 * needed
 
 
@@ -341,7 +342,7 @@ def test_cases_without_an_answer_are_listed_with_their_reason(line):
     assert "190 degC" in hot
     assert "the belt holds" in surge
     assert "the belt holds" in slow
-    assert case_tables.refused_cases(study)["reason"].tolist() == [hot, surge, slow]
+    assert study_tables.refused(study).frame()["reason"].tolist() == [hot, surge, slow]
 
 
 def test_refusals_name_what_is_wrong(line, found):
@@ -408,7 +409,7 @@ def test_without_cases_the_standard_ones(line):
 
 
 def test_plain_data_for_json(found):
-    data = json.loads(json.dumps(case_tables.cases_data(found), allow_nan=False))
+    data = json.loads(json.dumps(Studies(cases=found).to_dict()["load_cases"], allow_nan=False))
     assert len(data["cases"]) == len(found.results)
     assert data["friction_band"] == [pytest.approx(0.6), 1.0]
     assert data["cases"][-1]["energy [kWh/(t km)]"] is None  # declines only

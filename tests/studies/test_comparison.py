@@ -176,7 +176,7 @@ def test_refused_scenes_have_their_reasons(line):
     }
     # the means are over the one temperature that both answer
     assert set(found.ranking["temperatures averaged"]) == {1}
-    assert len(comparing.refused(found)) == len(found.refused)
+    assert len(comparing.refused(found).rows) == len(found.refused)
 
 
 @pytest.mark.parametrize(("cover", "carry", "back"), [("bottom", 1, 0), ("top", 0, 1), ("both", 1, 1)])

@@ -11,7 +11,7 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
-from conveyor.report import case_tables
+from conveyor.studies import Studies
 from conveyor.studies.duty import analyse_duty
 from conveyor.units import si
 
@@ -221,6 +221,6 @@ def test_refusals_name_the_bar(line):
 
 def test_plain_data_for_json(line):
     study = analyse_duty(operated(line, HOURS), rtol=RTOL)
-    data = json.loads(json.dumps(case_tables.duty_data(study), allow_nan=False))
+    data = json.loads(json.dumps(Studies(duty=study).to_dict()["duty"], allow_nan=False))
     assert data["year"]["drawn [MWh]"] == pytest.approx(study.year.drawn_kwh / 1e3)
     assert len(data["duty"]) == 1

@@ -14,7 +14,8 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, Uncertainty
-from conveyor.report import case_tables
+from conveyor.report import study_tables
+from conveyor.studies import Studies
 from conveyor.studies.uncertainty import COVERED, SAMPLES, Effect, hypercube_band, root_of_squares, study
 from conveyor.units import quantity, si
 
@@ -152,7 +153,7 @@ def test_the_tornado_has_its_largest_swing_on_top(line):
     table = found.table
     assert table["input"].tolist() == [e.name for e in found.effects]
     assert table["swing [kW]"].to_numpy() == pytest.approx(np.array(swings) / 1e3)
-    assert case_tables.band(found)["motor power, high [kW]"].tolist() == [
+    assert study_tables.band(found).frame()["motor power, high [kW]"].tolist() == [
         found.band[1] / 1e3,
         found.sampled[1] / 1e3,
     ]
@@ -246,6 +247,6 @@ def test_studies_without_an_answer_are_refused(line):
 
 def test_plain_data_for_json(line):
     found = study(line, ranges(roll_drag="10 %"))
-    data = json.loads(json.dumps(case_tables.uncertainty_data(found), allow_nan=False))
+    data = json.loads(json.dumps(Studies(uncertainty=found).to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(found.effects[0].motor_high / 1e3)
     assert [row["combined by"] for row in data["band"]] == ["root of squares", "Latin hypercube, first order"]
