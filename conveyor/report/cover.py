@@ -196,7 +196,7 @@ def _governing(page: Page, cases: Table, row: int) -> None:
         sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
         put(sheet.cell(i, 5), written.shown(columns["value"](figure)), None, written.pattern)
         put(sheet.cell(i, 6), columns["case"](figure))
-        put(sheet.cell(i, 7), unit("temperature", system).said(columns["temperature"](figure)))
+        put(sheet.cell(i, 7), unit("temperature", system).brief(columns["temperature"](figure)))
         for j in (6, 7):  # indents hold only where the side is named
             sheet.cell(i, j).alignment = Alignment(horizontal="left", indent=1, shrink_to_fit=True)
         for j in range(4, 8):

@@ -35,7 +35,7 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell(shown, column, row, system) for row in shown.rows] for column in shown.columns]
     values = [[column.get(row) for row in shown.rows] for column in shown.columns]
-    classes = [_class(given, named=j < shown.named) for j, given in enumerate(values)]
+    classes = [None if kind else _class(given, named=j < shown.named) for j, given in enumerate(values)]
     heads = [
         element("th", _with_unit(column.label, _unit(column, system)), scope="col", class_=how)
         for column, how in zip(shown.columns, classes, strict=True)
@@ -54,7 +54,7 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
 
     parts = [element("caption", caption), element("thead", element("tr", *heads))]
     parts.append(element("tbody", *(line(cells) for cells in zip(*columns, strict=True))))
-    if shown.foot:
+    if shown.foot and any(column.total for column in shown.columns):
         sums = zip(shown.columns, shown.totals(), strict=True)
         cells = (escaped("" if v is None else unit(c.kind, system).written(v)) for c, v in sums)
         parts.append(element("tfoot", line(cells)))

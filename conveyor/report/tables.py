@@ -737,7 +737,7 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
         ("data", compound.source.data or "not stated"),
         ("strain of the data", compound.strain or "not stated"),
         ("Poisson's ratio", repr(compound.poisson_ratio)),
-        ("reference temperature", unit("temperature", system).said(si(compound.reference_temperature))),
+        ("reference temperature", unit("temperature", system).brief(si(compound.reference_temperature))),
         ("equilibrium modulus", text(compound.prony.equilibrium)),
         ("Prony terms", str(len(compound.prony.terms))),
         ("temperature shift", "none" if compound.shift is None else compound.shift.law),
@@ -865,7 +865,7 @@ def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
         on_it = tuple(strand for strand, other in strands.items() if other.name == name)
         yield Drawing(
             f"rubber-{k}",
-            f"Master curve of {name} at {unit('temperature', system).said(at)}; "
+            f"Master curve of {name} at {unit('temperature', system).brief(at)}; "
             f"shaded: the band in which the {' and '.join(on_it)} rolls lose nine tenths of their energy.",
             partial(analysis_plots.rubber_at_work, compound, at, a.stretches, on_it, system=system),
             f"known_{on_it[0]}",
