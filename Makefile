@@ -25,7 +25,7 @@ report: $(VENV)/.run
 	$(BIN)/conveyor power examples/specs/overland.yaml -o $(OUT)/overland.xlsx
 
 test: $(VENV)/.test
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --dist worksteal
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .

@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.balance import Balance
@@ -19,7 +20,7 @@ from conveyor.remarks import assumptions, warnings
 if TYPE_CHECKING:
     import pandas as pd
 
-    from conveyor.report.columns import Table
+    from conveyor.report.columns import Contents, Table
     from conveyor.report.files import FileKind
     from conveyor.studies import Studies
     from conveyor.studies.drawing import AnalysisPlots
@@ -83,12 +84,16 @@ class Analysis:
     warnings: tuple[str, ...]
     convergence: Convergence | None = None
 
+    def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
+        from conveyor.report.tables import of_analysis
+
+        return of_analysis(self.in_units(chosen(self.conveyor.report.units, system)), studies)
+
     @cached_property
     def tables(self) -> dict[str, Table]:
         """Every table of the reports by its name (docs/workbook.md); `.frame(system)` is the data frame."""
-        from conveyor.report.tables import of_analysis
-
-        return of_analysis(self).by_key
+        return self.contents().by_key
 
     @cached_property
     def summary(self) -> pd.Series:
@@ -175,7 +180,7 @@ class Analysis:
         """
         from conveyor.report.excel import write
 
-        return write(self, Path(path), studies, system=system)
+        return write(self.contents(studies, system=system), Path(path))
 
     def to_tables(
         self,
@@ -205,7 +210,7 @@ class Analysis:
         """
         from conveyor.report.files import write
 
-        return write(self, Path(folder), studies, system=system, kind=kind)
+        return write(self.contents(studies, system=system), Path(folder), kind)
 
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
@@ -228,7 +233,7 @@ class Analysis:
         """
         from conveyor.report.html import write
 
-        return write(self, Path(path), studies, system=system)
+        return write(self.contents(studies, system=system), Path(path))
 
     @property
     def plots(self) -> AnalysisPlots:
@@ -247,6 +252,5 @@ class Analysis:
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""
         from conveyor.report import representations
-        from conveyor.report.tables import of_analysis
 
-        return representations.of_analysis(of_analysis(self))
+        return representations.of_analysis(self.contents())

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
-from conveyor.figures import ZERO_CELSIUS
+from conveyor.figures import ZERO_CELSIUS, celsius
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.answered import read_answered
+from conveyor.laboratory.findings import check_findings
+from conveyor.laboratory.groups import ISOTHERM_GAP
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     Isotherm,
@@ -30,6 +33,8 @@ from conveyor.rubber import (
     testable,
 )
 from conveyor.rubber.band import METHOD
+from conveyor.rubber.shift_laws import LEAST_TEMPERATURES
+from conveyor.rubber.strain import SAME_TEMPERATURE
 from conveyor.units import quantity, si
 
 Array = NDArray[np.float64]
@@ -39,6 +44,17 @@ REPLICAS = 20
 _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
 _UNKNOWN = "not stated"
+_REFERENCE_NAMES = frozenset(
+    {
+        "referencetemperature",
+        "referencetemp",
+        "reftemperature",
+        "tref",
+        "referenztemperatur",
+        "bezugstemperatur",
+    }
+)
+_NUMBER = re.compile(r"\s*([+-]?\d+(?:\.\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
 _SMALLEST_ERROR = (
     1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
 )
@@ -73,6 +89,8 @@ class Request:
         Modulus whose overlap places the isotherms.
     replicas : int
         Of the bootstrap band; 0 for none.
+    accept : frozenset of str
+        Findings on which a person insists, names of `conveyor.laboratory.findings.FINDINGS`; others are refused.
     reading : mapping
         Answers to what a file leaves open: keywords of `conveyor.laboratory.read_dma`.
     """
@@ -88,6 +106,7 @@ class Request:
     vertical: bool = False
     by: Literal["both", "storage", "loss"] = "both"
     replicas: int = REPLICAS
+    accept: frozenset[str] = frozenset()
     reading: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -143,45 +162,89 @@ def fit_file(data: Path, request: Request) -> Fitted:
     """
     several = request.shift is not None or request.strain is not None
     read = read_answered(data, request.reading, poisson_ratio=request.poisson_ratio, several=several)
-    reference = request.reference_temperature or _stated_temperature(data, read)
-    if si(quantity(reference, "temperature")) <= 0.0:
+    reference = _reference(data, read, request)
+    if _kelvin(reference) <= 0.0:
         raise InputError(f"--at: got {reference}, a temperature above absolute zero is needed")
     superposition = _superposed(data, read, reference, request)
     f, e1, e2 = _rows(data, read, superposition)
+    accepted = check_findings(str(data), (f, e1, e2), request.accept, 2.0 * (1.0 + request.poisson_ratio))
     fit = fit_prony(f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium)
     shifts = None if request.shift is None else _of_kind(request.shift, "shift factors", request)
     sweeps = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
     described = _described(data, read, request, (reference, fit))
+    described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted])
     _add_shift(described, superposition, shifts)
     if sweeps is not None:
         described["strain_dependence"] = _strain(request, sweeps)
         described["missing"].remove("strain dependence")
     files = [file for file in (read, shifts, sweeps) if file is not None]
     return Fitted(
-        compound=RubberCompound.from_data(described),
+        compound=_compound(described, data if request.shift is None else request.shift),
         fit=fit,
         consistency=kramers_kronig(f, e1, e2) if testable(f) else None,
         superposition=superposition,
-        laws=_laws(superposition, shifts, si(quantity(reference, "temperature"))),
-        understood=tuple(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
+        laws=_laws(superposition, shifts, _kelvin(reference)),
+        understood=tuple(f"{Path(file.source).name}: {line}" for file in files for line in file.understood)
+        + accepted,
         frequency=f,
         storage=e1,
         loss=e2,
     )
 
 
-def _stated_temperature(data: Path, read: DmaData) -> str:
-    """Temperature that a file states, e.g. ``# reference_temperature: 39.96 degC (where a_T = 1)``."""
-    found = re.match(r"\s*(\S+ ?(?:degC|degF|K|°C|°F))\b", read.metadata.get("reference_temperature", ""))
-    if found is not None:
-        return found[1]
+def _reference(data: Path, read: DmaData, request: Request) -> str:
+    """Reference temperature: given, or stated by the file; one that contradicts the other is refused."""
+    given = request.reference_temperature
+    stated = dict(_stated(data, read))
     if read.kind == "isotherms":
+        if given or stated:
+            return given or next(iter(stated.values()))
         middle = sorted(sweep.temperature for sweep in read.isotherms())
         return f"{middle[len(middle) // 2] - ZERO_CELSIUS:.{_DIGITS}g} degC"
-    raise InputError(
-        f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
-        '"# reference_temperature: 20 degC" into the file'
-    )
+    told = [*stated.items(), *([] if given is None else [("--at", given)])]
+    if not told:
+        raise InputError(
+            f'{data}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
+            '"# reference_temperature: 20 degC" into the file'
+        )
+    place, first = told[0]
+    for other, temperature in told[1:]:
+        if abs(_kelvin(temperature) - _kelvin(first)) > SAME_TEMPERATURE:
+            raise InputError(
+                f"{place}: the temperature is {first}, but {other} says {temperature}: "
+                + ("leave out --at, or correct the file" if other == "--at" else "correct one of them")
+            )
+    return given or first
+
+
+def _kelvin(temperature: str) -> float:
+    return si(quantity(temperature, "temperature"))
+
+
+def _stated(data: Path, read: DmaData) -> Iterator[tuple[str, str]]:
+    """Where a file states the temperature of its curve, and which: a remark, a column that does not vary."""
+    for key, value in read.metadata.items():
+        number = _NUMBER.match(value)
+        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or number is None:
+            continue
+        place = f'{data}:{read.metadata_rows[key]}: "{key}"'
+        if number[2] is None:
+            raise InputError(f'{place}: "{value[:40]}" has no unit; write it as in "{number[1]} degC"')
+        yield place, f"{number[1]} {number[2].replace('°', 'deg')}"
+    constant = read.kind == "master curve" and read.temperature is not None
+    if constant and read.temperature is not None and float(np.ptp(read.temperature)) <= ISOTHERM_GAP:
+        mean = float(np.mean(read.temperature)) - ZERO_CELSIUS
+        yield f"{data}:{read.row_numbers[0]}: column of the temperature", f"{mean:.{_DIGITS}g} degC"
+
+
+def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
+    """The compound; what contradicts itself in its shift is a matter of the file the shift came from."""
+    try:
+        return RubberCompound.from_data(described)
+    except InputError as error:
+        if not str(error).startswith("shift"):
+            raise
+        raise InputError(f"{shifted_by}: {error}") from None
 
 
 def _superposed(data: Path, read: DmaData, reference: str, request: Request) -> Superposition | None:
@@ -192,7 +255,39 @@ def _superposed(data: Path, read: DmaData, reference: str, request: Request) -> 
     if request.shift is not None:
         raise InputError(f"{data}: holds isotherms, their shift is found from them; leave out --shift")
     sweeps = [Isotherm(s.temperature, s.frequency, s.storage, s.loss) for s in read.isotherms()]
-    return superpose(sweeps, si(quantity(reference, "temperature")), vertical=request.vertical, by=request.by)
+    found = superpose(sweeps, _kelvin(reference), vertical=request.vertical, by=request.by)
+    _check_order(data, read, found, request.by)
+    return found
+
+
+def _check_order(data: Path, read: DmaData, found: Superposition, by: str) -> None:
+    """Refuse shifts that do not fall with temperature, with the exchange of two temperatures that would mend them."""
+    shifts = found.log10_a_T
+    rising = np.flatnonzero(np.diff(shifts) >= 0.0)
+    if not rising.size:
+        return
+    names = [f"{celsius(t):.2f} degC" for t in found.temperatures.tolist()]
+    rows = [min(sweep.row_numbers) for sweep in read.isotherms()]
+    cold = int(rising[0])
+    advice = (
+        "its rows may carry another temperature, or the isotherms are too alike to be placed; correct the "
+        "temperatures, or leave one out"
+    )
+    for i, j in combinations(range(shifts.size), 2):
+        order = np.arange(shifts.size)
+        order[[i, j]] = j, i
+        if np.all(np.diff(shifts[order]) < 0.0):
+            advice = (
+                f"with the temperatures of the isotherms at {names[i]} (from row {rows[i]} on) and {names[j]} "
+                f"(from row {rows[j]} on) exchanged all shifts fall: are they exchanged in the file?"
+            )
+            break
+    if by != "both":
+        advice += f" Or place them by both moduli, without --by {by}"
+    raise InputError(
+        f"{data}:{rows[cold + 1]}: the isotherm at {names[cold + 1]} lies on the master curve as if it were colder "
+        f"than the one at {names[cold]} (log10 a_T {shifts[cold + 1]:+.3f} and {shifts[cold]:+.3f}); {advice}"
+    )
 
 
 def _rows(data: Path, read: DmaData, found: Superposition | None) -> tuple[Array, Array, Array]:
@@ -320,17 +415,17 @@ def _add_shift(
 def _laws(
     superposition: Superposition | None, shifts: DmaData | None, reference: float
 ) -> tuple[ShiftComparison, ...]:
-    """How well each law follows the shifts."""
+    """How well each law follows the shifts; with too few of them none can be judged."""
     if superposition is not None:
-        kelvin, decades, error = (
-            superposition.temperatures,
-            superposition.log10_a_T,
-            superposition.log10_a_T_error,
-        )
-        return compare_shift_laws(kelvin, decades, reference, error=np.maximum(error, _SMALLEST_ERROR))
-    if shifts is None or shifts.temperature is None or shifts.log10_a_T is None:
+        kelvin, decades = superposition.temperatures, superposition.log10_a_T
+        error = np.maximum(superposition.log10_a_T_error, _SMALLEST_ERROR)
+    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
+        kelvin, decades, error = shifts.temperature, shifts.log10_a_T, None
+    else:
         return ()
-    return compare_shift_laws(shifts.temperature, shifts.log10_a_T, reference)
+    if kelvin.size < LEAST_TEMPERATURES:
+        return ()
+    return compare_shift_laws(kelvin, decades, reference, error=error)
 
 
 def _strain(request: Request, sweeps: DmaData) -> dict[str, Any]:

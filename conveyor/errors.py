@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+import re
+from typing import Final
+
+_WORD: Final = re.compile(r"(\S{200})\S{100,}")
+_LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
+
 
 class ConveyorError(Exception):
-    """Base of every error this package raises on purpose; the message says what to change."""
+    """Base of every error this package raises on purpose; the message says what to change.
+
+    Whatever a message quotes of an input is cut to a length that a person reads.
+    """
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(_LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", str(message))))
 
 
 class InputError(ConveyorError, ValueError):

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from conveyor.files.document import Document, Finding
+from conveyor.files.document import MOST_LINES, Document, Finding
 from conveyor.kinds import KINDS
 from conveyor.misreadings import on_one_line
 from conveyor.models.base import Location, field_path, real_errors
@@ -36,16 +36,19 @@ _EXPECTED = {
 
 
 def findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Finding]:
-    """Return every error of a validation with its place in the file, in the file's order."""
+    """Return every error of a validation in the file's order, with its place; the first say what is wrong."""
     found = list(document.findings)
     known = {finding.field for finding in found}
+    placed = []
     for item in real_errors(error):
         location = _in_file(tuple(item["loc"]), document.data)
-        of_key = item["type"] == "extra_forbidden"
-        place = document.place(location, of_key=of_key)
+        place = document.place(location, of_key=item["type"] == "extra_forbidden")
         field = field_path(location) or "file"
         if field not in known:
-            found.append(Finding(place, field, message(item, model)))
+            placed.append((place, field, item))
+    placed.sort(key=lambda error: error[0])
+    for count, (place, field, item) in enumerate(placed):
+        found.append(Finding(place, field, message(item, model) if count < MOST_LINES else ""))
     return sorted(found, key=lambda finding: finding.place)
 
 

@@ -78,6 +78,20 @@ KINDS: dict[str, Kind] = {
     "fraction": Kind('a fraction (0.95 or "95 %")', "%", "95 %", "", ""),
 }
 
+MAGNITUDES: dict[str, tuple[float, float]] = {
+    "length": (1e-6, 1e6), "thickness": (1e-6, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
+    "acceleration": (1e-6, 1e3), "mass": (1e-6, 1e9), "line mass": (1e-6, 1e6), "area mass": (1e-6, 1e6),
+    "belt mass": (1e-6, 1e6), "density": (1e-3, 1e5), "force": (1e-6, 1e10), "line force": (1e-6, 1e10),
+    "pressure": (1e-9, 1e15), "time": (1e-25, 1e25), "duration": (1e-3, 1e9), "frequency": (1e-25, 1e25),
+    "angular frequency": (1e-25, 1e25), "rotation": (1e-6, 1e4), "force per rotation": (1e-9, 1e6),
+    "moment": (1e-9, 1e9), "bending stiffness": (1e-9, 1e9), "viscosity": (1e-9, 1e3), "temperature": (0.0, 1e4),
+    "temperature difference": (1e-9, 1e4), "angle": (1e-9, 1e3), "mass flow": (1e-6, 1e6),
+    "volume flow": (1e-9, 1e6), "power": (1e-3, 1e12), "energy": (1e-3, 1e18), "molar energy": (1e-3, 1e9),
+    "fraction": (1e-9, 1e6),
+}  # fmt: skip
+"""Smallest and largest size of each kind in SI base units, beside zero: wide about every conveyor and laboratory, so
+that sums, products and ratios of them stay figures. Fields narrow them further."""
+
 SPELLINGS: dict[str, str] = {}
 for _kind in KINDS.values():
     for _form, _name in _kind.units.items():

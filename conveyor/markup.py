@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
-# Controls, lone surrogates and non-characters, which HTML does not hold; marks that turn the reading direction
-_UNPRINTABLE = re.compile(
-    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]"
-)
+from conveyor.printable import printable
+
 _ROWS, _ITEMS, _LETTERS = 40, 12, 300
 _VOID = frozenset({"br", "col", "meta"})
 _STYLE = "text-align:left;vertical-align:top"
@@ -32,7 +29,7 @@ def escaped(value: object) -> Html:
     """
     if isinstance(value, Html):
         return value
-    return Html(escape(_UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], str(value)), quote=True))
+    return Html(escape(printable(str(value)), quote=True))
 
 
 def element(tag: str, *content: object, **attributes: object) -> Html:

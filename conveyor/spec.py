@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.explain import findings, message
-from conveyor.files.document import listing, read_document
+from conveyor.files.document import MOST_LINES, listing, read_document
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path, real_errors
 
@@ -98,11 +98,13 @@ def from_data(
             dict(data), context={"compound": shelf.resolver(extra=shelves, base=base)}
         )
     except ValidationError as error:
-        lines = []
-        for item in real_errors(error):
+        lines, items = [], real_errors(error)
+        for item in items[:MOST_LINES]:
             location: Location = tuple(item["loc"])
             place = "" if where is None else where(location) + " "
             lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}")
+        if len(items) > MOST_LINES:
+            lines.append(f"and {len(items) - MOST_LINES} more errors")
         raise InputError("\n".join(lines)) from None
 
 

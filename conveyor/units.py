@@ -19,7 +19,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError
-from conveyor.kinds import KINDS, SPELLINGS
+from conveyor.kinds import KINDS, MAGNITUDES, SPELLINGS
 from conveyor.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
 
 System = Literal["SI", "US"]
@@ -79,7 +79,7 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     Raises
     ------
     InputError
-        Not a number and a unit of the table, of another kind, or not finite.
+        Not a number and a unit of the table, of another kind, not finite, or of a size that nothing of the kind has.
 
     Examples
     --------
@@ -92,12 +92,34 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
             unit = _TABLES[kind].get(match[2])
             number = float(match[1])
             if unit is not None and math.isfinite(number):
-                return _build(number, unit)
+                return _sized(_build(number, unit), kind, match[2])
     elif isinstance(value, pint.Quantity):
-        return _checked(value, kind)
+        return _sized(_checked(value, kind), kind)
     elif kind == "fraction" and _is_finite_number(value):
-        return _build(float(value), _PLAIN)
+        return _sized(_build(float(value), _PLAIN), kind)
     raise InputError(why_not(value, kind))
+
+
+def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quantity:
+    """Refuse a size that nothing of its kind has: what is computed with it would overflow or vanish."""
+    number = abs(value.magnitude)
+    if kind is None or number == 0.0:
+        return value
+    smallest, largest = _sizes(kind, _SPELLED[value.units] if unit is None else unit)
+    if smallest <= number <= largest:
+        return value
+    low, high = MAGNITUDES[kind]
+    label = "" if kind == "fraction" else f" {si_unit(value)}"
+    expected = f"{KINDS[kind].expected}, in size from {low:g} to {high:g}{label}"
+    raise InputError(f"got {text(value)}, expected {expected}")
+
+
+@cache
+def _sizes(kind: str, unit: str) -> tuple[float, float]:
+    """Smallest and largest size of a kind as numbers of a unit; a scale with an offset counts its own degrees."""
+    scale = _si_scale(_UNITS[unit])
+    one = 1.0 if scale is None else scale[0] / scale[1]
+    return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
 
 
 def _is_finite_number(value: object) -> TypeGuard[float]:

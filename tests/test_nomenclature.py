@@ -108,7 +108,11 @@ def test_every_column_of_lives_is_named() -> None:
 def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
     found = comparison()
     held = of_comparison(found, "SI")
-    made = [found.table, found.ranking, *(held[key].frame() for key in ("coverage", "refused") if key in held)]
+    made = [
+        found.table,
+        found.ranking,
+        *(held[key].frame() for key in ("coverage", "refused") if key in held),
+    ]
     assert missing([column for frame in made for column in names(frame)]) == set()
 
 

@@ -203,10 +203,10 @@ def test_unusable_file(tmp_path: Path, content: bytes, message: str) -> None:
 def test_multiplying_aliases_are_stopped(tmp_path: Path) -> None:
     levels = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
     levels += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 10)]
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(InputError, match="more than 100,000 values, aliases expanded"):
         spec.load(write(tmp_path, "\n".join(levels)))
-    assert time.perf_counter() - start < 5.0
+    assert time.process_time() - start < 5.0
 
 
 def test_anchors_and_aliases_are_read(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ValidationError
 
 from conveyor import units
 from conveyor.errors import InputError
-from conveyor.kinds import KINDS
+from conveyor.kinds import KINDS, MAGNITUDES
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
@@ -128,11 +128,24 @@ def test_trap_is_refused_with_advice(written: object, kind: str | None, message:
         quantity(written, kind)
 
 
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"temperature"}))
+def test_sizes_that_nothing_has_are_refused(kind: str) -> None:
+    smallest, largest = MAGNITUDES[kind]
+    for unit in KINDS[kind].units:
+        one = si(quantity(f"1 {unit}".strip()))
+        for size in (0.0, 1.01 * smallest, 0.99 * largest):
+            for sign in (1.0, -1.0):
+                quantity(f"{sign * size / one!r} {unit}".strip(), kind)
+        for size in (5e-324, 1e-300, 0.99 * smallest / one, 1.01 * largest / one, 1e300):
+            with pytest.raises(InputError, match=r"got .*, expected .*, in size from .* to "):
+                quantity(f"{size!r} {unit}".strip(), kind)
+
+
 def test_power_towers_do_not_hang() -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(InputError):
         quantity("9**9**9**9 m", "length")
-    assert time.perf_counter() - start < 0.1
+    assert time.process_time() - start < 1.0
 
 
 @given(
@@ -143,6 +156,9 @@ def test_text_quantity_text_round_trip(number: float, form: tuple[str, str]) -> 
     kind, unit = form
     if kind != "fraction" and unit == "":
         return
+    smallest, largest = (size / abs(si(quantity(f"1 {unit}".rstrip()))) for size in MAGNITUDES[kind])
+    if kind == "temperature" or not (number == 0.0 or smallest <= abs(number) <= largest):
+        number = math.copysign(min(max(abs(number), 2.0 * smallest), 0.5 * largest), number)
     first = quantity(f"{number!r} {unit}".rstrip(), kind)
     assert first.magnitude == number
     second = quantity(text(first), kind)
@@ -264,12 +280,9 @@ def test_json_schema_accepts_what_the_model_accepts() -> None:
     assert {"type": "number"} in schema["share"]["anyOf"]
 
 
-def test_ten_thousand_models_of_six_fields_in_a_second() -> None:
-    # 0.3 s measured on one core; three tries so that a busy machine does not decide.
-    def once() -> float:
-        start = time.perf_counter()
-        for _ in range(10_000):
-            Sample(**VALID)
-        return time.perf_counter() - start
-
-    assert min(once() for _ in range(3)) < 1.0
+def test_ten_thousand_models_of_six_fields_in_a_few_seconds() -> None:
+    # 0.3 s measured on one core, ten times it for slower ones; a parser of expressions takes 13 s
+    start = time.process_time()
+    for _ in range(10_000):
+        Sample(**VALID)
+    assert time.process_time() - start < 3.0

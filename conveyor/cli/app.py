@@ -16,7 +16,8 @@ from typing import Annotated, Any
 import typer
 import typer.core
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.printable import in_json, printable
 
 # matrices here are small: more BLAS threads than one cost time, and a lot of it on a busy machine
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -119,6 +120,9 @@ UnitsOption = Annotated[
         show_default=False,
     ),
 ]
+Force = Annotated[
+    bool, typer.Option("--force", "-f", help="Replace older files, whatever they are; never an input.")
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
@@ -128,7 +132,24 @@ _PATIENCE = 1.0  # seconds before a bar appears
 
 def print_json(data: object) -> None:
     """Print one JSON object in UTF-8, whatever the terminal's encoding: RFC 8259, section 8.1."""
-    print_text(json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+    print_text(json_text(data))
+
+
+def json_text(data: object) -> str:
+    """JSON of a result.
+
+    Raises
+    ------
+    NoSolutionError
+        It holds a figure that is not finite: a result that is none, whether JSON is asked for or not.
+    """
+    try:
+        written = json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False)
+    except ValueError:
+        raise NoSolutionError(
+            "the result holds figures that are not finite: look for extreme inputs"
+        ) from None
+    return in_json(written) + "\n"
 
 
 def print_text(text: str) -> None:
@@ -136,6 +157,11 @@ def print_text(text: str) -> None:
     with suppress(AttributeError):  # a stream that a test put there
         sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
     print(text, end="")
+
+
+def say(*lines: str) -> None:
+    """Print lines for people."""
+    print(printable("\n".join(lines)))
 
 
 @contextmanager

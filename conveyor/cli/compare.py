@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli import outputs
 from conveyor.cli.app import (
     AsJson,
     AsParquet,
+    Force,
     Quiet,
     Shelves,
     Spec,
@@ -23,16 +22,20 @@ from conveyor.cli.app import (
     Workbook,
     app,
     examples,
+    json_text,
     one_of,
-    print_json,
+    print_text,
     progress,
+    say,
     values,
 )
 from conveyor.cli.completion import compound_names
+from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import saving
+from conveyor.files import marks
 
 if TYPE_CHECKING:
+    from conveyor.report.columns import Contents
     from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
@@ -110,17 +113,19 @@ def compare(
         ),
     ] = None,
     units: UnitsOption = None,
+    force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
-    outputs.file("--output", output, ".xlsx")
-    outputs.file("--html", html, ".html", ".htm")
-    outputs.tables(tables, parquet=parquet)
-    outputs.file("--csv", csv, ".csv")
+    to = Outputs(spec, *compounds, force=force)
+    to.file("--output", output, ".xlsx", kind=marks.REPORT)
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.tables(tables, parquet=parquet)
+    to.file("--csv", csv, ".csv")
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
-        outputs.file(option, path, ".png", ".svg", ".pdf")
+        to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     import conveyor
     from conveyor.studies.comparison import compare_compounds
 
@@ -143,65 +148,66 @@ def compare(
     if not found.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    written = _written(
-        found, Outputs(output, html, tables, parquet, csv, plot, speed_plot, tan_delta), system
-    )
-    if as_json:
-        from conveyor.report import comparing
+    from conveyor.report import comparing
 
-        print_json(comparing.plain(found))
+    contents = comparing.of_comparison(found, system)
+    figures = json_text(comparing.plain(found))
+    _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
+    _figures(found, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
+    written = to.save()
+    if as_json:
+        print_text(figures)
     elif not quiet:
         from conveyor.cli.compare_tables import show
-        from conveyor.report.comparing import of_comparison
 
-        show(of_comparison(found, system))
+        show(contents)
         if written:
-            print("\n" + "\n".join(written))
+            say("", *written)
 
 
-@dataclass(frozen=True)
-class Outputs:
-    """Files that are asked for."""
+def _reports(
+    contents: Contents,
+    to: Outputs,
+    *,
+    output: Path | None,
+    html: Path | None,
+    tables: Path | None,
+    parquet: bool,
+    csv: Path | None,
+) -> None:
+    """Make the workbook, the page and the tables that are asked for."""
+    from conveyor.report import excel, files
+    from conveyor.report import html as page
 
-    workbook: Path | None
-    page: Path | None
-    tables: Path | None
-    parquet: bool
-    table: Path | None
-    plot: Path | None
-    speed_plot: Path | None
-    tan_delta: Path | None
+    if output is not None:
+        to.add("workbook", output, excel.files(contents, output))
+    if html is not None:
+        to.add("page", html, {html: page.build(contents).encode()})
+    if tables is not None:
+        to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
+    if csv is not None:
+        to.add("table", csv, {csv: files.csv(contents["scenes"].frame(contents.system))})
 
 
-def _written(found: Comparison, to: Outputs, system: System) -> list[str]:
-    """Write what is asked for; a line on each."""
-    written = []
-    if to.workbook is not None:
-        written.append(f"workbook: {found.to_excel(to.workbook, system=system)}")
-    if to.page is not None:
-        written.append(f"page: {found.to_html(to.page, system=system)}")
-    if to.tables is not None:
-        made = found.to_tables(
-            outputs.make(to.tables), system=system, kind="parquet" if to.parquet else "csv"
-        )
-        written.append(f"tables: {len(made)} in {to.tables}")
-    if to.table is not None:
-        from conveyor.report.comparing import scenes
-        from conveyor.report.files import csv
+def _figures(
+    found: Comparison,
+    to: Outputs,
+    system: System,
+    *,
+    plot: Path | None,
+    speed_plot: Path | None,
+    tan_delta: Path | None,
+) -> None:
+    """Draw the figures that are asked for."""
+    from conveyor.report.plots import drawn
 
-        saving.save({to.table: csv(scenes(found).frame(system))})
-        written.append(f"table: {to.table}")
-    figures = (
-        (to.plot, found.plots.power_against_temperature),
-        (to.speed_plot, found.plots.power_against_speed),
-        (to.tan_delta, found.plots.loss_tangents),
-    )
-    for path, drawn in figures:
+    for path, draw in (
+        (plot, found.plots.power_against_temperature),
+        (speed_plot, found.plots.power_against_speed),
+        (tan_delta, found.plots.loss_tangents),
+    ):
         if path is not None:
-            from conveyor.report.plots import save
-
-            written.append(f"figure: {save(drawn(system=system), path)}")
-    return written
+            to.add("figure", path, {path: drawn(draw(system=system), path)})
 
 
 def _amount(given: str) -> tuple[str, float]:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from rich.text import Text
-
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, table
+from conveyor.cli.terminal import console, table, words
 from conveyor.display import Unit, unit
 
 if TYPE_CHECKING:
@@ -21,13 +19,13 @@ Row = Any
 def show(contents: Contents) -> None:
     """Print the ranking and its remarks."""
     facts = dict(contents.document.facts)
-    words = f"{contents.document.title}: {facts['cover']} cover, against {facts['savings against']}"
-    ranked, made = contents["ranking"], table(words)
+    title = f"{contents.document.title}: {facts['cover']} cover, against {facts['savings against']}"
+    ranked, made = contents["ranking"], table(title)
     columns = _columns(ranked, contents.by_key.get("costs"), contents.system)
     for heading in columns:
-        made.add_column(Text(heading), justify="left" if heading == "compound" else "right", no_wrap=True)
+        made.add_column(words(heading), justify="left" if heading == "compound" else "right", no_wrap=True)
     for row in ranked.rows:
-        made.add_row(*(Text(shown(row)) for shown in columns.values()))
+        made.add_row(*(words(shown(row)) for shown in columns.values()))
     screen = console()
     screen.print(made)
     notes.show(screen, contents.lines("warning"))

@@ -8,9 +8,10 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Quiet, app, examples
+from conveyor.cli.app import Force, Quiet, app, examples, say
+from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
-from conveyor.files.saving import save
+from conveyor.files.marks import TO_FILL_IN
 
 
 class Kind(StrEnum):
@@ -41,16 +42,17 @@ def new(
         Kind, typer.Option(help="Conveyor the example values belong to.", case_sensitive=False)
     ] = Kind.OVERLAND,
     units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
-    force: Annotated[bool, typer.Option("--force", "-f", help="Replace an older file.")] = False,
+    force: Force = False,
     quiet: Quiet = False,
 ) -> None:
     """Write a spec to start from: every field that matters, with a comment; it runs as it stands."""
     if spec.suffix.lower() not in {".yaml", ".yml"}:
         raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
-    if spec.is_file() and not force:
-        raise InputError(f"{spec}: exists; choose another name, or replace it with --force")
+    to = Outputs(force=force)
+    to.file("SPEC", spec, ".yaml", ".yml", kind=TO_FILL_IN)
     from conveyor.starter import quoted, written
 
-    save({spec: written(kind.value, units.value, file=spec.name).encode()})
+    to.add("spec", spec, {spec: written(kind.value, units.value, file=spec.name).encode()})
+    lines = to.save()
     if not quiet:
-        print(f"spec: {spec}\nnext: conveyor power {quoted(str(spec))}")
+        say(*lines, f"next: conveyor power {quoted(str(spec))}")

@@ -7,6 +7,8 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Final
 
+from conveyor.cli.terminal import words
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -44,14 +46,12 @@ def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
 
 def show(console: Console, notes: Sequence[str]) -> None:
     """Print notes as two short lists, their lines no wider than the terminal."""
-    from rich.text import Text
-
     for heading, colour, listed in zip(
         ("see to", "the figures rest on"), ("bold yellow", "bold"), ordered(notes), strict=True
     ):
         if listed:
-            console.print(Text(f"\nnote: {heading}", style=colour))
+            console.print(words(f"\nnote: {heading}", style=colour))
         for note in listed:
             console.print(
-                Text(textwrap.fill(note, console.width - 1, initial_indent="  - ", subsequent_indent="    "))
+                words(textwrap.fill(note, console.width - 1, initial_indent="  - ", subsequent_indent="    "))
             )

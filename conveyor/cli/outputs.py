@@ -1,78 +1,148 @@
-"""Files and folders a command is asked to write: refused before any time is spent on what would be in them."""
+"""Files a command is asked to write: refused before time is spent on them, written all together or not at all.
+
+An output that is also an input is always refused; an older file that is no such output of this program needs --force.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 
 from conveyor.errors import InputError
-from conveyor.files.saving import writable
+from conveyor.files import marks, saving
+
+_LARGEST = 100_000_000
+"""Bytes of an older file that is looked at; no output of this program is larger."""
 
 
-def file(option: str, path: Path | None, *endings: str) -> None:
-    """Refuse a file that cannot be written, or whose name says it is something else.
+class Outputs:
+    """What a command reads, what it is asked to write, and then what goes into it."""
 
-    Raises
-    ------
-    InputError
-        As `writable`, or another ending than those given.
-    """
-    if path is None:
-        return
-    if path.suffix.lower() not in endings:
-        *others, last = endings
-        allowed = f"{', '.join(others)} or {last}" if others else last
-        raise InputError(f'{option}: {path}: its name ends in {allowed}, got "{path.suffix}"')
-    writable(path)
+    def __init__(self, *inputs: str | Path | None, force: bool) -> None:
+        self._inputs = [Path(path) for path in inputs if path is not None]
+        self._force = force
+        self._asked: list[tuple[str, Path]] = []
+        self._folders: list[Path] = []
+        self._contents: dict[Path, bytes] = {}
+        self._said: list[str] = []
+
+    def file(self, option: str, path: Path | None, *endings: str, kind: str = "") -> None:
+        """Refuse a file that cannot be written, or must not.
+
+        Parameters
+        ----------
+        option : str
+            Asks for it; begins messages.
+        path : Path or None
+            The file, None where it is not asked for.
+        endings : str
+            Of its name.
+        kind : str
+            What it will be, as `marks.mark` says; without it an older file is looked at when the new one is there.
+
+        Raises
+        ------
+        InputError
+            As `saving.writable`; another ending, an input, the file of another option, an older file of another kind.
+        """
+        if path is None:
+            return
+        if path.suffix.lower() not in endings:
+            *others, last = endings
+            allowed = f"{', '.join(others)} or {last}" if others else last
+            raise InputError(f'{option}: {path}: its name ends in {allowed}, got "{path.suffix}"')
+        saving.writable(path)
+        for other, taken in self._asked:
+            if _same(path, taken):
+                raise InputError(f"{option}: {path}: is the file of {other}, too; give each its own")
+        self._asked.append((option, path))
+        self._refuse_older(path, kind)
+
+    def folder(self, option: str, path: Path | None) -> None:
+        """Refuse a folder that is none, or that neither exists nor can be made.
+
+        Raises
+        ------
+        InputError
+            A file has its name, or the folder that holds it does not exist or is read-only.
+        """
+        if path is None:
+            return
+        if path.exists() and not path.is_dir():
+            raise InputError(f"{option}: {path}: is a file; give the name of a folder")
+        holder = path if path.is_dir() else path.absolute().parent
+        if not holder.is_dir():
+            raise InputError(f"{option}: {path}: its folder does not exist; create it or choose another")
+        if not os.access(holder, os.W_OK):
+            raise InputError(f"{option}: {path}: {holder} is read-only; choose another folder")
+        self._folders.append(path)
+
+    def tables(self, path: Path | None, *, parquet: bool) -> None:
+        """Refuse a folder for tables as `folder` does, and Parquet without one or the package that writes it.
+
+        Raises
+        ------
+        InputError
+            As `folder`; no folder, or no such package.
+        """
+        self.folder("--tables", path)
+        if not parquet:
+            return
+        if path is None:
+            raise InputError("--parquet: says how tables are written; give --tables FOLDER, too")
+        if find_spec("pyarrow") is None:
+            raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
+
+    def add(self, what: str, where: Path, contents: Mapping[Path, bytes]) -> None:
+        """Take what goes into a file and those beside it, or into the files of a folder.
+
+        Raises
+        ------
+        InputError
+            Another output goes to the same file, or as `file`.
+        """
+        for path, content in contents.items():
+            if any(_same(path, other) for other in self._contents):
+                raise InputError(f"{path}: two outputs go to this file; choose another name or folder")
+            self._refuse_older(path, marks.mark(content) or marks.TO_FILL_IN)
+            self._contents[path] = content
+        self._said.append(f"{what}: {where if where in contents else f'{len(contents)} in {where}'}")
+
+    def save(self) -> list[str]:
+        """Write everything, or change nothing; a line on each.
+
+        Raises
+        ------
+        InputError
+            Something cannot be written.
+        """
+        saving.save(self._contents, folders=self._folders)
+        return self._said
+
+    def _refuse_older(self, path: Path, kind: str) -> None:
+        """Refuse to replace an input, and unasked what is no output of the kind."""
+        if any(_same(path, read) for read in self._inputs):
+            raise InputError(f"{path}: is an input of this command; choose another name for the output")
+        if not kind or self._force or not path.exists():
+            return
+        try:
+            found = marks.mark(path.read_bytes()) if path.stat().st_size <= _LARGEST else None
+        except OSError as error:
+            raise InputError(f"{path}: exists and cannot be read ({error.strerror or error})") from None
+        if found != kind:
+            what = (
+                "" if kind == marks.TO_FILL_IN else f" and is no {kind.partition(':')[0]} that conveyor wrote"
+            )
+            raise InputError(f"{path}: exists{what}; choose another name, or replace it with --force")
 
 
-def folder(option: str, path: Path | None) -> None:
-    """Refuse a folder that is none, or that neither exists nor can be made.
-
-    Raises
-    ------
-    InputError
-        A file has its name, or the folder that holds it does not exist or is read-only.
-    """
-    if path is None:
-        return
-    if path.exists() and not path.is_dir():
-        raise InputError(f"{option}: {path}: is a file; give the name of a folder")
-    holder = path if path.is_dir() else path.absolute().parent
-    if not holder.is_dir():
-        raise InputError(f"{option}: {path}: its folder does not exist; create it or choose another")
-    if not os.access(holder, os.W_OK):
-        raise InputError(f"{option}: {path}: {holder} is read-only; choose another folder")
-
-
-def tables(path: Path | None, *, parquet: bool) -> None:
-    """Refuse a folder for tables as `folder` does, and Parquet without a folder or the package that writes it.
-
-    Raises
-    ------
-    InputError
-        As `folder`; no folder, or no such package.
-    """
-    folder("--tables", path)
-    if not parquet:
-        return
-    if path is None:
-        raise InputError("--parquet: says how tables are written; give --tables FOLDER, too")
-    if find_spec("pyarrow") is None:
-        raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
-
-
-def make(path: Path) -> Path:
-    """Make a folder where there is none.
-
-    Raises
-    ------
-    InputError
-        It cannot be made.
-    """
+def _same(path: Path, other: Path) -> bool:
+    """Whether two names are of one file, links followed; of files that are not there yet by their names."""
     try:
-        path.mkdir(exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be made ({error.strerror or error})") from None
-    return path
+        if path.exists() and other.exists():
+            return path.samefile(other)
+        return path.resolve() == other.resolve()
+    except (OSError, RuntimeError, ValueError):  # links in a circle, a null byte: refused where they are used
+        return False

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli import outputs
 from conveyor.cli.app import (
     AsJson,
     AsParquet,
+    Force,
     ImageKind,
     Quiet,
     Shelves,
@@ -23,13 +22,18 @@ from conveyor.cli.app import (
     Workbook,
     app,
     examples,
-    print_json,
+    json_text,
+    print_text,
     progress,
+    say,
 )
+from conveyor.cli.outputs import Outputs
+from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
-    from conveyor.studies import Progress, Studies
+    from conveyor.report.columns import Contents
+    from conveyor.studies import Studies
     from conveyor.units import System
 
 
@@ -57,17 +61,20 @@ def power(
         ImageKind, typer.Option("--plot-kind", help="Format of the figures.", case_sensitive=False)
     ] = ImageKind.PNG,
     units: UnitsOption = None,
+    force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
-    outputs.file("--output", output, ".xlsx")
-    outputs.file("--html", html, ".html", ".htm")
-    outputs.tables(tables, parquet=parquet)
-    outputs.folder("--plots", plots)
+    to = Outputs(spec, force=force)
+    to.file("--output", output, ".xlsx", kind=marks.REPORT)
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.tables(tables, parquet=parquet)
+    to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
+    from conveyor.report.tables import of_analysis
     from conveyor.studies import studies
 
     line = conveyor.load(spec, shelves=shelf or ())
@@ -77,59 +84,47 @@ def power(
     with progress(silent=quiet or as_json) as told:
         with spec_file.placing(spec):
             asked = studies(line, progress=told)
-        written = _written(shown, asked, Outputs(output, html, tables, parquet, plots, plot_kind), told)
+        figures = json_text(result.to_dict() | asked.to_dict())
+        contents = of_analysis(shown, asked)
+        wanted = _wanted(contents, output, html, tables, parquet)
+        if plots is not None:
+            wanted.append(("figures", plots, lambda folder: _drawn(shown, asked, folder, plot_kind)))
+        for done, (what, where, made) in enumerate(wanted):
+            if told is not None:
+                told("writing", done, len(wanted))
+            to.add(what, where, made(where))
+        written = to.save()
     if as_json:
-        print_json(result.to_dict() | asked.to_dict())
+        print_text(figures)
     elif not quiet:
         from conveyor.cli.power_tables import show
-        from conveyor.report.tables import of_analysis
 
-        show(of_analysis(shown, asked))
+        show(contents)
         if written:
-            print("\n" + "\n".join(written))
+            say("", *written)
 
 
-@dataclass(frozen=True)
-class Outputs:
-    """Files and folders that are asked for."""
-
-    workbook: Path | None
-    page: Path | None
-    tables: Path | None
-    parquet: bool
-    plots: Path | None
-    kind: ImageKind
+Wanted = tuple[str, Path, Callable[[Path], Mapping[Path, bytes]]]
 
 
-def _written(result: Analysis, asked: Studies, to: Outputs, told: Progress | None) -> list[str]:
-    """Write what is asked for, in the units of the analysis' report; a line on each."""
-    tasks: list[tuple[str, Path, Callable[[Path], str]]] = []
-    if to.workbook is not None:
-        tasks.append(("workbook", to.workbook, lambda path: str(result.to_excel(path, asked))))
-    if to.page is not None:
-        tasks.append(("page", to.page, lambda path: str(result.to_html(path, asked))))
-    if to.tables is not None:
-        tasks.append(("tables", to.tables, lambda path: _tabled(result, asked, path, to)))
-    if to.plots is not None:
-        tasks.append(("figures", to.plots, lambda path: _drawn(result, asked, path, to)))
-    lines = []
-    for done, (what, path, write) in enumerate(tasks):
-        if told is not None:
-            told("writing", done, len(tasks))
-        lines.append(f"{what}: {write(path)}")
-    return lines
+def _wanted(
+    contents: Contents, output: Path | None, html: Path | None, tables: Path | None, parquet: bool
+) -> list[Wanted]:
+    """Reports that are asked for: where they go, and what makes their files."""
+    from conveyor.report import excel, files
+    from conveyor.report import html as page
+
+    kind: files.FileKind = "parquet" if parquet else "csv"
+    every: list[tuple[str, Path | None, Callable[[Path], Mapping[Path, bytes]]]] = [
+        ("workbook", output, lambda path: excel.files(contents, path)),
+        ("page", html, lambda path: {path: page.build(contents).encode()}),
+        ("tables", tables, lambda folder: files.files(contents, folder, kind)),
+    ]
+    return [(what, where, made) for what, where, made in every if where is not None]
 
 
-def _tabled(result: Analysis, asked: Studies, folder: Path, to: Outputs) -> str:
-    made = result.to_tables(outputs.make(folder), asked, kind="parquet" if to.parquet else "csv")
-    return f"{len(made)} in {folder}"
+def _drawn(result: Analysis, asked: Studies, folder: Path, kind: ImageKind) -> dict[Path, bytes]:
+    from conveyor.report.plots import drawn
 
-
-def _drawn(result: Analysis, asked: Studies, folder: Path, to: Outputs) -> str:
-    from conveyor.report.plots import save
-
-    made = result.plots.every(asked)
-    outputs.make(folder)
-    for name, figure in made.items():
-        save(figure, folder / f"{name}.{to.kind.value}")
-    return f"{len(made)} in {folder}"
+    made = {folder / f"{name}.{kind.value}": figure for name, figure in result.plots.every(asked).items()}
+    return {path: drawn(figure, path) for path, figure in made.items()}

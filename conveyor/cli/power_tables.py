@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Final
 
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, table, wrapped
+from conveyor.cli.terminal import console, table, words, wrapped
 from conveyor.display import headed, unit
 
 if TYPE_CHECKING:
@@ -55,18 +55,16 @@ def _figure(contents: Contents, key: str) -> Figure:
 
 
 def _head(screen: Console, contents: Contents) -> None:
-    from rich.text import Text
-
     about, system = contents.document, contents.system
-    screen.print(Text(about.title, style="bold"))
-    words = {"client": "for {}", "engineer": "by {}", "revision": "revision {}"}
-    said = (words.get(name, "{}").format(about.said[name]) for name in _DOCUMENT if name in about.said)
+    screen.print(words(about.title, style="bold"))
+    named = {"client": "for {}", "engineer": "by {}", "revision": "revision {}"}
+    said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT if name in about.said)
     if about.said:
-        screen.print(Text(", ".join(said)))
+        screen.print(words(", ".join(said)))
     facts = {row.label: row.unit(system).brief(row.value) for row in contents["identity"].rows}
     material = facts["material"].rpartition(",")[0]
     screen.print(
-        Text(
+        words(
             f"{material}, {facts['mass flow']} over {facts['length']}, lift {facts['lift']}\n"
             f"belt {facts['belt width']} at {facts['belt speed']}, {facts['temperature of the covers']}"
         )
@@ -129,20 +127,16 @@ def _sums(contents: Contents) -> Grid:
 
 
 def _checks(screen: Console, contents: Contents) -> None:
-    from rich.text import Text
-
     found = contents["checks"].rows
     counts = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
     said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
-    screen.print(Text(f"checks: {said}", style="bold"))
+    screen.print(words(f"checks: {said}", style="bold"))
     for check in (check for check in found if check.verdict == "FAIL"):
         failed = f"FAIL {check.subject}: {check.found}, {check.asked}"
-        screen.print(Text(wrapped(failed, screen.width, first="  ", further="    "), style="red"))
+        screen.print(words(wrapped(failed, screen.width, first="  ", further="    "), style="red"))
 
 
 def _cases(cases: Table, system: System) -> Grid:
-    from rich.text import Text
-
     made = table("load cases that govern")
     for heading in ("figure", "value", "case", "at"):
         made.add_column(heading, justify="right" if heading == "value" else "left")
@@ -150,26 +144,22 @@ def _cases(cases: Table, system: System) -> Grid:
     for row in cases.rows:
         at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
         value = unit(row.kind, system, large=True).said(get["value"](row))
-        made.add_row(row.label, value, Text(get["case"](row)), at)
+        made.add_row(row.label, value, words(get["case"](row)), at)
     return made
 
 
 def _year(figures: Iterable[Figure], system: System) -> Grid:
-    from rich.text import Text
-
     made = table("the year")
     made.add_column("figure")
     made.add_column("value", justify="right", no_wrap=True)
     for figure in figures:
         value = figure.unit(system).shown(figure.value)
         written = f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}"
-        made.add_row(Text(headed(figure.label, figure.kind, system)), written)
+        made.add_row(words(headed(figure.label, figure.kind, system)), written)
     return made
 
 
 def _ranges(screen: Console, contents: Contents) -> None:
-    from rich.text import Text
-
     power, band = unit("power", contents.system, large=True), contents["power_band"]
     low, high = (
         power.said(band.columns[band.index(key)].get(band.rows[0]))
@@ -177,6 +167,6 @@ def _ranges(screen: Console, contents: Contents) -> None:
     )
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
-    screen.print(Text("\nranges of the inputs", style="bold"))
+    screen.print(words("\nranges of the inputs", style="bold"))
     said = f"motor power {low} to {high} in nine tenths of the cases; what matters first: {first}"
-    screen.print(Text(wrapped(said, screen.width, first="  ", further="  ")))
+    screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli import outputs
-from conveyor.cli.app import Quiet, Shelves, app, examples, one_of
+from conveyor.cli.app import Force, Quiet, Shelves, app, examples, one_of, say
 from conveyor.cli.completion import compound_names
+from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
-from conveyor.files.saving import save
+from conveyor.files import marks
+from conveyor.printable import printable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,6 +70,14 @@ def fit(
     ] = None,
     sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook.")] = None,
     kind: Annotated[str | None, typer.Option(help="What the file holds, where it leaves it open.")] = None,
+    accept: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FINDING",
+            help="Insist on what is refused as hardly rubber: few-rows, modulus, contradiction; may be repeated.",
+        ),
+    ] = None,
+    force: Force = False,
     quiet: Quiet = False,
 ) -> None:
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
@@ -76,8 +85,9 @@ def fit(
     from conveyor import shelf as shelf_of
     from conveyor.units import quantity, si
 
-    outputs.file("--output", output, ".yaml", ".yml")
-    outputs.file("--plot", plot, ".png", ".svg", ".pdf")
+    to = Outputs(data, shift, strain, force=force)
+    to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
+    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
@@ -94,6 +104,7 @@ def fit(
         terms_per_decade=terms_per_decade,
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
+        accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
     try:
@@ -108,12 +119,14 @@ def fit(
     if plot is not None:
         from conveyor.report import plots
 
-        lines.append(f"figure: {plots.save(fitting.figure(found), plot)}")
+        to.add("figure", plot, {plot: plots.drawn(fitting.figure(found), plot)})
     if output is not None:
-        save({output: shelf_of.dump(found.compound, "Written by conveyor fit").encode()})
-        lines.append(f'compound file: {output}; specs and --compound name it "{output.stem}" or by its path')
+        to.add("compound file", output, {output: shelf_of.dump(found.compound, marks.FITTED).encode()})
+    lines += to.save()
+    if output is not None:
+        lines[-1] += f'; specs and --compound name it "{output.stem}" or by its path'
     if not quiet:
-        print("\n".join(lines))
+        say(*lines)
 
 
 @app.command(
@@ -134,12 +147,14 @@ def shelf(
         Path | None,
         typer.Option(help="Draw the compound, or the loss tangents of all, to this file (.png, .svg, .pdf)."),
     ] = None,
+    force: Force = False,
     shelves: Shelves = None,
 ) -> None:
     """List the compounds on the shelf, or show one."""
     import math
 
-    outputs.file("--plot", plot, ".png", ".svg", ".pdf")
+    to = Outputs(name, force=force)
+    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
@@ -171,10 +186,10 @@ def shelf(
         if compound.range is not None:
             rows["measured frequency"] = " to ".join(text(f) for f in compound.range.frequency)
             rows["measured temperature"] = " to ".join(text(t) for t in compound.range.temperature)
-        table = Table(title=escape(compound.name), title_justify="left", show_header=False)
+        table = Table(title=escape(printable(compound.name)), title_justify="left", show_header=False)
         for key, value in rows.items():
-            table.add_row(key, escape(value))
-        _show(console, table, plot, lambda plots: plots.master_curve(compound, kelvin))
+            table.add_row(key, escape(printable(value)))
+        _show(console, table, to, plot, lambda plots: plots.master_curve(compound, kelvin))
         return
     table = Table(
         title=f"E' and tan delta at {at}, {frequency}",
@@ -193,21 +208,24 @@ def shelf(
         try:
             series = compound.series(kelvin)
         except RangeError:
-            table.add_row(known, compound.kind, "outside", "", limits)
+            table.add_row(escape(printable(known)), compound.kind, "outside", "", limits)
             continue
         omega = 2.0 * math.pi * hertz
         storage, tangent = float(series.storage(omega)) / 1e6, float(series.tan_delta(omega))
-        table.add_row(known, compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
+        table.add_row(escape(printable(known)), compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
         drawn.append(compound)
-    _show(console, table, plot, lambda plots: plots.loss_tangents(drawn, kelvin))
+    _show(console, table, to, plot, lambda plots: plots.loss_tangents(drawn, kelvin))
 
 
-def _show(console: Console, table: Table, plot: Path | None, figure: Callable[[ModuleType], Figure]) -> None:
+def _show(
+    console: Console, table: Table, to: Outputs, plot: Path | None, figure: Callable[[ModuleType], Figure]
+) -> None:
     """Draw what is asked for, then print the table: what fails says so alone."""
     if plot is not None:
         from conveyor.report import plots
 
-        plots.save(figure(plots), plot)
+        to.add("figure", plot, {plot: plots.drawn(figure(plots), plot)})
+    written = to.save()
     console.print(table)
-    if plot is not None:
-        print(f"figure: {plot}")
+    if written:
+        say(*written)

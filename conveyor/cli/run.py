@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import logging
 import os
 import re
 import signal
@@ -16,6 +17,7 @@ import typer
 
 from conveyor.cli.app import app
 from conveyor.errors import ConveyorError, InputError
+from conveyor.printable import printable
 
 DONE: Final = 0
 NO_SOLUTION: Final = 1
@@ -30,7 +32,6 @@ _PARSERS: Final = {
     "Input should be a valid integer.*": "expected a whole number",
 }
 """Words of typer's parsers, and plainer ones."""
-_CONTROL: Final = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 
 
 def main() -> None:
@@ -56,13 +57,24 @@ def main() -> None:
 
 
 def _set_up_streams() -> None:
-    """A reader that goes away ends us silently, as any filter; what a terminal cannot show is written as its code."""
+    """A reader that goes away ends us silently, as any filter; what a terminal cannot show is written as its code.
+
+    A stream that was closed before we began is opened: what is printed then fails, or for errors is lost, and no other
+    file takes its number.
+    """
+    sys.stdout = sys.stdout or _nowhere(os.O_RDONLY)
+    sys.stderr = sys.stderr or _nowhere(os.O_WRONLY)
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     for stream in (sys.stdout, sys.stderr):
         with suppress(AttributeError):  # a stream that a test put there
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     warnings.showwarning = _note
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of caches it cannot keep
+
+
+def _nowhere(mode: int) -> TextIO:
+    return open(os.open(os.devnull, mode), "w", encoding="utf-8")  # noqa: PTH123 kept open as streams are
 
 
 def _note(
@@ -73,11 +85,11 @@ def _note(
     file: TextIO | None = None,  # noqa: ARG001
     line: str | None = None,  # noqa: ARG001
 ) -> None:
-    print(f"note: {readable(str(message))}", file=sys.stderr)
+    print(f"note: {printable(str(message))}", file=sys.stderr)
 
 
 def _leave(message: str, code: int) -> NoReturn:
-    print(readable(message), file=sys.stderr)
+    print(printable(message), file=sys.stderr)
     sys.exit(code)
 
 
@@ -88,17 +100,6 @@ def _discard_output() -> None:
         Path(os.devnull).open("wb") as nowhere,
     ):  # no file behind a test's stream
         os.dup2(nowhere.fileno(), sys.stdout.fileno())
-
-
-def readable(message: str) -> str:
-    r"""Write control characters out: a hostile name may not move the cursor or colour the terminal.
-
-    Examples
-    --------
-    >>> readable("got \x1b[31mred")
-    'got \\x1b[31mred'
-    """
-    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), message)
 
 
 def usage(error: Any) -> str:

@@ -7,29 +7,39 @@ import sys
 import textwrap
 from typing import TYPE_CHECKING, Final
 
+from conveyor.printable import printable
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
 _PIPED: Final = 120  # columns where nobody's terminal limits them
+_NARROWEST: Final = 40
 
 
 def console() -> Console:
     """A console as wide as the terminal, or as `COLUMNS` says, or 120 where output is piped."""
     from rich.console import Console
 
-    own = sys.stdout.isatty() or "COLUMNS" in os.environ
-    return Console(highlight=False, width=None if own else _PIPED)
+    own = sys.stdout.isatty() or os.environ.get("COLUMNS", "").strip("0").isdecimal()
+    return Console(highlight=False, width=max(Console().width, _NARROWEST) if own else _PIPED)
+
+
+def words(text: str, style: str = "") -> Text:
+    """Text for the terminal: not markup, and without control characters."""
+    from rich.text import Text
+
+    return Text(printable(text), style=style)
 
 
 def table(title: str | None = None) -> Table:
     """A table without a frame: a line below its head, nothing that a file of text does not hold."""
     from rich import box
     from rich.table import Table
-    from rich.text import Text
 
     return Table(
-        title=None if title is None else Text(title, style="bold"),
+        title=None if title is None else words(title, "bold"),
         title_justify="left",
         box=box.SIMPLE_HEAD,
         show_edge=False,

@@ -7,8 +7,10 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import AsJson, Quiet, Shelves, app, examples, print_json, print_text
+from conveyor.cli.app import AsJson, Force, Quiet, Shelves, app, examples, print_json, print_text, say
+from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.files.marks import TO_FILL_IN
 
 
 @app.command(
@@ -75,17 +77,21 @@ def contact(
 def template(
     output: Annotated[Path, typer.Argument(help="Workbook to write (.xlsx).", show_default=False)],
     spec: Annotated[Path | None, typer.Option("--from", help="Fill it in from this spec.")] = None,
+    force: Force = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
     """Write an input workbook: fields, units, drop-downs, ranges, an example; `conveyor power` reads it."""
+    to = Outputs(spec, force=force)
+    to.file("OUTPUT", output, ".xlsx", kind=TO_FILL_IN)
     import conveyor
-    from conveyor.template.write import write_template
+    from conveyor.template.write import template as made
 
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    written = write_template(output, line, shelves=shelf or ())
+    to.add("template", output, {output: made(line, shelves=shelf or ())})
+    lines = to.save()
     if not quiet:
-        print(f"template: {written}")
+        say(*lines)
 
 
 @app.command(

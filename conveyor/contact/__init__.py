@@ -4,15 +4,18 @@ A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its
 `load_curve` share one set-up among many loads. Numbers only: no units, no rubber.
 """
 
-from conveyor.contact.curve import LoadCurve, LoadSolutions, load_curve, solve_loads
-from conveyor.contact.curves import load_curves
+from conveyor.contact.belt import Belt
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.curve import LoadCurve, LoadSolutions
+from conveyor.contact.curves import load_curve, load_curves, solve_loads
 from conveyor.contact.interior import Interior, InteriorFields, interior, interior_fields
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
-from conveyor.contact.problem import ContactProblem, CreepSpectrum, Status
+from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve, solve_many, solve_penetration
 
 __all__ = [
+    "Belt",
     "Confined",
     "ContactProblem",
     "ContactSolution",

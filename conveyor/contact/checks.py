@@ -12,7 +12,7 @@ from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, of_order
 
 Array = NDArray[np.float64]
 
@@ -52,11 +52,11 @@ def order_error(contact: Contact, matrix: Array, rho: Array | float, exponent: A
     n = matrix.shape[2]
     change = []
     for lower in (n // 2, (3 * n) // 4):
-        sub = equilibrium(matrix[:, : lower + 1, :lower], contact.alpha, rho, contact.eps)
-        friction = relative_difference(sub.friction, contact.friction)
-        load = sub.pressure / contact.pressure - 1.0
+        found, pressure, inside = of_order(matrix, lower, contact, rho)
+        friction = relative_difference(found, contact.friction)
+        load = pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
-        change.append(np.where(sub.inside, shift, 1.0))
+        change.append(np.where(inside, shift, 1.0))
     half, most = change
     error: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))

@@ -56,6 +56,28 @@ def _parts(y: Array, e: Array, rho: Array) -> tuple[Array, Array, Array, Array]:
     return even, odd, d1 + d2, d1 - d2
 
 
+def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
+    """T_i coefficients of the slope and of its first two derivatives by ε, shape (b, count, 3)."""
+    radius = np.zeros(alpha.shape) + rho
+    few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
+    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
+    y, e, radii = alpha[:, None] * s, eps[:, None], radius[:, None]
+    even, odd, even_change, odd_change = _parts(y, e, radii)
+    t1, t2 = (y + e) / radii, (y - e) / radii
+    # d²(t/sqrt(1-t²))/dt² = 3 t (1-t²)^(-5/2)
+    h1, h2 = t1 * (1.0 - t1 * t1) ** -2.5, t2 * (1.0 - t2 * t2) ** -2.5
+    bend = 3.0 / (radii * radii)
+    value = np.zeros((alpha.size, count, 3))
+    for start, parts in (
+        (0, (even, even_change, bend * (h1 - h2))),
+        (1, (odd, odd_change, bend * (h1 + h2))),
+    ):
+        back = transform[start::2].T * -0.5
+        for k, part in enumerate(parts):
+            value[:, start:few:2, k] = (part @ back) / radii
+    return value
+
+
 def slope_coefficients(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
     """T_i coefficients of the slope w'(X) over the contact.
 

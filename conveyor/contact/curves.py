@@ -1,14 +1,16 @@
-"""Load curves of many scenes side by side: what a comparison of compounds, temperatures and speeds asks for.
+"""Load curves of scenes side by side: what many loads, or a comparison of compounds, temperatures and speeds, ask for.
 
-curve.py for narrow contacts (narrow.py), with the scenes stacked: half widths of the lightest and heaviest load at
-order 8, the points of every curve in one batch, at the order and degree that meet rtol. A scene that is not plainly
-narrow is sampled by itself.
+Half widths of the lightest and heaviest load are found first, then contacts at Chebyshev points between them, all
+curves of a batch together. How many points a curve needs is seen at a low order; the order that meets the tolerance is
+predicted from a few of its points, and formed at these only. Scenes that are not plainly narrow are sampled one by one,
+with the full rule, between contacts that the general solver found.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +23,8 @@ from conveyor.contact.checks import (
     pulling_and_pressing,
     relative_difference,
 )
-from conveyor.contact.curve import MARGIN, SIGN_FLOOR, LoadCurve, load_curve
+from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.lobatto import interpolated, points
 from conveyor.contact.narrow import (
     CHUNK,
     LOW_ORDER_FROM,
@@ -31,24 +32,65 @@ from conveyor.contact.narrow import (
     ROOM,
     Group,
     Search,
+    alike,
     chosen_rows,
     fits,
     guess,
-    plain,
 )
-from conveyor.contact.orders import NARROW_ORDERS
-from conveyor.contact.problem import ContactProblem
+from conveyor.contact.orders import ORDERS
+from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
+from conveyor.contact.sampling import Sampled, derivative, missed, points
 from conveyor.contact.scene import instantly_relaxed
-from conveyor.contact.short_rule import ShortRule, grades_for, panels_beyond, short_rule
-from conveyor.contact.solution import SolveStats
+from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels_beyond, short_rule
+from conveyor.contact.single import ROUNDING, SIGN_ORDER
+from conveyor.contact.solution import ContactSolution, SolveStats
+from conveyor.contact.solve import solve
 from conveyor.contact.spectral import Contact, assemble, equilibrium
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_DEGREES = (12, 16, 32)
+_DEGREES = (12, 16, 32, 64, 128)
 _LOW_DEGREE_FROM = 1e-4  # rtol that degree 12 may meet over a factor of 100 in load
+_FEW = 4  # degree that carries what a higher order changes
+_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
+_SIGN_FLOOR = 1e-9
+_BETWEEN = 1.25  # errors between the five points that are looked at over those there: 1.03 seen
+_ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
+_WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
+_SPLITS = (
+    "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
+    "or solve such loads one by one"
+)
+
+
+def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: float = 1e-6) -> LoadCurve:
+    """Sample a scene between two loads until friction is known to `rtol` anywhere between.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The scene; its own pressure is not used.
+    lowest, highest : float
+        Range of p̃_m [-].
+    rtol : float
+        Relative error of friction asked for [-].
+
+    Raises
+    ------
+    InputError
+        lowest > highest.
+    NoSolutionError
+        A load of the range has no single-strip contact, or the tolerance was not reached.
+    """
+    if not 0.0 < lowest <= highest:
+        raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
+    (found,) = load_curves([problem], [lowest], [highest], rtol)
+    if isinstance(found, NoSolutionError):
+        raise found
+    return found
 
 
 def load_curves(
@@ -89,23 +131,78 @@ def load_curves(
     ]
 
 
-def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | NoSolutionError:
+def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-6) -> LoadSolutions:
+    """Solve many loads of one scene with one shared set-up.
+
+    Loads whose contact splits or wraps the roll are solved one by one.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The scene; its own pressure is not used.
+    pressures : array_like
+        Mean pressures p̃_m [-], positive.
+    rtol : float
+        Relative error of friction asked for [-].
+
+    Returns
+    -------
+    LoadSolutions
+        Arrays of the shape of `pressures`.
+
+    Raises
+    ------
+    InputError, NoSolutionError
+        As `solve`.
+
+    Examples
+    --------
+    >>> from conveyor.contact import CreepSpectrum
+    >>> creep = CreepSpectrum(0.1, [0.9], [1.0])
+    >>> loads = solve_loads(ContactProblem("half-space", 0.4, 0.05, creep), [0.01, 0.05])
+    >>> loads.friction.round(6).tolist()
+    [0.086769, 0.192195]
+    """
+    p = np.asarray(pressures, dtype=float)
+    if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
+        raise InputError("pressures: give one or more finite positive mean pressures")
     try:
-        return load_curve(problem, lowest, problem.pressure, rtol)
-    except NoSolutionError as error:
-        return error
+        return load_curve(problem, float(p.min()), float(p.max()), rtol).at(p)
+    except NoSolutionError:
+        return _one_by_one(problem, p, rtol)
+
+
+def wraps(solution: ContactSolution) -> bool:
+    """Whether a contact reaches so far round the roll that its half width no longer tells the load."""
+    return solution.outer_edge > _WRAPPED
+
+
+def _one_by_one(problem: ContactProblem, pressures: Array, rtol: float) -> LoadSolutions:
+    solved = [solve(replace(problem, pressure=float(p)), rtol) for p in pressures.ravel()]
+    column = partial(_column, solved, pressures.shape)
+    return LoadSolutions(
+        pressure=pressures,
+        friction=column("friction"),
+        half_width=column("half_width"),
+        eccentricity=column("eccentricity"),
+        dissipation=column("dissipation"),
+        energy_error=column("energy_error"),
+        error_estimate=column("error_estimate"),
+        stats=max((s.stats for s in solved), key=lambda stats: stats.order),
+        _later=column,
+    )
+
+
+def _column(solved: list[ContactSolution], shape: tuple[int, ...], name: str) -> Array:
+    return np.array([getattr(solution, name) for solution in solved]).reshape(shape)
 
 
 def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[int, LoadCurve]:
     """Curves of the plainly narrow scenes, by their place in the list."""
-    kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(problem.creep) for problem in problems]
-    for i, problem in enumerate(problems):
-        if plain(problem, creeps[i]):
-            kinds.setdefault((str(problem.support), np.isinf(problem.thickness)), []).append(i)
     grade = grades_for(rtol)[0]
     curves: dict[int, LoadCurve] = {}
-    for members in kinds.values():
+    for members in alike(problems, creeps):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = ROOM * guess(group)
         panels = panels_beyond(group.layers.reach(grade.depth), widest, grade)
@@ -114,14 +211,74 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
         step = max(1, CHUNK // _DEGREES[0])
         for start in range(0, order.size, step):
             chosen = order[start : start + step]
-            batch = _Batch.of(group[chosen], np.log(lowest[[members[k] for k in chosen]]), rtol)
-            for row, curve in ({} if batch is None else batch.curves(rtol)).items():
-                curves[members[chosen[row]]] = curve
+            sampler = _narrow_sampler(group[chosen], lowest[[members[k] for k in chosen]], rtol)
+            if sampler is not None:
+                for row, found in sampler.curves(rtol).items():
+                    if isinstance(found, LoadCurve):
+                        curves[members[chosen[row]]] = found
     return curves
 
 
+def _narrow_sampler(group: Group, lowest: Array, rtol: float) -> _Sampler | None:
+    """Half widths of the lightest and the heaviest loads; None where no scene of the chunk is narrow."""
+    solving, checking = grades_for(rtol)
+    twice = np.tile(np.arange(lowest.size), 2)
+    alpha_high = guess(group)
+    light = replace(group, target=np.log(lowest))
+    both = replace(group[twice], target=np.concatenate([light.target, group.target]))
+    rough = short_rule(group.layers, group.creeps, ROOM * alpha_high, solving)
+    search = Search(both, rough[twice], np.concatenate([guess(light), alpha_high]))
+    low, high = np.split(search.middle + RANGE * search.place, 2)
+    alive = search.alive.reshape(2, -1).all(axis=0) & (high >= low)
+    centre, half = 0.5 * (low + high), 0.5 * np.maximum(high - low, 0.0) + _MARGIN
+    widest = np.exp(centre + half)
+    rows = np.flatnonzero(alive & fits(group, widest, solving))
+    if rows.size == 0:
+        return None
+    group, widest = group[rows], widest[rows]
+    rule = short_rule(group.layers, group.creeps, widest, solving)
+    check = short_rule(group.layers, group.creeps, widest, checking, rule.unit)
+    return _Sampler(
+        group, lowest[rows], centre[rows], half[rows], rule, check, solving.error, rows, narrow=True
+    )
+
+
+def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | NoSolutionError:
+    """A scene that is not plainly narrow, between the general solver's half widths: it knows splits and wraps."""
+    highest = problem.pressure
+    try:
+        ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
+        low, high = np.log([s.half_width * problem.rho for s in ends])
+        if any(len(s.patches) > 1 for s in ends):
+            return NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
+        if wraps(ends[1]):
+            return NoSolutionError(
+                f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
+                "the roll for a load curve, solve such loads one by one"
+            )
+        centre, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN
+        group = Group.of([problem], [instantly_relaxed(problem.creep)])
+        layer, widest = problem.layer, float(np.exp(centre + half))
+        rule, check = (full_rule(build_rule(layer, group.given[0], widest, p)) for p in (SOLVE, CHECK))
+    except NoSolutionError as error:
+        return error
+    one = np.zeros(1, dtype=int)
+    sampler = _Sampler(
+        group,
+        np.array([lowest]),
+        np.array([centre]),
+        np.array([half]),
+        rule,
+        check,
+        ROUNDING,
+        one,
+        narrow=False,
+    )
+    return sampler.curves(rtol)[0]
+
+
 @dataclass(frozen=True, eq=False)
-class _Batch:
+class _Sampler:
     """Scenes whose half widths at both ends are known; `rows` are their places in the chunk."""
 
     group: Group
@@ -130,107 +287,179 @@ class _Batch:
     half: Array
     rule: ShortRule
     check: ShortRule
-    floor: float
+    floor: float  # of the error, by the rule
     rows: Index
+    narrow: bool  # a strip that may touch elsewhere is left to the general solver
 
-    @classmethod
-    def of(cls, group: Group, log_lowest: Array, rtol: float) -> _Batch | None:
-        """Half widths of the lightest and the heaviest loads; None where no scene of the chunk is narrow."""
-        solving, checking = grades_for(rtol)
-        size = log_lowest.size
-        alpha_high = guess(group)
-        light = replace(group, target=log_lowest)
-        both = replace(group[np.tile(np.arange(size), 2)], target=np.concatenate([log_lowest, group.target]))
-        rough = short_rule(group.layers, group.creeps, ROOM * alpha_high, solving)
-        search = Search(both, rough[np.tile(np.arange(size), 2)], np.concatenate([guess(light), alpha_high]))
-        ends = search.middle + RANGE * search.place
-        low, high = ends[:size], ends[size:]
-        alive = search.alive[:size] & search.alive[size:] & (high >= low)
-        centre, half = 0.5 * (low + high), 0.5 * np.maximum(high - low, 0.0) + MARGIN
-        widest = np.exp(centre + half)
-        rows = np.flatnonzero(alive & fits(group, widest, solving))
-        if rows.size == 0:
-            return None
-        group, widest = group[rows], widest[rows]
-        rule = short_rule(group.layers, group.creeps, widest, solving)
-        check = short_rule(group.layers, group.creeps, widest, checking, rule.unit)
-        return cls(group, log_lowest[rows], centre[rows], half[rows], rule, check, solving.error, rows)
-
-    def curves(self, rtol: float) -> dict[int, LoadCurve]:
-        """Raise order and degree until each curve meets rtol; those that need more, or pull, are left out."""
+    def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
+        """Curves by row; why there is none, or nothing where another way may have one."""
+        found: dict[int, LoadCurve | NoSolutionError] = {}
+        n = ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
         waiting = np.arange(self.rows.size)
-        found: dict[int, LoadCurve] = {}
-        for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 :]:
-            coarse: list[Index] = []
-            for n in NARROW_ORDERS[0 if rtol >= LOW_ORDER_FROM else 1 :]:
-                if waiting.size:
-                    waiting, missed = self._sampled(n, degree, waiting, rtol, found)
-                    coarse.append(missed)
-            waiting = np.concatenate(coarse) if coarse else waiting[:0]
+        for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 3 if self.narrow else None]:
+            if waiting.size == 0:
+                break
+            first = self._sample(waiting, points(degree), n)
+            for row in waiting[~first.valid]:
+                found[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
+            first = first[np.flatnonzero(first.valid)]
+            waiting = first.rows
+            if waiting.size == 0:
+                break
+            miss = missed(first.contact, np.repeat(self.group.rho[waiting], degree + 1), degree)
+            enough = (miss <= rtol) | (degree == _DEGREES[-1])
+            if enough.any():
+                self._settle(first[np.flatnonzero(enough)], miss[enough], rtol, found)
+            waiting = waiting[~enough]
         return found
 
-    def _sampled(
-        self, n: int, degree: int, rows: Index, rtol: float, found: dict[int, LoadCurve]
-    ) -> tuple[Index, Index]:
-        """Sample some rows; curves that meet rtol go into `found`, rows that need a higher order or degree go back."""
-        count = degree + 1
-        alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * points(degree)).ravel()
-        every = np.repeat(rows, count)
-        rho, creeps = self.group.rho[every], self.group.creeps[every]
+    def _sample(self, rows: Index, t: Array, n: int) -> _Batch:
+        """Contacts of order n of some rows at places t of their half width."""
+        alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
+        every = np.repeat(rows, t.size)
+        creeps = self.group.creeps[every]
         ik = ProductIK(n, alpha[:, None] / creeps.times)
         matrix = assemble(self.rule[every], creeps, alpha, n, ik)
-        contact = equilibrium(matrix, alpha, rho)
-        good = (contact.inside & (contact.pressure > 0.0)).reshape(-1, count).all(axis=1)
-        if not good.any():
-            return rows[:0], rows[:0]
-        if not good.all():
-            keep = np.repeat(good, count)
-            rows, every, rho, creeps = rows[good], every[keep], rho[keep], creeps[keep]
-            contact, matrix = chosen_rows(contact, np.flatnonzero(keep)), matrix[keep]
-            ik = ik[np.flatnonzero(keep)]
-        error = order_error(contact, matrix, rho, _exponent(contact, count)).reshape(-1, count).max(axis=1)
-        by_loss = friction_by_loss(self.check[every], creeps, contact, rho, ik)
-        energy = np.abs(relative_difference(by_loss, contact.friction)).reshape(-1, count).max(axis=1)
-        error = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), self.floor)
-        _, pressing = pulling_and_pressing(contact, max(float(error.max()), SIGN_FLOOR))
-        plainly = (pressing & ~may_touch_elsewhere(contact, rho)).reshape(-1, count).all(axis=1)
-        columns, missed = interpolated(contact, rho, degree)
-        met = error <= rtol
-        for k in np.flatnonzero(met & plainly & (missed <= rtol)):
-            part = chosen_rows(contact, np.arange(k * count, (k + 1) * count))
-            found[int(self.rows[rows[k]])] = self._curve(
-                int(rows[k]), part, columns[k], (max(error[k], missed[k]), energy[k]), n
-            )
-        return np.asarray(rows[~met]), np.asarray(rows[met & plainly & (missed > rtol)])
+        contact = equilibrium(matrix, alpha, self.group.rho[every])
+        valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
+        return _Batch(rows, t.size, contact, matrix, ik, np.asarray(valid))
 
-    def _curve(
-        self, row: int, contacts: Contact, columns: Array, errors: tuple[float, float], n: int
-    ) -> LoadCurve:
+    def _settle(
+        self, first: _Batch, miss: Array, rtol: float, found: dict[int, LoadCurve | NoSolutionError]
+    ) -> None:
+        """Raise the order until each curve meets rtol, at a few of the points where all press plainly."""
+        exponent = _exponents(first)
+        todo = {(first.order, False): list(range(first.rows.size))}
+        while todo:
+            n, thin = min(todo)
+            places = np.array(todo.pop((n, thin)))
+            batch = (
+                first[places]
+                if n == first.order
+                else self._sample(first.rows[places], points(_FEW if thin else first.count - 1), n)
+            )
+            error, energy = self._errors(batch.few(), exponent[places])
+            worst = np.maximum(np.maximum(_BETWEEN * error, energy / ENERGY_OVER_ERROR), self.floor)
+            pulling, pressing = (
+                flags.reshape(-1, batch.count)
+                for flags in pulling_and_pressing(batch.contact, max(float(worst.max()), _SIGN_FLOOR))
+            )
+            for k, place in enumerate(places.tolist()):
+                row = int(first.rows[place])
+                finer = thin and n > first.order
+                sampled = Sampled(first.of(place), batch.of(k)) if finer else Sampled(batch.of(k))
+                left = sampled.left(float(self.group.rho[row]))
+                total = max(float(worst[k]), float(miss[place]) + left)
+                plain = bool(pressing[k].all())
+                key = int(self.rows[row])
+                if not batch.valid[k]:
+                    found[key] = NoSolutionError(Status.WRAP_LIMIT.message)
+                elif pulling[k].any():
+                    found[key] = self._split(row)
+                elif total <= rtol and (plain or n >= SIGN_ORDER):
+                    if not (self.narrow and may_touch_elsewhere(sampled.contacts, self.group.rho[row]).any()):
+                        found[key] = self._curve(row, sampled, (total, float(energy[k])), n)
+                elif n == ORDERS[-1]:
+                    found[key] = _unsettled(total)
+                elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
+                    todo.setdefault((n, False), []).append(place)
+                else:
+                    more = _order_for(n, float(error[k]), float(energy[k]), rtol)
+                    todo.setdefault((more, plain), []).append(place)
+
+    def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array]:
+        """Largest errors by order and by energy of each row."""
+        rho = np.repeat(self.group.rho[batch.rows], batch.count)
+        every = np.repeat(batch.rows, batch.count)
+        error = order_error(batch.contact, batch.matrix, rho, exponent.ravel())
+        by_loss = friction_by_loss(self.check[every], self.group.creeps[every], batch.contact, rho, batch.ik)
+        energy = np.abs(relative_difference(by_loss, batch.contact.friction))
+        return error.reshape(-1, batch.count).max(axis=1), energy.reshape(-1, batch.count).max(axis=1)
+
+    def _split(self, row: int) -> NoSolutionError:
+        lowest, highest = self.lowest[row], self.group.problems[row].pressure
+        return NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
+
+    def _curve(self, row: int, sampled: Sampled, errors: tuple[float, float], n: int) -> LoadCurve:
         problem = self.group.problems[row]
+        matrices = sampled.contacts.alpha.size + (0 if sampled.finer is None else sampled.finer.alpha.size)
+        terms = self.group.given[row].weights.size
         return LoadCurve(
             problem=problem,
-            lowest=float(np.exp(self.lowest[row])),
+            lowest=float(self.lowest[row]),
             highest=problem.pressure,
-            error=float(errors[0]),
-            energy_error=float(errors[1]),
-            stats=SolveStats(
-                n,
-                contacts.alpha.size,
-                self.rule.nodes.shape[-1],
-                self.group.given[row].weights.size,
-                way="curve",
-            ),
+            error=errors[0],
+            energy_error=errors[1],
+            stats=SolveStats(n, matrices, self.rule.nodes.shape[-1], terms, way="curve"),
             _centre=float(self.centre[row]),
             _half=float(self.half[row]),
-            _contacts=contacts,
-            _columns=columns,
+            _sampled=sampled,
         )
 
 
-def _exponent(contact: Contact, count: int) -> Array:
-    """β = d ln μ/d ln p along each curve; zero where nothing is lost."""
-    lossy = contact.friction > 0.0
-    log_mu = np.log(np.where(lossy, contact.friction, 1.0)).reshape(-1, count)
-    log_p = np.log(contact.pressure).reshape(-1, count)
-    beta = np.asarray(np.gradient(log_mu, axis=1)) / np.asarray(np.gradient(log_p, axis=1))
-    return np.where(lossy, beta.ravel(), 0.0)
+@dataclass(frozen=True, eq=False)
+class _Batch:
+    """Contacts of some rows, `count` of each one after the other; `valid` where all of a row are on the roll."""
+
+    rows: Index
+    count: int
+    contact: Contact
+    matrix: Array
+    ik: ProductIK
+    valid: NDArray[np.bool_]
+
+    @property
+    def order(self) -> int:
+        return int(self.matrix.shape[2])
+
+    def _part(self, at: Index, rows: Index, count: int) -> _Batch:
+        return _Batch(
+            self.rows[rows],
+            count,
+            chosen_rows(self.contact, at),
+            self.matrix[at],
+            self.ik[at],
+            self.valid[rows],
+        )
+
+    def __getitem__(self, rows: Index) -> _Batch:
+        return self._part((rows[:, None] * self.count + np.arange(self.count)).ravel(), rows, self.count)
+
+    def few(self) -> _Batch:
+        """At five of the points."""
+        if self.count == _FEW + 1:
+            return self
+        rows, some = np.arange(self.rows.size), np.arange(0, self.count, (self.count - 1) // _FEW)
+        return self._part((rows[:, None] * self.count + some).ravel(), rows, some.size)
+
+    def of(self, k: int) -> Contact:
+        """Contacts of one row."""
+        return chosen_rows(self.contact, np.arange(k * self.count, (k + 1) * self.count))
+
+
+def _exponents(batch: _Batch) -> Array:
+    """β = d ln μ/d ln p at five points of each curve, shape (b, 5); zero where nothing is lost."""
+    friction, pressure = (
+        x.reshape(-1, batch.count) for x in (batch.contact.friction, batch.contact.pressure)
+    )
+    lossy = friction > 0.0
+    log_mu = np.log(np.where(lossy, friction, 1.0))
+    beta = derivative(log_mu) / derivative(np.log(pressure))
+    every = (batch.count - 1) // _FEW
+    exponents: Array = np.where(lossy, beta, 0.0)[:, ::every]
+    return exponents
+
+
+def _order_for(n: int, error: float, energy: float, rtol: float) -> int:
+    """The order to go on with: the error falls like n^-3 or faster, that by energy like n^-2 to n^-2.6."""
+    enough = n * max(
+        (_BETWEEN * error / rtol) ** (1.0 / 3.0), (energy / ENERGY_OVER_ERROR / rtol) ** (1.0 / 2.4)
+    )
+    return next((order for order in ORDERS if n < order >= enough), ORDERS[-1])
+
+
+def _unsettled(error: float) -> NoSolutionError:
+    return NoSolutionError(
+        f"the load curve reached a relative error of {error:.1e} only: "
+        "ask for a larger rtol or fewer decades of load"
+    )

@@ -6,16 +6,22 @@ panels and the same closed half-space products, so that a fault of window, quadr
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.belt import Belt
 from conveyor.contact.bessel import ProductIK, bessel_j
-from conveyor.contact.problem import Creeps, CreepSpectrum
-from conveyor.contact.quadrature import Rule
+from conveyor.contact.creep import Creeps, CreepSpectrum
+from conveyor.contact.layers import Creep
+from conveyor.contact.quadrature import Rule, series_rule
 from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.spectral import Contact
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 
 def friction_by_loss(
@@ -28,6 +34,47 @@ def friction_by_loss(
     """μ = τ̃_m/p̃_m from the loss compliance, shape (b,); `ik` are the contacts' Bessel products where known."""
     friction: Array = 2.0 * rho * loss(rule, creep, contact, ik) / contact.pressure
     return friction
+
+
+Strip = tuple[float, float, Array]
+"""Centre and half width, lengths X, and coefficients of a strip of a contact."""
+
+
+def spectrum(m: Array, strips: Sequence[Strip]) -> ComplexArray:
+    """p̃̂_m of a contact's strips together, shape of m."""
+    out = np.zeros(m.size, dtype=complex)
+    for centre, alpha, c in strips:
+        v = np.arange(1, c.size + 1)
+        amplitude = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
+        out += np.exp(-1j * m * centre) * (amplitude @ bessel_j(c.size, m * alpha)[1:]) / m
+    return out
+
+
+def width(strips: Sequence[Strip]) -> float:
+    """Distance X of the outer edges."""
+    return max(x + alpha for x, alpha, _ in strips) - min(x - alpha for x, alpha, _ in strips)
+
+
+@dataclass(frozen=True)
+class _Losses:
+    """What a belt's top cover and carcass lose, as real and imaginary part of a symbol."""
+
+    belt: Belt
+
+    @property
+    def reach(self) -> float:
+        return self.belt.reach
+
+    def symbol(self, m: Array, creep: Creep) -> ComplexArray:
+        top, carcass = self.belt.losses(m, creep)
+        return top + 1j * carcass
+
+
+def belt_losses(belt: Belt, creep: CreepSpectrum, strips: Sequence[Strip]) -> tuple[float, float]:
+    """What of Σ_{m≥1} Im S_m |p̃̂_m|² a belt's top cover and its carcass take."""
+    m, weights = series_rule(_Losses(belt), creep, span=width(strips), end=belt.reach)
+    lost = complex(np.sum(weights * m * np.abs(spectrum(m, strips)) ** 2))
+    return lost.real, lost.imag
 
 
 def loss(

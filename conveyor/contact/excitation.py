@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.energy import Strip, spectrum, width
 from conveyor.contact.layers import Layer
-from conveyor.contact.problem import CreepSpectrum
 from conveyor.contact.quadrature import series_rule
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ def _many_harmonics(layer: Layer, creep: CreepSpectrum, end: float) -> tuple[Arr
 def excited_harmonics(
     layer: Layer,
     creep: CreepSpectrum,
-    strips: Sequence[tuple[float, float, Array]],
+    strips: Sequence[Strip],
     shares: Sequence[float] = SHARES,
 ) -> Array:
     """Harmonics m below which the given shares of the loss lie, shape of `shares`.
@@ -51,8 +51,7 @@ def excited_harmonics(
     shares : sequence of float
         Ascending, in (0, 1) [-].
     """
-    edges = [(centre - alpha, centre + alpha) for centre, alpha, _ in strips]
-    span = max(high for _, high in edges) - min(low for low, _ in edges)
+    span = width(strips)
     narrowest = min(alpha for _, alpha, _ in strips)
     end = _REACH / narrowest
     m, weights = (
@@ -60,12 +59,8 @@ def excited_harmonics(
         if span < _NARROW
         else series_rule(layer, creep, span=span, end=end)
     )
-    spectrum = np.zeros(m.size, dtype=complex)
-    for centre, alpha, c in strips:
-        v = np.arange(1, c.size + 1)
-        amplitude = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
-        spectrum += np.exp(-1j * m * centre) * (amplitude @ bessel_j(c.size, m * alpha)[1:]) / m
-    lost = weights.imag * m * (spectrum.real**2 + spectrum.imag**2)
+    wave = spectrum(m, strips)
+    lost = weights.imag * m * (wave.real**2 + wave.imag**2)
     order = np.argsort(m)
     lost = lost[order]
     middle = np.cumsum(lost) - 0.5 * lost  # a node stands for what lies to both sides of it

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.bessel import bessel_j
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.energy import Strip
 from conveyor.contact.grid import GridContact
 from conveyor.contact.layers import Layer
-from conveyor.contact.problem import CreepSpectrum
 from conveyor.contact.quadrature import build_rule, series_rule
 from conveyor.contact.spectral import Contact, penetration
 
@@ -52,6 +53,12 @@ class SpectralFields:
     contact: Contact
     rho: float
     known_depth: float | None = None
+
+    @property
+    def strips(self) -> list[Strip]:
+        """Centre, half width and coefficients of every strip."""
+        contact = self.contact
+        return list(zip(contact.eps.tolist(), contact.alpha.tolist(), contact.c, strict=True))
 
     def depth(self) -> float:
         """Δ/R, formed now unless known."""

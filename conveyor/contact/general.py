@@ -120,7 +120,7 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
 
 def _scale(scene: Scene, friction: float) -> float:
     """What errors of friction are relative to; one where the layer is elastic and friction is zero."""
-    return abs(friction) if scene.creep.weights.size and friction else 1.0
+    return abs(friction) if scene.lossy and friction else 1.0
 
 
 def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) -> Found:

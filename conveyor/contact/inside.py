@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from scipy import fft, special
 
 from conveyor.contact.bessel import bessel_j
+from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layer_shapes import Shapes, confined_shapes, free_shapes, half_space_shapes
 from conveyor.contact.layers import Confined, Creep, Free, HalfSpace
-from conveyor.contact.problem import CreepSpectrum
 from conveyor.contact.quadrature import series_rule
 from conveyor.contact.solution import ContactSolution
 from conveyor.errors import InputError

@@ -96,16 +96,12 @@ class Layers:
         """Wave numbers beyond q = m k h = `depth`, shape (b,); zero for the half-space."""
         return np.zeros(self.thickness.size) if self.support == "half-space" else depth / self.thickness
 
-    def factor(self, m: Array) -> Array:
-        """L(m k h), shape (b, k)."""
+    def symbol(self, m: Array, j: ComplexArray) -> ComplexArray:
+        """S_m of rubbers of compliance j(m), shape (b, k)."""
         if self.support == "half-space":
-            return np.ones((self.thickness.size, m.shape[1]))
+            return j
         q = m * self.thickness[:, None]
-        return free_symbol(q) if self.support == "free" else confined_symbol(q, self.poisson[:, None])
-
-    def factor_less_one(self, m: Array) -> Array:
-        """L(m k h) - 1, shape (b, k)."""
-        return self.factor(m) - 1.0
+        return j * (free_symbol(q) if self.support == "free" else confined_symbol(q, self.poisson[:, None]))
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Layers:
         return Layers(self.support, self.thickness[chosen], self.poisson[chosen])
@@ -129,7 +125,7 @@ def free_symbol(q: Array) -> Array:
     decay = np.exp(-2.0 * q)
     numerator = -0.5 * np.expm1(-4.0 * q) + 2.0 * q * decay
     grown = -0.5 * np.expm1(-2.0 * q) + q * np.exp(-q)
-    return numerator / (2.0 * _sinh_minus_scaled(q) * grown)
+    return numerator / (2.0 * sinh_minus_scaled(q) * grown)
 
 
 def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:
@@ -149,13 +145,13 @@ def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:
     """
     kappa = 3.0 - 4.0 * poisson
     decay = np.exp(-2.0 * q)
-    numerator = 2.0 * kappa * _sinh_minus_scaled(2.0 * q) + 8.0 * (1.0 - 2.0 * poisson) * q * decay
+    numerator = 2.0 * kappa * sinh_minus_scaled(2.0 * q) + 8.0 * (1.0 - 2.0 * poisson) * q * decay
     denominator = kappa * (1.0 + decay * decay) + (4.0 * q * q + 1.0 + kappa * kappa) * decay
     return numerator / denominator
 
 
-def _sinh_minus_scaled(x: Array) -> Array:
-    """(sinh x - x) e^{-x}, by its Taylor series below 1 (ten terms: 1e-17 of the first)."""
+def sinh_minus_scaled(x: Array) -> Array:
+    """(sinh x - x) e^{-x} of x ≥ 0, by its Taylor series below 1 (ten terms: 1e-17 of the first)."""
     small = np.minimum(x, _SERIES_BELOW)
     square = small * small
     series = np.ones_like(small)

@@ -107,7 +107,7 @@ def guess(scene: Scene) -> tuple[float, float]:
     if narrow >= widest:
         return math.log(widest), 2.0
     alpha = np.geomspace(narrow, widest, _GUESSES)
-    compliance = np.abs(problem.layer.symbol(1.0 / alpha, creep))
+    compliance = np.abs(problem.layer.symbol(np.maximum(1.0 / alpha, 1.0), creep))
     log_alpha = np.log(alpha)
     log_held = 2.0 * np.log(alpha / (2.0 * rho)) - np.log(compliance)
     if scene.depth is not None:

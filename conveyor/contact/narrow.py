@@ -8,13 +8,14 @@ general ways.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.belt import Belt
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -24,14 +25,13 @@ from conveyor.contact.checks import (
     pulling_and_pressing,
     relative_difference,
 )
+from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
-from conveyor.contact.layers import Layers
 from conveyor.contact.orders import NARROW_ORDERS
-from conveyor.contact.problem import ContactProblem, Creeps, CreepSpectrum, Status
+from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
-    COARSE,
     WIDEST,
     Grade,
     ShortRule,
@@ -42,11 +42,13 @@ from conveyor.contact.short_rule import (
 from conveyor.contact.single import LOAD_FLOOR
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, assemble, equilibrium
+from conveyor.contact.stack import Stack, kind, stacked
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _SEARCH = 8
+_ROUGH = 1e-9  # relative error of eccentricities on the way
 LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
@@ -67,29 +69,19 @@ class Group:
 
     problems: list[ContactProblem]
     given: list[CreepSpectrum]  # as the solver sees them: terms without time are instantaneous
-    layers: Layers
+    layers: Stack
     creeps: Creeps
     rho: Array
     target: Array
 
     @classmethod
     def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> Group:
-        """Scenes of one support; terms are filled up with weights of zero."""
-        terms = max([1, *(creep.weights.size for creep in given)])
-        weights, times = np.zeros((len(given), terms)), np.ones((len(given), terms))
-        for row, creep in enumerate(given):
-            weights[row, : creep.weights.size] = creep.weights
-            times[row, : creep.times.size] = creep.times
-        support = str(problems[0].support)
+        """Scenes of one support; creeps are filled up with terms of weight zero."""
         return cls(
             problems,
             given,
-            Layers(
-                "half-space" if np.isinf(problems[0].thickness) else support,
-                np.array([p.thickness for p in problems]),
-                np.array([p.poisson for p in problems]),
-            ),
-            Creeps(np.array([c.instantaneous for c in given]), weights, times),
+            stacked([p.layer for p in problems], given),
+            Creeps.of(given),
             np.array([p.rho for p in problems]),
             np.log([p.pressure for p in problems]),
         )
@@ -108,13 +100,9 @@ class Group:
 def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | None]:
     """Outcome of every scene that is a plain narrow contact, None of the others; in their order."""
     outcomes: list[Outcome | None] = [None] * len(problems)
-    kinds: dict[tuple[str, bool], list[int]] = {}
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    for i, problem in enumerate(problems):
-        if isinstance(problem.support, str) and plain(problem, creeps[i]):
-            kinds.setdefault((problem.support, np.isinf(problem.thickness)), []).append(i)
     grades = grades_for(rtol)
-    for members in kinds.values():
+    for members in alike(problems, creeps):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         alpha = guess(group)
         half_width = ROOM * alpha
@@ -131,41 +119,21 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
     return outcomes
 
 
-def places(problem: ContactProblem, pressures: Sequence[float]) -> Array | None:
-    """Half widths of one scene under several loads, good to about 1e-4 (order 8); None if not narrow."""
-    creep = instantly_relaxed(problem.creep)
-    if not plain(problem, creep):
-        return None
-    loads = [replace(problem, pressure=p) for p in pressures]
-    group = Group.of(loads, [creep] * len(loads))
-    alpha = guess(group)
-    widest = ROOM * float(alpha.max())
-    if not fits(group, np.full(len(loads), widest), COARSE[0]).all():
-        return None
-    first = group[np.zeros(1, dtype=int)]
-    rule = short_rule(first.layers, first.creeps, np.array([widest]), COARSE[0])
-    search = Search(group, rule.repeated(len(loads)), alpha)
-    return np.exp(search.middle + RANGE * search.place) if search.alive.all() else None
-
-
-def shared_rules(
-    problem: ContactProblem, half_width: float, rtol: float
-) -> tuple[ShortRule, ShortRule] | None:
-    """Rules for solving and checking one scene up to a half width, of one row; None if not narrow."""
-    creep = instantly_relaxed(problem.creep)
-    if not plain(problem, creep):
-        return None
-    group, width = Group.of([problem], [creep]), np.array([half_width])
-    solving, checking = grades_for(rtol)
-    if not fits(group, width, solving).all():
-        return None
-    rule = short_rule(group.layers, group.creeps, width, solving)
-    return rule, short_rule(group.layers, group.creeps, width, checking, rule.unit)
-
-
 def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
-    """Whether the short rules know the scene's layer and can square its retardation numbers."""
-    return isinstance(problem.support, str) and creep.times.max(initial=0.0) < _TIMES
+    """Whether the scene's retardation numbers can be squared."""
+    times = [creep.times]
+    if isinstance(problem.support, Belt):
+        times.append(problem.support.top_creep.times)
+    return all(float(zeta.max(initial=0.0)) < _TIMES for zeta in times)
+
+
+def alike(problems: Sequence[ContactProblem], creeps: Sequence[CreepSpectrum]) -> Iterable[list[int]]:
+    """Places of the scenes that can be solved side by side."""
+    kinds: dict[type, list[int]] = {}
+    for i, (problem, creep) in enumerate(zip(problems, creeps, strict=True)):
+        if plain(problem, creep):
+            kinds.setdefault(kind(problem.layer), []).append(i)
+    return kinds.values()
 
 
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
@@ -180,7 +148,8 @@ def guess(group: Group) -> Array:
     span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
     log_alpha = np.log(narrow)[:, None] + np.linspace(0.0, 1.0, _GUESSES) * span[:, None]
     alpha = np.exp(log_alpha)
-    compliance = np.abs(group.layers.factor(1.0 / alpha) * group.creeps.compliance(1.0 / alpha))
+    m = np.maximum(1.0 / alpha, 1.0)
+    compliance = np.abs(group.layers.symbol(m, group.creeps.compliance(m)))
     log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
     log_load = np.maximum.accumulate(log_load, axis=1)
     # a load beyond the table is no narrow contact: its place is the table's end and it is handed back
@@ -217,7 +186,8 @@ class Search:
         sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
         every = np.repeat(np.arange(size), _SAMPLES)
         rho = group.rho[every]
-        contact = equilibrium(assemble(rule[every], group.creeps[every], sampled, _SEARCH), sampled, rho)
+        matrix = assemble(rule[every], group.creeps[every], sampled, _SEARCH)
+        contact = equilibrium(matrix, sampled, rho, tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
         self.load = (
             np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform

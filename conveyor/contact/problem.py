@@ -19,19 +19,18 @@ eccentricity     ε = k e                        e [m]
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
+from conveyor.contact.belt import Belt
+from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
 
-Array = NDArray[np.float64]
 _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
-_SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
 
 class Status(Enum):
@@ -57,109 +56,22 @@ class Status(Enum):
         return self.value
 
 
-@dataclass(frozen=True, eq=False)
-class CreepSpectrum:
-    """Normalised complex creep compliance j(m) = j∞ + Σ d_t/(1 - i m ζ_t).
-
-    Parameters
-    ----------
-    instantaneous : float
-        j∞ = E0/E∞ [-], in (0, 1].
-    weights : array_like, shape (t,)
-        d_t = E0 J_t [-], positive; j∞ + Σ d_t = 1.
-    times : array_like, shape (t,)
-        ζ_t = V τ_t k [-], retardation (not relaxation) times, zero or positive.
-
-    Raises
-    ------
-    InputError
-        A value outside its range, lengths that differ, or a sum other than one.
-
-    Examples
-    --------
-    >>> CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0]).compliance(np.array([1.0]))
-    array([0.55+0.45j])
-    """
-
-    instantaneous: float
-    weights: Array = field(default_factory=lambda: np.empty(0))
-    times: Array = field(default_factory=lambda: np.empty(0))
-
-    def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
-        d = np.array(weights, dtype=float, ndmin=1)
-        z = np.array(times, dtype=float, ndmin=1)
-        if d.ndim != 1 or d.shape != z.shape:
-            raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
-        if not np.all(np.isfinite(d) & (d > 0.0)):
-            raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
-        if not np.all(np.isfinite(z) & (z >= 0.0)):
-            raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
-        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
-            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
-        if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
-            raise InputError(
-                f"instantaneous + sum(weights) = {instantaneous + d.sum():.12g}: must be 1 "
-                "(compliances are in units of the rubbery compliance 1/E0)"
-            )
-        for array in (d, z):
-            array.flags.writeable = False
-        object.__setattr__(self, "instantaneous", float(instantaneous))
-        object.__setattr__(self, "weights", d)
-        object.__setattr__(self, "times", z)
-
-    def compliance(self, m: Array) -> NDArray[np.complex128]:
-        """j(m) at wave numbers m [-], shape of m."""
-        out = np.full(m.shape, self.instantaneous, dtype=complex)
-        if self.weights.size:
-            mz = np.multiply.outer(m, self.times)
-            with np.errstate(over="ignore"):  # 1/(1 + z²) of z = 1e200 is zero, to rounding
-                real = 1.0 / (1.0 + mz * mz)
-            out.real += real @ self.weights
-            real *= mz
-            out.imag = real @ self.weights
-        return out
-
-
-@dataclass(frozen=True, eq=False)
-class Creeps:
-    """Creep spectra of several scenes side by side (internal to the solver): terms of weight zero fill the gaps.
-
-    Shapes: `instantaneous` (b,), `weights` and `times` (b, t), every time positive.
-    """
-
-    instantaneous: Array
-    weights: Array
-    times: Array
-
-    def compliance(self, m: Array) -> NDArray[np.complex128]:
-        """j(m) of each scene at its wave numbers m, shape (b, k), or at those of all, shape (1, k)."""
-        x = m[:, :, None] * self.times[:, None, :]
-        real = 1.0 / (1.0 + x * x)
-        out = np.empty(x.shape[:2], dtype=complex)
-        out.real = (real @ self.weights[:, :, None])[..., 0] + self.instantaneous[:, None]
-        real *= x
-        out.imag = (real @ self.weights[:, :, None])[..., 0]
-        return out
-
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Creeps:
-        return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])
-
-
 @dataclass(frozen=True)
 class ContactProblem:
     """A viscoelastic layer rolling over periodic rigid cylinders, pressed on by a mean pressure.
 
     Parameters
     ----------
-    support : "free", "confined", "half-space" or Layer
+    support : "free", "confined", "half-space", Belt or Layer
         Far face of the layer: loaded but free to bend (the paper's belt), bonded to a rigid plane (a cover on a
-        stiff carcass), or infinitely far. Any object with the methods of `Layer` brings its own symbol.
+        stiff carcass), or infinitely far; or the belt itself, whose thicknesses are its own. Any object with the
+        methods of `Layer` brings its own symbol.
     radius : float
         R/λ [-], in (0, 0.5].
     pressure : float
         p̃_m = 2(1-ν²) p_m/(E0 k R) [-], positive; p_m is the load per roll and width over the spacing.
     creep : CreepSpectrum
-        Normalised creep compliance.
+        Normalised creep compliance of the layer, of a belt's bottom cover.
     thickness : float
         k h [-], positive, infinity allowed.
     poisson : float
@@ -179,6 +91,8 @@ class ContactProblem:
     poisson: float = 0.5
 
     def __post_init__(self) -> None:
+        if isinstance(self.support, Belt) and self.poisson != 0.5:
+            raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
         if isinstance(self.support, str) and self.support not in _SUPPORTS:
             raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
         if not isinstance(self.support, str) and not all(

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import Layer
-from conveyor.contact.problem import CreepSpectrum
 from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]

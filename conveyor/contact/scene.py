@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.problem import ContactProblem, CreepSpectrum
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.layers import Confined, Free, HalfSpace
+from conveyor.contact.problem import ContactProblem
 from conveyor.contact.quadrature import Rule, build_rule
 from conveyor.contact.spectral import Contact, assemble, penetration
 
@@ -41,6 +43,13 @@ class Scene:
     def of(cls, problem: ContactProblem, depth: float | None = None) -> Scene:
         """Scene of a problem; terms with ζ = 0 are instantaneous."""
         return cls(problem, instantly_relaxed(problem.creep), depth)
+
+    @property
+    def lossy(self) -> bool:
+        """Whether anything may lose energy: an elastic scene has no friction but rounding."""
+        return bool(self.creep.weights.size) or not isinstance(
+            self.problem.layer, (HalfSpace, Free, Confined)
+        )
 
     @property
     def target(self) -> float:

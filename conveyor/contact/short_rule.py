@@ -8,7 +8,7 @@ whole window [0, 2 m0] only, so the functional
 is carried over to K Gauss nodes by interpolation: one weight a node, the symbol's integers, window, poles and decades
 of slow retardation terms all inside the weights. On [0, 1] a term with ζ > ¼ is integrated exactly against Legendre
 polynomials, ∫ P_l/(1-imζ) dm = 2 Q_l(z)/(iζ), z = -1 - 2i/ζ (Neumann's integral, A&S 8.8.3). Beyond the window the
-layer's part (L-1) j is left, on Gauss panels of each scene's own.
+layer's part S - j is left, on Gauss panels of each scene's own.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from conveyor.contact.layers import Layers
-from conveyor.contact.problem import Creeps
+from conveyor.contact.creep import Creeps
+from conveyor.contact.quadrature import Rule
+from conveyor.contact.stack import Stack
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -83,6 +84,12 @@ class ShortRule:
         return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen])
 
 
+def full_rule(rule: Rule) -> ShortRule:
+    """One scene's full rule as a batch of one."""
+    empty = np.empty((1, 0), dtype=complex)
+    return ShortRule(rule.nodes[None], rule.weights[None], np.array([rule.half_width]), empty)
+
+
 @dataclass(frozen=True, eq=False)
 class _Window:
     """What does not depend on the scene: places in the window and their interpolation to K coarse nodes."""
@@ -140,7 +147,7 @@ def _window(grade: Grade, count: int) -> _Window:
 
 
 def short_rule(
-    layers: Layers, creeps: Creeps, half_width: Array, grade: Grade, unit: ComplexArray | None = None
+    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, unit: ComplexArray | None = None
 ) -> ShortRule:
     """Rules of b scenes, each valid for contacts up to its half width α [-], at most 0.5.
 
@@ -154,7 +161,7 @@ def short_rule(
     window = _window(grade, count)
     inner = np.concatenate([window.integers, window.panels])
     j = creeps.compliance(inner[None, :])
-    symbol = layers.factor(inner[None, :]) * j
+    symbol = layers.symbol(inner[None, :], j)
     cut = window.integers.size
     fine = np.empty((half_width.size, window.spread.shape[0]), dtype=complex)
     unit = _unit_weights(creeps, window) if unit is None else unit
@@ -171,9 +178,9 @@ def short_rule(
 
 
 def _beyond(
-    layers: Layers, creeps: Creeps, half_width: Array, grade: Grade, end: float
+    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, end: float
 ) -> tuple[Array, ComplexArray] | None:
-    """Panels from the window's end to the layer's reach, (L-1) j; scenes with fewer panels get empty ones."""
+    """Panels from the window's end to the layer's reach, S - j; scenes with fewer panels get empty ones."""
     reach = layers.reach(grade.depth)
     if float(reach.max()) <= end:
         return None
@@ -187,7 +194,8 @@ def _beyond(
     half = 0.5 * np.diff(bounds, axis=1)[:, :, None]
     m = (bounds[:, :-1, None] + half * (x + 1.0)).reshape(half_width.size, -1)
     measure = (half * gauss).reshape(half_width.size, -1)
-    return m, measure * layers.factor_less_one(m) * creeps.compliance(m) / m
+    j = creeps.compliance(m)
+    return m, measure * (layers.symbol(m, j) - j) / m
 
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:

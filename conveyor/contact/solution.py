@@ -10,6 +10,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.contact.belt import Belt
+from conveyor.contact.energy import belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
 from conveyor.contact.problem import ContactProblem, Status
@@ -217,14 +219,30 @@ class ContactSolution:
         NoSolutionError
             Nothing is lost (an elastic layer), or the contact is known on a grid only.
         """
+        fields = self._lossy("excitation")
+        return excited_harmonics(fields.layer, fields.creep, fields.strips, shares)
+
+    @cached_property
+    def loss_shares(self) -> dict[str, float]:
+        """Shares of the loss [-], sum 1: of bottom_cover, top_cover and carcass; a single layer is the bottom cover.
+
+        Raises
+        ------
+        NoSolutionError
+            Nothing is lost (an elastic belt), or the contact is known on a grid only.
+        """
+        fields, top, carcass = self._lossy("loss_shares"), 0.0, 0.0
+        if isinstance(fields.layer, Belt):
+            whole = self.friction * self._need().mean_pressure / (2.0 * self.problem.rho)
+            lost = belt_losses(fields.layer, fields.creep, fields.strips)
+            top, carcass = lost[0] / whole, lost[1] / whole
+        return {"bottom_cover": 1.0 - top - carcass, "top_cover": top, "carcass": carcass}
+
+    def _lossy(self, asked: str) -> SpectralFields:
         fields = self._need().fields
         if self.friction == 0.0 or not isinstance(fields, SpectralFields):
-            raise NoSolutionError(
-                "excitation: no loss, or a contact that is known on a grid only, has no band"
-            )
-        contact = fields.contact
-        strips = list(zip(contact.eps.tolist(), contact.alpha.tolist(), contact.c, strict=True))
-        return excited_harmonics(fields.layer, fields.creep, strips, shares)
+            raise NoSolutionError(f"{asked}: no loss, or a contact that is known on a grid only, has none")
+        return fields
 
     def pressure(self, x: ArrayLike) -> Array:
         """Contact pressure p̃ at x/R about the roll's axis; zero outside the contact; shape of x."""

@@ -18,12 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.bessel import ProductIK, bessel_j
-from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients
-from conveyor.contact.problem import Creeps, CreepSpectrum
+from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients, slope_expansion
+from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.short_rule import ShortRule
 
 Array = NDArray[np.float64]
+
+_SETTLED = 1e-14  # relative, of the eccentricity
+_NEAR = 0.7  # (a + |e|)/R up to which one step may find it
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +99,9 @@ def assemble(
     return matrix
 
 
-def equilibrium(matrix: Array, alpha: Array, rho: Array | float, eps: Array | None = None) -> Contact:
+def equilibrium(
+    matrix: Array, alpha: Array, rho: Array | float, eps: Array | None = None, tolerance: float = _SETTLED
+) -> Contact:
     """Pressure and eccentricity of contacts of given half width.
 
     Parameters
@@ -108,28 +113,76 @@ def equilibrium(matrix: Array, alpha: Array, rho: Array | float, eps: Array | No
     rho : float or ndarray, shape (b,)
         k R [-].
     eps : ndarray, shape (b,), optional
-        Start of Newton's iteration; the parabola's eccentricity without it.
+        About the eccentricity; the parabola's without it.
+    tolerance : float
+        Relative error of the eccentricity that may be left [-].
 
     Returns
     -------
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    inverse = np.asarray(np.linalg.inv(matrix[:, 1:, :]), dtype=np.float64)
-    row = (matrix[:, :1, :] @ inverse)[:, 0]
-    eps, inside = eccentricity(row, alpha, rho, alpha * row[:, 0] if eps is None else eps)
-    safe = np.where(inside, alpha, 0.5 * rho)
-    return figures(inverse, safe, np.where(inside, eps, 0.0), rho, inside)
+    n = matrix.shape[2]
+    radius = np.zeros(alpha.shape) + rho
+    if eps is None:
+        unit = np.zeros((n, 1))
+        unit[0] = 1.0
+        eps = alpha * (matrix[:, :1] @ np.linalg.solve(matrix[:, 1:], unit))[:, 0, 0]
+    reach = (alpha + np.abs(eps)) / radius
+    near = reach < _NEAR
+    near_eps = np.where(near, eps, 0.0)
+    near_alpha = np.where(near, alpha, 0.5 * radius)
+    slope, c, step = _balanced(matrix, near_alpha, near_eps, radius)
+    place = near_eps + step
+    # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
+    left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
+    settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
+    contact = pressed(c, slope, (near_alpha, place), radius)
+    if settled.all():
+        return contact
+    rows = np.flatnonzero(~settled)
+    found = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
+    for name in ("alpha", "eps", "c", "pressure", "friction", "inside"):
+        getattr(contact, name)[rows] = getattr(found, name)
+    return contact
 
 
-def figures(
-    inverse: Array, alpha: Array, eps: Array, rho: Array | float, inside: NDArray[np.bool_] | None = None
-) -> Contact:
-    """Coefficients, load and friction of contacts of known place; `inverse` is that of rows 1 … n, shape (b, n, n)."""
-    n = inverse.shape[1]
-    slope = slope_coefficients(alpha, eps, rho, n + 2)
-    contact = pressed((inverse @ slope[:, 1 : n + 1, None])[..., 0], slope, (alpha, eps), rho)
-    return contact if inside is None else replace(contact, inside=inside)
+def _balanced(matrix: Array, alpha: Array, eps: Array, radius: Array) -> tuple[Array, Array, Array]:
+    """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step."""
+    n = matrix.shape[2]
+    slopes = slope_expansion(alpha, eps, radius, n + 2)
+    answers = np.linalg.solve(matrix[:, 1:], slopes[:, 1 : n + 1])
+    miss, rise, bend = ((matrix[:, :1] @ answers)[:, 0] - slopes[:, 0]).T
+    step = -miss / rise
+    for _ in range(2):
+        step = -(miss + 0.5 * bend * step * step) / rise
+    powers = np.stack([np.ones_like(step), step, 0.5 * step * step], axis=1)[:, :, None]
+    return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
+
+
+def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:
+    """Contacts whose eccentricity is far from where the search starts."""
+    row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
+    eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
+    safe, eps = np.where(inside, alpha, 0.5 * radius), np.where(inside, eps, 0.0)
+    n = matrix.shape[2]
+    slope = slope_coefficients(safe, eps, radius, n + 2)
+    c = np.asarray(np.linalg.solve(matrix[:, 1:], slope[:, 1 : n + 1, None])[..., 0], dtype=np.float64)
+    return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
+
+
+def of_order(
+    matrix: Array, n: int, contact: Contact, rho: Array | float
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Friction and load at the half widths of contacts of a higher order, and whether there is a contact; (b,) each.
+
+    To second order in the shift of the eccentricity.
+    """
+    radius = np.zeros(contact.alpha.shape) + rho
+    slope, c, step = _balanced(matrix[:, : n + 1, :n], contact.alpha, contact.eps, radius)
+    lower = pressed(c, slope, (contact.alpha, contact.eps + step), radius)
+    inside = (contact.alpha + np.abs(lower.eps) < radius) & (lower.pressure > 0.0)
+    return lower.friction, lower.pressure, inside
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:

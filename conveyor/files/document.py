@@ -8,6 +8,7 @@ import re
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -86,17 +87,30 @@ class Document:
         of_key : bool
             Point at the key instead of the value.
         """
-        place, node = _place(self.root), self.root
+        known: Location = ()
         for part in location:
+            down = next((way for way in ((*known, part), (*known, str(part))) if way in self._places), known)
+            known = down
+        of_value, of_its_key = self._places[known]
+        return of_its_key if of_key else of_value
+
+    @cached_property
+    def _places(self) -> dict[Location, tuple[Place, Place]]:
+        """Places of every value and of its key, by location."""
+        places: dict[Location, tuple[Place, Place]] = {}
+        nodes: list[tuple[Location, Node, Node]] = [((), self.root, self.root)]
+        while nodes:
+            location, key, node = nodes.pop()
+            of_key = _place(key)
+            places[location] = (_place(node) if key is node or _is_written(node) else of_key), of_key
             if isinstance(node, MappingNode):
-                pair = next(((k, v) for k, v in node.value if k.value == str(part)), None)
-                if pair is not None:
-                    node = pair[1]
-                    place = _place(node if _is_written(node) and not of_key else pair[0])
-            elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.value):
-                node = node.value[part]
-                place = _place(node)
-        return place
+                written: dict[str, tuple[Node, Node]] = {}
+                for k, v in node.value:
+                    written.setdefault(str(k.value), (k, v))
+                nodes += [((*location, name), k, v) for name, (k, v) in written.items()]
+            elif isinstance(node, SequenceNode):
+                nodes += [((*location, i), item, item) for i, item in enumerate(node.value)]
+        return places
 
 
 def _is_written(node: Node) -> bool:

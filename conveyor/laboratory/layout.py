@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -34,6 +35,7 @@ class Table:
     rows: tuple[Line, ...]
     blocks: tuple[int, ...]
     metadata: dict[str, str]
+    metadata_rows: dict[str, int]
     notes: tuple[str, ...]
 
 
@@ -115,8 +117,17 @@ def find_table(grid: Grid) -> Table:
         notes.append(
             f"{len(silent)} row(s) of numbers are marked as remarks and not read, first row {silent[0]}"
         )
-    metadata = dict(_metadata(grid, starts[0]))
-    return Table(grid, first.number, columns, tuple(rows), tuple(blocks), metadata, tuple(notes))
+    said = list(_metadata(grid, starts[0]))
+    return Table(
+        grid,
+        first.number,
+        columns,
+        tuple(rows),
+        tuple(blocks),
+        {key: value for key, value, _ in said},
+        {key: row for key, _, row in said},
+        tuple(notes),
+    )
 
 
 def _headers(grid: Grid) -> list[int]:
@@ -192,18 +203,18 @@ def _body(grid: Grid, start: int, end: int, *, last_block: bool) -> tuple[list[L
     return lines[:stop], lines[stop:]
 
 
-def _metadata(grid: Grid, header: int) -> Iterator[tuple[str, str]]:
-    """`key: value` of remark lines anywhere and of lines before the header, and rows of two cells there."""
+def _metadata(grid: Grid, header: int) -> Iterator[tuple[str, str, int]]:
+    """`key: value` (or `=`) of remark lines anywhere and of lines before the header, rows of two cells there; line."""
     for position, line in enumerate(grid.lines):
         if not line.comment and position >= header:
             continue
         if position == header:
             continue
-        key, colon, value = line.text.partition(":")
-        if colon and value.strip() and "\t" not in key and ";" not in key:
-            yield key.strip(), value.strip(" \t;,")
+        key, mark, value = (*re.split("([:=])", line.text, maxsplit=1), "", "")[:3]
+        if mark and value.strip() and "\t" not in key and ";" not in key:
+            yield key.strip(), value.strip(" \t;,"), line.number
         elif not line.comment and len(line.cells) == 2 and not is_number(line.cells[0]):
-            yield line.cells[0].rstrip(": "), line.cells[1]
+            yield line.cells[0].rstrip(": "), line.cells[1], line.number
 
 
 def _no_table(grid: Grid, headers: Sequence[int]) -> Exception:

@@ -156,3 +156,28 @@ def to_tensile(table: Table, used: tuple[Series, ...], poisson_ratio: float) -> 
                 header=first.header,
             )
     return 1.0, "the moduli are taken as tensile (E): a shear modulus is named G' or shear"
+
+
+def equivalent_strain(shear: FloatArray, poisson_ratio: float) -> tuple[FloatArray, str]:
+    """Tensile strain that stores as much energy as a shear strain.
+
+    Parameters
+    ----------
+    shear : numpy.ndarray
+        Amplitude gamma, shape `(n,)` [-].
+    poisson_ratio : float
+        Of the rubber, 0 to 0.5 [-].
+
+    Returns
+    -------
+    tuple
+        gamma/sqrt(2 (1 + nu)), shape `(n,)` [-], and the sentence that says why [-].
+
+    Notes
+    -----
+    E epsilon^2 = G gamma^2 with E = 2 (1 + nu) G. At nu = 0.5 it is gamma/sqrt(3), the equivalent strain
+    sqrt(2/3 e:e) of simple shear, in which `conveyor.contact.interior` counts the strain of a cover.
+    """
+    factor = 1.0 / np.sqrt(2.0 * (1.0 + poisson_ratio))
+    note = f"shear strain: the tensile one of equal energy is gamma/sqrt(2 (1 + nu)) = {factor:.4g} gamma"
+    return factor * shear, note

@@ -19,7 +19,7 @@ from conveyor.laboratory.columns import Question, Series, check_units, column_la
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
 from conveyor.laboratory.layout import EXAMPLE, Table, find_table, has_table
-from conveyor.laboratory.moduli import Moduli, dynamic_moduli, to_tensile
+from conveyor.laboratory.moduli import Moduli, dynamic_moduli, equivalent_strain, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
 from conveyor.laboratory.separated import text_grid
@@ -176,6 +176,9 @@ def _quantities(
     columns = {q: series[q].values for q in ("frequency", "temperature", "strain", "time") if q in series}
     tensile, notes = _tensile(table, series, moduli, poisson_ratio)
     columns |= tensile
+    if "strain" in columns and moduli is not None and moduli.storage_from.meaning.letter == "G":
+        columns["strain"], note = equivalent_strain(columns["strain"], poisson_ratio)
+        notes.append(note)
     for quantity in ("a_T", "b_T"):
         if quantity in series:
             found = series[quantity]
@@ -326,6 +329,7 @@ def _assembled(
         group=None if found.group is None else _frozen_labels(found.group[order]),
         row_numbers=_frozen_labels(rows[order]),
         metadata=MappingProxyType(table.metadata),
+        metadata_rows=MappingProxyType(table.metadata_rows),
         understood=(),
         source=f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path),
     )

@@ -122,6 +122,8 @@ class DmaData:
         Line or row of each row in the file, shape `(n,)` [-].
     metadata : mapping of str
         `key: value` lines [-].
+    metadata_rows : mapping of int
+        Where they stand [-].
     understood : tuple of str
         One sentence for each decision [-].
     source : str
@@ -142,6 +144,7 @@ class DmaData:
     group: IntArray | None
     row_numbers: IntArray
     metadata: Mapping[str, str]
+    metadata_rows: Mapping[str, int]
     understood: tuple[str, ...]
     source: str
 

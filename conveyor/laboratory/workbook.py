@@ -7,8 +7,10 @@ import io
 import warnings
 import zipfile
 import zlib
+from collections.abc import Iterator
 from typing import Any, Final
 
+from conveyor.errors import InputError
 from conveyor.laboratory.cells import Grid, Line, refusal
 from conveyor.laboratory.decimals import DATE_MARK, PERCENT_MARK
 
@@ -16,6 +18,11 @@ MAGIC = b"PK\x03\x04"
 """First bytes of a zip archive, which an .xlsx file is."""
 LARGEST_CONTENT: Final = 100_000_000
 """Bytes of all parts together; a sheet of a million rows unpacks to about as many."""
+MOST_CELLS: Final = 1_000_000
+"""Cells of a sheet that hold something."""
+LAST_ROW: Final = 1_048_576
+LAST_COLUMN: Final = 16_384
+"""Of a sheet of .xlsx, ECMA-376."""
 
 
 _DAMAGE = (
@@ -76,6 +83,8 @@ def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
                 return tuple(_grid(sheet, f"{name}[{sheet.title}]") for sheet in book.worksheets)
             finally:
                 book.close()
+        except InputError:
+            raise
         except _DAMAGE:
             raise refusal(
                 name,
@@ -96,17 +105,57 @@ def _unpacked(data: bytes) -> int:
 
 
 def _grid(sheet: Any, name: str) -> Grid:
-    lines = []
-    for number, row in enumerate(sheet.iter_rows(), start=1):
-        cells = [_text(cell) for cell in row]
-        while cells and not cells[-1]:
-            cells.pop()
-        if cells:
-            comment = cells[0].startswith("#")
-            if comment:
-                cells[0] = cells[0].lstrip("# ")
-            lines.append(Line(number, tuple(cells), " ".join(filter(None, cells)), comment))
+    with sheet._get_source() as source:  # noqa: SLF001
+        if source.read().count(b"<c") > MOST_CELLS:
+            raise refusal(
+                name, 1, 0, f"more than {MOST_CELLS:,} cells; save the one table as CSV", lettered=True
+            )
+    lines: list[Line] = []
+    for number, found in _rows(sheet):
+        if not (lines[-1].number if lines else 0) < number <= LAST_ROW:
+            raise refusal(
+                name,
+                lines[-1].number if lines else 1,
+                0,
+                f"row {number} follows, out of order or beyond {LAST_ROW:,}; open and save the workbook again",
+                lettered=True,
+            )
+        texts = {cell.column: text for cell in found if (text := _text(cell))}
+        if not texts:
+            continue
+        if max(texts) > LAST_COLUMN:
+            raise refusal(
+                name,
+                number,
+                max(texts) - 1,
+                f"a cell beyond column {LAST_COLUMN:,}; open and save the workbook again",
+                lettered=True,
+            )
+        cells = [texts.get(column, "") for column in range(1, max(texts) + 1)]
+        comment = cells[0].startswith("#")
+        if comment:
+            cells[0] = cells[0].lstrip("# ")
+        lines.append(Line(number, tuple(cells), " ".join(filter(None, cells)), comment))
     return Grid(name, tuple(lines), (f"workbook, sheet '{sheet.title}'",), lettered=True, sheet=sheet.title)
+
+
+def _rows(sheet: Any) -> Iterator[tuple[int, list[Any]]]:
+    """Numbers and cells of the rows that are in the file: `iter_rows` trusts a stated size, and fills every gap."""
+    from openpyxl.cell.read_only import ReadOnlyCell
+    from openpyxl.worksheet._reader import WorkSheetParser
+
+    book = sheet.parent
+    with sheet._get_source() as source:  # noqa: SLF001
+        parser = WorkSheetParser(
+            source,
+            sheet._shared_strings,  # noqa: SLF001
+            data_only=True,
+            epoch=book.epoch,
+            date_formats=book._date_formats,  # noqa: SLF001
+            timedelta_formats=book._timedelta_formats,  # noqa: SLF001
+        )
+        for number, cells in parser.parse():
+            yield number, [ReadOnlyCell(sheet, **cell) for cell in cells if cell["value"] is not None]
 
 
 def _text(cell: Any) -> str:

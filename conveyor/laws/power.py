@@ -109,66 +109,6 @@ def specific_energy(motor_power: float, *, mass_flow: float, length: float) -> f
     return motor_power / (mass_flow * length) * TONNE_KM / JOULE_PER_KWH
 
 
-def annual_energy_kwh(motor_power: float, *, operating_time: float) -> float:
-    """Energy of a year's operation.
-
-    Parameters
-    ----------
-    motor_power : float
-        P [W], negative when fed back.
-    operating_time : float
-        Time at this power in a year [s], at least 0.
-
-    Returns
-    -------
-    float
-        Energy [kWh/a], negative when fed back.
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> round(annual_energy_kwh(50e3, operating_time=6000 * 3600.0), 3)
-    300000.0
-    """
-    require_finite(motor_power=motor_power)
-    require_not_negative(operating_time=operating_time)
-    return motor_power * operating_time / JOULE_PER_KWH
-
-
-def annual_cost(energy_kwh: float, *, price_per_kwh: float) -> float:
-    """Cost of a year's energy.
-
-    Parameters
-    ----------
-    energy_kwh : float
-        Energy [kWh/a], negative when fed back: the cost is then a credit at the same price.
-    price_per_kwh : float
-        Price [currency/kWh], at least 0.
-
-    Returns
-    -------
-    float
-        Cost [currency/a].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> annual_cost(300e3, price_per_kwh=0.25)
-    75000.0
-    """
-    require_finite(energy_kwh=energy_kwh)
-    require_not_negative(price_per_kwh=price_per_kwh)
-    return energy_kwh * price_per_kwh
-
-
 def empirical_level_power(
     mass_flow: float,
     *,

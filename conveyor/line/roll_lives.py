@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.loading import RollLoad
@@ -13,11 +14,15 @@ from conveyor.laws.roll_life import (
     rating_life_hours,
     system_life_hours,
 )
-from conveyor.line.stretches import Stretch, roll_at
+from conveyor.line.stretches import Strand, Stretch, roll_at
 from conveyor.models import Roll
 from conveyor.units import si
 
 _EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
+
+
+ASKED_LIFE = 30e3
+"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
 
 
 @dataclass(frozen=True)
@@ -77,8 +82,49 @@ def _heavier(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> flo
     )
 
 
-def set_life(stretch: Stretch, belt_speed: float) -> float | None:
-    """L10 of all bearings of a set together [h]; None unless every roll's bearings are given."""
-    lives = [roll_life(stretch, place, belt_speed) for place in range(len(stretch.loads))]
-    known = [life.both for life in lives if life is not None]
-    return system_life_hours(known) if len(known) == len(lives) else None
+@dataclass(frozen=True)
+class SetLife:
+    """L10 of all bearings of a set together, as far as they are given.
+
+    Attributes
+    ----------
+    section : str
+        Where the set stands.
+    hours : float
+        Of them together [h].
+    weakest : str
+        The roll of the shortest life.
+    weakest_hours : float
+        L10 of that roll [h].
+    whole : bool
+        Whether the bearings of every roll are given; else the set lives shorter.
+    """
+
+    section: str
+    hours: float
+    weakest: str
+    weakest_hours: float
+    whole: bool
+
+    @property
+    def too_short(self) -> bool:
+        """Whether it falls short of what light series are rated for."""
+        return self.hours < ASKED_LIFE
+
+
+def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
+    """Life of a set of a stretch; None without any bearing."""
+    lives = [(roll_life(stretch, place, belt_speed), load) for place, load in enumerate(stretch.loads)]
+    known = [(life.both, load.name) for life, load in lives if life is not None]
+    if not known:
+        return None
+    together = system_life_hours([hours for hours, _ in known])
+    hours, roll = min(known)
+    return SetLife(stretch.section, together, roll, hours, len(known) == len(lives))
+
+
+def shortest_life(stretches: Sequence[Stretch], strand: Strand, belt_speed: float) -> SetLife | None:
+    """Life of the set of a strand that lives shortest, at a belt speed [m/s]; None without any bearing."""
+    alike = {stretch.loads: stretch for stretch in reversed(stretches) if stretch.strand == strand}
+    lives = [set_life(stretch, belt_speed) for stretch in alike.values()]
+    return min((life for life in lives if life is not None), key=lambda life: life.hours, default=None)

@@ -10,7 +10,8 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.power import annual_cost, annual_energy_kwh, belt_power, motor_power, specific_energy
+from conveyor.laws.energy import DutyStep, duty_sums
+from conveyor.laws.power import belt_power, motor_power, specific_energy
 from conveyor.laws.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
@@ -21,8 +22,9 @@ from conveyor.line.walk import StretchResult
 from conveyor.loop.classical import cema_estimate
 from conveyor.loop.data import LoopData, loop_data
 from conveyor.loop.settled import Settled, settle
-from conveyor.loop.single_forces import Placed, SingleForce, Spot
+from conveyor.loop.single_forces import Placed, SingleForce
 from conveyor.loop.tensions import Loop, State
+from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -178,8 +180,9 @@ def _with_coefficient(conveyor: Conveyor, data: LoopData, sums: dict[str, float]
         return data.fixed
     main = sums["indentation"] + sums["rotation"] + sums["flexure"]
     force = secondary_resistance(main, length=data.length)
-    single = SingleForce("secondary, (C-1) F_H", "secondary", "tail", force, "ISO 5048 / DIN 22101, C(L)")
-    return (*data.fixed, Placed(Spot(data.places.count), single))
+    place = data.places.name(data.landing)
+    single = SingleForce("secondary, (C-1) F_H", "secondary", place, force, "ISO 5048 / DIN 22101, C(L)")
+    return (*data.fixed, Placed(data.landing, single))
 
 
 def points(settled: Settled, state: State) -> tuple[TensionPoint, ...]:
@@ -187,13 +190,15 @@ def points(settled: Settled, state: State) -> tuple[TensionPoint, ...]:
     data, geometry = settled.loop.data, settled.loop.geometry
     way: list[float] = geometry.way.tolist()
     last = data.boundaries[-1]
-    driven = any(drive.boundary == last for drive in data.drives)
-    head = "drive" if driven else "head"
+    met = sorted(zip(data.drives, state.drives, strict=True), key=lambda pair: pair[0].spot)
+    at_head = [side for drive, side in met if drive.spot.boundary == last]
+    head = "drive" if at_head else "head"
     between: dict[int, list[TensionPoint]] = {}
-    for drive, side in zip(data.drives, state.drives, strict=True):
-        if drive.boundary != last:
-            between.setdefault(drive.boundary, []).extend(
-                TensionPoint(f"{drive.name}, {when}", way[drive.boundary], tension, 0.0)
+    for drive, side in met:
+        at = drive.spot.boundary
+        if at != last:
+            between.setdefault(at, []).extend(
+                TensionPoint(f"{drive.name}, {when}", way[at], tension, 0.0)
                 for when, tension in (("arriving", side.arriving), ("leaving", side.leaving))
             )
     found = [TensionPoint(f"{head}, leaving", 0.0, state.leaving, 0.0)]
@@ -203,13 +208,9 @@ def points(settled: Settled, state: State) -> tuple[TensionPoint, ...]:
         name = f"{stretch.section}, {stretch.strand}"
         found.append(TensionPoint(f"{name}, start", way[i], start, least))
         found.append(TensionPoint(f"{name}, end", way[i + 1], end, least))
-    arriving = state.drives[_first_at(data, last)].arriving if driven else state.arriving
+    arriving = at_head[0].arriving if at_head else state.arriving
     found.append(TensionPoint(f"{head}, arriving", way[-1], arriving, 0.0))
     return tuple(found)
-
-
-def _first_at(data: LoopData, boundary: int) -> int:
-    return next(i for i, drive in enumerate(data.drives) if drive.boundary == boundary)
 
 
 def _tensions(settled: Settled) -> Tensions:
@@ -241,21 +242,20 @@ def _power(conveyor: Conveyor, data: LoopData, force: float) -> Power:
     motor = data.motor(force)
     mains = motor_power(motor, efficiency=conveyor.drive.mains_efficiency)
     flow, operation = data.flow, conveyor.operation
-    price = None if operation is None else operation.price
-    year = (
-        None if operation is None else annual_energy_kwh(mains, operating_time=si(operation.hours_per_year))
-    )
+    energy = cost = currency = None
+    if operation is not None:
+        year = duty_sums([DutyStep(time=si(operation.hours_per_year), power=mains, mass_flow=flow)])
+        energy, cost = year.net_kwh, year_cost(operation, year)
+        currency = None if operation.price is None else operation.price.currency
     specific = specific_energy(mains, mass_flow=flow, length=data.length) if flow > 0.0 else None
     return Power(
         belt=belt,
         motor=motor,
         mains=mains,
         energy_per_tonne_km=specific,
-        energy_per_year=year,
-        cost_per_year=None
-        if year is None or price is None
-        else annual_cost(year, price_per_kwh=price.amount),
-        currency=None if price is None else price.currency,
+        energy_per_year=energy,
+        cost_per_year=cost,
+        currency=currency,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
@@ -27,6 +27,7 @@ from conveyor.laws.vertical_curve import (
 )
 from conveyor.line.stretches import Strand, Stretch
 from conveyor.loop.balance import Balance
+from conveyor.loop.single_forces import driven_pulleys
 from conveyor.models import Conveyor, Pulley
 from conveyor.units import si
 
@@ -158,18 +159,19 @@ def _pulleys(conveyor: Conveyor) -> Iterator[PulleyCheck]:
     drive = _drive_diameter(conveyor)
     if drive is None:
         return
-    driven = {(pulley.position, pulley.section) for pulley in conveyor.drive.pulleys}
-    for pulley in conveyor.route.pulleys:
-        group = _group(pulley, driven)
+    driven = driven_pulleys(conveyor)
+    for i, pulley in enumerate(conveyor.route.pulleys):
+        group = _group(pulley, driven=i in driven)
         least = pulley_group_diameter(drive, group=group)
         size = next_pulley_diameter(least) if least <= PULLEY_DIAMETERS[-1] else None
         yield PulleyCheck(pulley.name, pulley.position, group, si(pulley.diameter), least, size)
 
 
-def _group(pulley: Pulley, driven: Set[tuple[str, str | None]]) -> Group:
-    if (pulley.position, pulley.section) in driven or pulley.position == "head":
+def _group(pulley: Pulley, *, driven: bool) -> Group:
+    snub = si(pulley.wrap_angle) < SNUB_WRAP
+    if driven or (pulley.position == "head" and not snub):
         return "A"
-    return "C" if si(pulley.wrap_angle) < SNUB_WRAP else "B"
+    return "C" if snub else "B"
 
 
 def _curves(conveyor: Conveyor, found: Balance) -> Iterator[CurveCheck]:

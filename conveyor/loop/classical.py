@@ -18,7 +18,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.laws.resistance.cema import Place
 from conveyor.line.stretches import Stretch
-from conveyor.loop.single_forces import Places, SingleForce
+from conveyor.loop.single_forces import SingleForce, driven_pulleys
 from conveyor.models import Conveyor, Pulley
 from conveyor.models.methods import Cema
 from conveyor.units import si
@@ -106,14 +106,9 @@ def _acceleration(conveyor: Conveyor) -> float:
 
 def _pulleys(conveyor: Conveyor) -> float:
     """Of the pulleys that are not driven."""
-    places = Places(conveyor)
-    driven = {places.drive(pulley) for pulley in conveyor.drive.pulleys}
+    driven = driven_pulleys(conveyor)
     return cema_pulley_friction(
-        [
-            _place(pulley)
-            for pulley in conveyor.route.pulleys
-            if pulley.position == "take-up" or places.boundary(pulley.position, pulley.section) not in driven
-        ]
+        [_place(pulley) for i, pulley in enumerate(conveyor.route.pulleys) if i not in driven]
     )
 
 

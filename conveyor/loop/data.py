@@ -32,7 +32,7 @@ class DriveData:
     """A drive pulley, SI."""
 
     name: str
-    boundary: int
+    spot: Spot
     share: float
     friction: float
     wrap_angle: float
@@ -83,13 +83,14 @@ class LoopData:
         self.flow = si(conveyor.material.flow)
         self.gravity = si(conveyor.calculation.gravity)
         self.length = conveyor.route.length
-        spots = [placed.spot for placed in self.fixed] + [bend.spot for bend in self.bends]
-        self.boundaries = sorted(
-            {0, 2 * places.count, places.count}
-            | {spot.boundary for spot in spots}
-            | {drive.boundary for drive in self.drives}
-            | ({self.take_up.spot.boundary} if self.take_up.spot is not None else set())
-        )
+        feeding = conveyor.route.feeding
+        self.landing = places.landing(None if feeding is None else feeding.section)
+        ends = (places.before("tail", None), places.before("head", None), places.behind("head", None))
+        held = () if self.take_up.spot is None else (self.take_up.spot,)
+        forces = (*(placed.spot for placed in self.fixed), *(bend.spot for bend in self.bends))
+        drives = (drive.spot for drive in self.drives)
+        self.spots = sorted({*ends, self.landing, *held, *forces, *drives})
+        self.boundaries: list[int] = sorted({spot.boundary for spot in self.spots})
         self.runs = np.diff(self.boundaries)
         self._geometry: Geometry | None = None
 
@@ -148,7 +149,7 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveData, ...]:
     return tuple(
         DriveData(
             name=name,
-            boundary=places.drive(pulley),
+            spot=places.drive(pulley),
             share=share,
             friction=pulley.friction,
             wrap_angle=si(pulley.wrap_angle),

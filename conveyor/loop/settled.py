@@ -15,6 +15,7 @@ _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
 _EXTRAPOLATED = 3  # steps that show a ratio
 _SHRINKS = 0.5  # ratio below which the steps are a geometric row
+_HELD = 1.0 - 1e-9  # of what is needed; a setting typed to the computed figure is not short of it
 
 Bends = tuple[float, ...]
 """Wrap and bearings of every pulley together [N]."""
@@ -26,6 +27,11 @@ START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "braking, least friction",
     "brakes on",
 )
+
+
+def holds(setting: float, needed: float) -> bool:
+    """Whether a setting of the take-up is as much as is needed [N]; typed digits apart."""
+    return setting >= needed * (_HELD if needed > 0.0 else 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +98,11 @@ class Settled:
             for motion in self.motions
             for condition in self.loop.conditions(motion)
         }
+
+    @property
+    def short(self) -> dict[str, float]:
+        """Of these, the ones that the take-up's setting falls short of [N]."""
+        return {name: needed for name, needed in self.conditions.items() if not holds(self.setting, needed)}
 
 
 def settle(loop: Loop) -> Settled:
@@ -173,7 +184,15 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
         forces = [drive.share * over * force for drive in data.drives]
         push = (over - 1.0) * force / mass
         here = singles if friction == 1.0 else loop.singles(bends, friction)
-        return loop.motion(name, forces, here, acceleration=push, friction=friction, may_sag=over != 1.0)
+        return loop.motion(
+            name,
+            forces,
+            here,
+            driving=drive >= 0.0,
+            acceleration=push,
+            friction=friction,
+            may_sag=over != 1.0,
+        )
 
     found = [
         shared(STEADY, drive, 1.0, 1.0),
@@ -206,4 +225,7 @@ def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float],
         return None
     slowing = retarding / (loop.masses.whole + math.fsum(rotating))
     forces = [mass * slowing - brake for mass, brake in zip(rotating, brakes, strict=True)]
-    return loop.motion(name, forces, singles, acceleration=-slowing, friction=friction, may_sag=True)
+    driving = loop.resistance(loop.singles(bends)) >= 0.0
+    return loop.motion(
+        name, forces, singles, driving=driving, acceleration=-slowing, friction=friction, may_sag=True
+    )

@@ -1,13 +1,15 @@
 """Forces at single places of the belt: loading points, skirts, cleaners, pulleys; SI, once for a conveyor.
 
 Places of the loop are boundaries between stretches, counted in running direction from the head: the n stretches of the
-return strand first, the tail is boundary n, then the n of the carry strand; boundary 2n is the head again.
+return strand first, the tail is boundary n, then the n of the carry strand; boundary 2n is the head again. What stands
+at one boundary the belt meets in the order of `Stand`.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Literal
 
 from conveyor.errors import NoSolutionError
@@ -28,6 +30,11 @@ from conveyor.units import si
 
 Kind = Literal["secondary", "special"]
 
+_TURNS = frozenset({"head", "tail"})
+_LEAST_DRIVEN_WRAP = math.radians(90.0)
+"""Nobody drives a pulley that the belt lies on for less; general knowledge."""
+_MOST_DRIVEN_WRAP = math.radians(270.0)
+"""On one pulley; a drive of more stands for several, general knowledge."""
 _SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
 
 
@@ -42,12 +49,29 @@ class SingleForce:
     source: str
 
 
-@dataclass(frozen=True)
+class Stand(IntEnum):
+    """In which order the belt meets what stands at one boundary: the strand's end, head or tail, the next strand."""
+
+    END = 0
+    """Pulleys and ploughs behind a section."""
+    END_DRIVE = 1
+    END_BEHIND = 2
+    """A take-up behind it."""
+    TURN = 3
+    """Pulleys of head or tail, ploughs before the head."""
+    TURN_DRIVE = 4
+    TURN_BEHIND = 5
+    """Snubs and cleaners behind the head; the take-up behind head or tail."""
+    LANDING = 6
+    """Bulk that lands on the next section, and its skirts."""
+
+
+@dataclass(frozen=True, order=True)
 class Spot:
-    """A place of the loop: a boundary, and whether behind the drives that stand there."""
+    """A place of the loop: a boundary, and where among what stands there; sorted as the belt meets them."""
 
     boundary: int
-    behind: bool = False
+    stand: Stand
 
 
 @dataclass(frozen=True)
@@ -71,6 +95,7 @@ class Bend:
     bearings: float | None
     """Bearing resistance per newton of load [-]; None of a driven pulley, whose bearings the efficiency holds."""
     mass: float
+    wrap_angle: float = math.pi
 
     def forces(self, tight: float, slack: float, gravity: float) -> tuple[float, float]:
         """Wrap and bearings at the tensions of both sides [N].
@@ -89,7 +114,13 @@ class Bend:
         bend = base + slope * 0.5 * (tight + slack)
         if self.bearings is None:
             return bend, 0.0
-        load = pulley_load(tight_tension=tight, slack_tension=slack, pulley_mass=self.mass, gravity=gravity)
+        load = pulley_load(
+            tight_tension=tight,
+            slack_tension=slack,
+            pulley_mass=self.mass,
+            gravity=gravity,
+            wrap_angle=self.wrap_angle,
+        )
         return bend, self.bearings * load
 
     def singles(self, tight: float, slack: float, gravity: float) -> tuple[SingleForce, ...]:
@@ -107,7 +138,8 @@ class Places:
 
     def __init__(self, conveyor: Conveyor) -> None:
         self.count = len(conveyor.route.sections)
-        self._index = {section.name: i for i, section in enumerate(conveyor.route.sections)}
+        self._names = [section.name for section in conveyor.route.sections]
+        self._index = {name: i for i, name in enumerate(self._names)}
         self._drive = conveyor.drive
 
     def boundary(self, position: str, section: str | None) -> int:
@@ -119,23 +151,37 @@ class Places:
         index = self._index[section]
         return self.count + index + 1 if position == "carry" else self.count - index
 
-    def tail_end(self, section: str | None) -> int:
-        """Boundary at which bulk lands on a section."""
-        return self.count + (0 if section is None else self._index[section])
+    def landing(self, section: str | None) -> Spot:
+        """Where bulk lands on a section, behind all else that stands at its tail end."""
+        return Spot(self.count + (0 if section is None else self._index[section]), Stand.LANDING)
 
-    def behind(self, boundary: int) -> Spot:
-        """Place behind the drives of a boundary; behind the head the loop begins."""
-        return Spot(0 if boundary == 2 * self.count else boundary, behind=True)
+    def name(self, landing: Spot) -> str:
+        """Where bulk lands, in words."""
+        section = landing.boundary - self.count
+        return "tail" if section == 0 else f"tail end of {self._names[section]}"
 
-    def drive(self, pulley: DrivePulley) -> int:
-        """Boundary of a drive."""
-        return self.boundary(pulley.position, pulley.section)
+    def before(self, position: str, section: str | None) -> Spot:
+        """Place before the drives of a position."""
+        stand = Stand.TURN if position in _TURNS else Stand.END
+        return Spot(self.boundary(position, section), stand)
+
+    def drive(self, pulley: DrivePulley) -> Spot:
+        """Place of a drive."""
+        stand = Stand.TURN_DRIVE if pulley.position in _TURNS else Stand.END_DRIVE
+        return Spot(self.boundary(pulley.position, pulley.section), stand)
+
+    def behind(self, position: str, section: str | None) -> Spot:
+        """Place behind the drives of a position; behind the head the loop begins."""
+        if position == "head":
+            return Spot(0, Stand.TURN_BEHIND)
+        stand = Stand.TURN_BEHIND if position == "tail" else Stand.END_BEHIND
+        return Spot(self.boundary(position, section), stand)
 
     def take_up(self, take_up: TakeUp | None) -> Spot:
         """Place of the take-up's pulleys: behind the first drive without one."""
         if take_up is None or take_up.position == "drive":
-            return self.behind(self.drive(self._drive))
-        return self.behind(self.boundary(take_up.position, take_up.section))
+            return self.behind(self._drive.position, self._drive.section)
+        return self.behind(take_up.position, take_up.section)
 
 
 def fixed_singles(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
@@ -156,7 +202,7 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[Placed, ...]:
         )
         place = "head" if plough.section is None else f"behind {plough.section}, carry"
         single = SingleForce(f"plough {i} (x{plough.count})", "special", place, force, "ISO 5048, F_a")
-        found.append(Placed(Spot(places.boundary(plough.position, plough.section)), single))
+        found.append(Placed(places.before(plough.position, plough.section), single))
     return tuple(found)
 
 
@@ -167,8 +213,8 @@ def _feeding(conveyor: Conveyor, feeding: Feeding, places: Places) -> tuple[Plac
         return ()
     density, gravity = si(conveyor.material.density), si(conveyor.calculation.gravity)
     landing = si(feeding.speed)
-    spot = Spot(places.tail_end(feeding.section))
-    place = "tail" if spot.boundary == places.count else f"tail end of {feeding.section}"
+    spot = places.landing(feeding.section)
+    place = places.name(spot)
     which = f", {feeding.section or 'first'}" if conveyor.route.further_feeding else ""
     length = acceleration_length(
         belt_speed=speed, initial_speed=landing, belt_friction=feeding.belt_friction, gravity=gravity
@@ -222,14 +268,14 @@ def places_name(conveyor: Conveyor, feeding: Feeding) -> str:
 
 
 def _cleaners(conveyor: Conveyor) -> tuple[Placed, ...]:
-    """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
+    """Cleaners behind the head."""
     return tuple(
         Placed(
-            Spot(0, behind=True),
+            Spot(0, Stand.TURN_BEHIND),
             SingleForce(
                 f"cleaner {i} (x{cleaner.count})",
                 "special",
-                "take-up",
+                "head",
                 cleaner.count
                 * cleaner_resistance(
                     si(cleaner.width) * si(cleaner.thickness),
@@ -247,17 +293,45 @@ def bends(conveyor: Conveyor, places: Places) -> tuple[Bend, ...]:
     """Wraps, and bearings of every pulley but the driven ones; none beside the length coefficient C."""
     if conveyor.calculation.secondary == "C":
         return ()
-    driven = {places.drive(pulley) for pulley in conveyor.drive.pulleys}
-    return tuple(_bend(conveyor, pulley, places, driven) for pulley in conveyor.route.pulleys)
+    driven = driven_pulleys(conveyor)
+    return tuple(
+        _bend(conveyor, pulley, places, driven=i in driven) for i, pulley in enumerate(conveyor.route.pulleys)
+    )
 
 
-def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: set[int]) -> Bend:
+def driven_pulleys(conveyor: Conveyor) -> frozenset[int]:
+    """Which pulleys of the route the drives turn: at each drive's place as many as stand there, those most wrapped.
+
+    What else stands there bends the belt or is a snub, and is not driven.
+    """
+    found: set[int] = set()
+    for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
+        wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
+        count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
+        beside = [
+            (-si(pulley.wrap_angle), -si(pulley.diameter), i)
+            for i, pulley in enumerate(conveyor.route.pulleys)
+            if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
+        ]
+        found.update(i for _, _, i in sorted(beside)[:count])
+    return frozenset(found)
+
+
+def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Spot:
+    """Where the belt meets a pulley; one beside a driven one on the return strand, on a strand before the drive."""
     if pulley.position == "take-up":
-        spot, place, drives = places.take_up(conveyor.route.take_up), "take-up", False
-    else:
-        spot = Spot(places.boundary(pulley.position, pulley.section))
-        place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
-        drives = spot.boundary in driven
+        return places.take_up(conveyor.route.take_up)
+    before = places.before(pulley.position, pulley.section)
+    at = {(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys}
+    drive = at.get((pulley.position, pulley.section))
+    if drive is not None and driven:
+        return drive
+    return places.behind("head", None) if drive is not None and pulley.position == "head" else before
+
+
+def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Bend:
+    spot = _pulley_spot(conveyor, pulley, places, driven=driven)
+    place = pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}"
     slack, taut = (_wrap(conveyor, pulley, tension) for tension in (0.0, _SLOPE_OVER))
     turn = pulley_bearing_resistance(
         1.0, shaft_diameter=si(pulley.shaft_diameter), pulley_diameter=si(pulley.diameter)
@@ -267,8 +341,9 @@ def _bend(conveyor: Conveyor, pulley: Pulley, places: Places, driven: set[int]) 
         spot=spot,
         place=place,
         wrap=(slack, (taut - slack) / _SLOPE_OVER),
-        bearings=None if drives else turn,
+        bearings=None if driven else turn,
         mass=si(pulley.mass),
+        wrap_angle=si(pulley.wrap_angle),
     )
 
 

@@ -150,6 +150,11 @@ def motions(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balan
     )
 
 
+def every_state(found: Balance, moving: Motions) -> tuple[State, ...]:
+    """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
+    return (*found.settled.states.values(), *moving.states.values())
+
+
 def _holding(lift: float, friction: float) -> tuple[float, bool]:
     """Force that keeps the belt at rest, and whether it would roll back; friction acts against what gravity wants."""
     return max(0.0, abs(lift) - friction), lift > 0.0

@@ -19,8 +19,8 @@ from conveyor.loop.single_forces import Placed
 
 Array = NDArray[np.float64]
 
-Singles = tuple[list[float], list[float]]
-"""Single forces before and behind the drives of every boundary in use [N]."""
+Singles = list[float]
+"""Sum of the single forces at every spot in use, as the belt meets them [N]."""
 
 STEADY = "steady"
 
@@ -87,6 +87,11 @@ class State:
         return max(float(self.starts.max()), float(self.ends.max()), self.leaving, self.arriving, *sides)
 
     @property
+    def slack(self) -> bool:
+        """Whether the belt is slack anywhere."""
+        return self.smallest < 0.0
+
+    @property
     def smallest(self) -> float:
         """Lowest tension round the loop [N]."""
         sides = [drive.slack for drive in self.drives]
@@ -105,7 +110,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Motion:
-    """A state of motion before the level of its tensions is known: offsets at the boundaries [N].
+    """A state of motion before the level of its tensions is known: offsets round the loop [N].
 
     `sagging` are the settings that the sag of each run of stretches asks for; None where it may sag.
     """
@@ -115,11 +120,9 @@ class Motion:
     acceleration: float
     friction: float
     before: tuple[float, ...]
-    """At each boundary, before all that stands there."""
-    past: tuple[float, ...]
-    """Past its drives."""
-    behind: tuple[float, ...]
-    """Behind all that stands there."""
+    """At each spot, before what stands there."""
+    arriving: float
+    """At the head, before all that stands there."""
     drives: tuple[tuple[float, float, float], ...]
     """Force, offset before, offset behind of every drive."""
     shifts: tuple[float, ...]
@@ -162,15 +165,18 @@ class Loop:
         self.totals = Sums(total, data, geometry)
         self.lifts = Sums(lift, data, geometry)
         self.masses = Sums(geometry.mass, data, geometry)
-        at = {b: k for k, b in enumerate(data.boundaries)}
-        self._fixed = [(at[p.spot.boundary], p.spot.behind, p.single.force, p.certain) for p in fixed]
-        self._bends = [(at[bend.spot.boundary], bend.spot.behind) for bend in data.bends]
+        at = {spot: j for j, spot in enumerate(data.spots)}
+        boundaries = {b: k for k, b in enumerate(data.boundaries)}
+        self._stops = [boundaries[spot.boundary] for spot in data.spots]
+        self._head = self._stops.index(len(boundaries) - 1)
+        self._fixed = [(at[p.spot], p.single.force, p.certain) for p in fixed]
+        self._bends = [at[bend.spot] for bend in data.bends]
         self._drives: list[list[int]] = [[] for _ in at]
         for i, drive in enumerate(data.drives):
-            self._drives[at[drive.boundary]].append(i)
+            self._drives[at[drive.spot]].append(i)
         self._station = next(found for found in self._drives if 0 in found)
         spot = data.take_up.spot
-        self._anchor_at = None if spot is None else at[spot.boundary]
+        self._anchor_at = None if spot is None else at[spot]
         self._run_shares = (np.diff(geometry.way[data.boundaries]) / geometry.way[-1]).tolist()
         self._sagging: dict[float, tuple[float, ...]] = {}
 
@@ -191,19 +197,18 @@ class Loop:
         return found
 
     def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
-        """Single forces before and behind the drives of every boundary [N]."""
-        before, behind = [0.0] * len(self._drives), [0.0] * len(self._drives)
-        for k, back, force, certain in self._fixed:
-            (behind if back else before)[k] += force if certain else friction * force
-        for (k, back), force in zip(self._bends, bends, strict=True):
-            (behind if back else before)[k] += friction * force
-        return before, behind
+        """Sum of the single forces at every spot [N]."""
+        found = [0.0] * len(self._stops)
+        for j, force, certain in self._fixed:
+            found[j] += force if certain else friction * force
+        for j, force in zip(self._bends, bends, strict=True):
+            found[j] += friction * force
+        return found
 
     def resistance(self, singles: Singles, friction: float = 1.0) -> float:
         """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
-        before, behind = singles
         lift = self.lifts.whole
-        return math.fsum((lift, friction * (self.totals.whole - lift), *before, *behind))
+        return math.fsum((lift, friction * (self.totals.whole - lift), *singles))
 
     def motion(
         self,
@@ -211,38 +216,34 @@ class Loop:
         forces: Sequence[float],
         singles: Singles,
         *,
+        driving: bool,
         acceleration: float = 0.0,
         friction: float = 1.0,
         may_sag: bool = False,
     ) -> Motion:
-        """A state in which every drive gives its force [N]; they and the masses balance the resistances."""
-        before, behind = singles
+        """A state in which every drive gives its force [N]; they and the masses balance the resistances.
+
+        `driving` says whether the drives pull in steady running: a take-up on their slack side stands there always.
+        """
         sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
-        ins, pasts, outs, shifts = [], [], [], []
+        along = self._at(friction, acceleration)
+        ins, outs, shifts = [], [], [0.0] * len(along)
         level, passed = 0.0, 0.0
-        for k, (total, lift, mass) in enumerate(
-            zip(self.totals.at, self.lifts.at, self.masses.at, strict=True)
-        ):
-            here = (
-                lift + friction * (total - lift) + acceleration * mass
-                if friction != 1.0
-                else total + acceleration * mass
-            )
-            level += here - passed
-            passed = here
+        for k, single, drives in zip(self._stops, singles, self._drives, strict=True):
+            level += along[k] - passed
+            passed = along[k]
             ins.append(level)
-            level += before[k]
-            for i in self._drives[k]:
+            level += single
+            for i in drives:
                 sides[i] = (forces[i], level, level - forces[i])
                 level -= forces[i]
-            pasts.append(level)
-            level += behind[k]
             outs.append(level)
-            shifts.append(level - here)
-        anchor = self._anchor(sides, outs, shifts, friction, acceleration)
+            shifts[k] = level - passed
+        slack_side = sides[self._station[-1]][2] if driving else sides[self._station[0]][1]
+        anchor = self._anchor(slack_side, outs, shifts, friction, acceleration)
         return Motion(
-            name, math.fsum(forces), acceleration, friction, tuple(ins), tuple(pasts), tuple(outs), tuple(sides),
-            tuple(shifts), anchor, None if may_sag else self.sagging(friction),
+            name, math.fsum(forces), acceleration, friction, tuple(ins), ins[self._head], tuple(sides), tuple(shifts),
+            anchor, None if may_sag else self.sagging(friction),
         )  # fmt: skip
 
     def _at(self, friction: float, acceleration: float) -> list[float]:
@@ -257,20 +258,14 @@ class Loop:
     def at_bends(self, steady: Motion, setting: float) -> list[tuple[float, float]]:
         """Tensions on both sides of every pulley in steady running [N], of a driven one those of its drives."""
         level, found = setting - steady.anchor, []
-        for k, back in self._bends:
-            if back:
-                here = (steady.past[k], steady.past[k])
-            elif self._drives[k]:
-                sides = [offset for i in self._drives[k] for offset in steady.drives[i][1:]]
-                here = (max(sides), min(sides))
-            else:
-                here = (steady.before[k], steady.before[k])
-            found.append((level + here[0], level + here[1]))
+        for j in self._bends:
+            sides = [offset for i in self._drives[j] for offset in steady.drives[i][1:]] or [steady.before[j]]
+            found.append((level + max(sides), level + min(sides)))
         return found
 
     def _anchor(
         self,
-        sides: Sequence[tuple[float, float, float]],
+        slack_side: float,
         outs: Sequence[float],
         shifts: Sequence[float],
         friction: float,
@@ -285,7 +280,7 @@ class Loop:
             )
         if self._anchor_at is not None:
             return outs[self._anchor_at]
-        return min(offset for i in self._station for offset in sides[i][1:])
+        return slack_side
 
     def conditions(self, motion: Motion) -> Iterator[Condition]:
         """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
@@ -315,7 +310,7 @@ class Loop:
             starts=along[:-1] + shifts,
             ends=along[1:] + shifts,
             leaving=level,
-            arriving=level + motion.before[-1],
+            arriving=level + motion.arriving,
             held=setting,
         )
 

@@ -5,14 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Annotated, Any, NamedTuple, Self
 
-from pydantic import BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from conveyor.errors import InputError
 from conveyor.units import is_quantity, written
 
-Number = Annotated[float, Strict()]
+_SMALLEST, _LARGEST = 1e-30, 1e30
+"""Size of a plain number, beside zero: products of a few stay figures."""
+
+
+def _sized(value: float) -> float:
+    """Refuse a number that is too small or large to be computed with."""
+    if value == 0.0 or _SMALLEST <= abs(value) <= _LARGEST:
+        return value
+    raise PydanticCustomError(
+        "quantity",
+        "{message}",
+        {"message": f"got {value:g}, expected a number in size from {_SMALLEST:g} to {_LARGEST:g}"},
+    )
+
+
+Number = Annotated[float, Strict(), AfterValidator(_sized)]
 Count = Annotated[int, Strict()]
 Switch = Annotated[bool, Strict()]
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]

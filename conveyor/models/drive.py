@@ -26,7 +26,7 @@ class DrivePulley(Model):
     """The section, for position "carry" or "return"."""
     wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="1440 deg")]
     """Angle of wrap; of all drive pulleys together where they stand at one place and are given as one."""
-    friction: Annotated[Number, Field(gt=0, le=1)]
+    friction: Annotated[Number, Field(ge=0.01, le=1)]
     """Friction of belt on pulley μ: about 0.35 lagged, 0.25 bare."""
     installed_power: Annotated[Power, Bounds(gt="0 kW")] | None = None
     """Power of the motors."""

@@ -9,6 +9,7 @@ from conveyor.indentation import IndentationCurve
 from conveyor.line.stretches import Strand
 from conveyor.line.walk import RollResult, StretchResult, excited_band
 from conveyor.loop.balance import Balance
+from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.remarks.loop import loop_warnings
 from conveyor.remarks.rolls import roll_assumptions, roll_warnings
@@ -30,7 +31,8 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
         "at the default tolerance.",
         *roll_assumptions(conveyor),
-        "Bearings of the driven pulley are in the drive's efficiency; tension changes the load of the rolls on "
+        "Bearings of the driven pulleys (at each drive's place the most wrapped, as many as it stands for) are in the "
+        "drive's efficiency; tension changes the load of the rolls on "
         "vertical curves only.",
         f"Covers are at {text(conveyor.ambient.belt)} throughout.",
         *_energy(conveyor),
@@ -163,6 +165,8 @@ def _left_out(conveyor: Conveyor) -> Iterator[str]:
 
 def _loop(conveyor: Conveyor, found: Balance) -> Iterator[str]:
     units = conveyor.report.units
+    if found.power.mains < 0.0 and earns_nothing(conveyor.operation):
+        yield "operation.feed_in_price not given: energy that is fed back earns nothing"
     installed = None if conveyor.drive.further_drives else conveyor.drive.installed_power
     if installed is not None and abs(found.power.motor) > si(installed):
         yield f"the motor needs {figure(found.power.motor, 'power', units)}, installed are {text(installed)}"

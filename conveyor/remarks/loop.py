@@ -9,12 +9,9 @@ from conveyor.figures import belt_strength, figure
 from conveyor.line.walk import StretchResult
 from conveyor.loop.balance import Balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
-from conveyor.loop.starting import Motions, motions
+from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.models import Conveyor
 from conveyor.units import System, si
-
-HELD = 1.0 - 1e-9
-"""Of what is needed; a setting typed to the computed figure is not short of it."""
 
 
 def loop_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> Iterator[str]:
@@ -22,7 +19,8 @@ def loop_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...], found:
     moving, units = motions(conveyor, results, found), conveyor.report.units
     yield from _drives(conveyor, found)
     yield from _take_up(found, units)
-    yield from _start(conveyor, found, moving)
+    yield from _start(conveyor, moving)
+    yield from _slack(found, moving, units)
     yield from _stop(conveyor, moving)
     yield from _bulk(moving, units)
     yield from _belt(conveyor, belt_duty(conveyor, found))
@@ -52,16 +50,15 @@ def _drives(conveyor: Conveyor, found: Balance) -> Iterator[str]:
 
 def _take_up(found: Balance, units: System) -> Iterator[str]:
     settled = found.settled
-    if settled.loop.data.take_up.tension is None:
-        return
-    for name, needed in settled.conditions.items():
-        if settled.setting < needed * HELD:
-            yield f"the take-up holds {_force(settled.setting, units)}, {name} asks for {_force(needed, units)}"
+    for name, needed in settled.short.items():
+        yield f"the take-up holds {_force(settled.setting, units)}, {name} asks for {_force(needed, units)}"
 
 
-def _start(conveyor: Conveyor, found: Balance, moving: Motions) -> Iterator[str]:
+def _start(conveyor: Conveyor, moving: Motions) -> Iterator[str]:
     units = conveyor.report.units
     start = moving.start
+    if "start_factor" not in conveyor.drive.model_fields_set:
+        yield f"drive.start_factor not given: {conveyor.drive.start_factor:g} assumed, 1.2 to 1.5 are usual"
     if start.force <= 0.0:
         return
     if start.available is not None and start.available < start.force:
@@ -74,10 +71,11 @@ def _start(conveyor: Conveyor, found: Balance, moving: Motions) -> Iterator[str]
             f"the starting force of {_force(start.force, units)} does not overcome the resistance after "
             f"standstill, up to {_force(start.breakaway, units)}: raise drive.start_factor"
         )
-    if "start_factor" not in conveyor.drive.model_fields_set:
-        yield f"drive.start_factor not given: {conveyor.drive.start_factor:g} assumed, 1.2 to 1.5 are usual"
-    for state in (*found.settled.states.values(), *moving.states.values()):
-        if state.smallest < 0.0:
+
+
+def _slack(found: Balance, moving: Motions, units: System) -> Iterator[str]:
+    for state in every_state(found, moving):
+        if state.slack:
             yield (
                 f'the belt goes slack in the state "{state.name}": down to {_force(state.smallest, units)}; '
                 "raise the take-up's tension, or slow the stop by a flywheel or the drives"

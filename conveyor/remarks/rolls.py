@@ -8,7 +8,7 @@ from conveyor.figures import figure
 from conveyor.files.libraries import widest_spacings
 from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR, roll_drag
 from conveyor.line.roll_drags import bearing_viscosity
-from conveyor.line.roll_lives import roll_life
+from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import Strand
 from conveyor.line.walk import StretchResult
 from conveyor.models import Conveyor, IdlerSet, Roll
@@ -16,8 +16,6 @@ from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import quantity, si, text
 
-ASKED_LIFE = 30e3
-"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
 COLD_OIL = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
 )
@@ -119,7 +117,7 @@ def roll_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> tup
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
         *_cover_warnings(conveyor),
-        *_life_warnings(results),
+        *_life_warnings(conveyor, results),
         *_set_warnings(conveyor, results),
         *_other_warnings(conveyor),
     )
@@ -202,26 +200,15 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[str]:
             )
 
 
-def _life_warnings(results: tuple[StretchResult, ...]) -> Iterator[str]:
-    shortest: dict[Strand, tuple[float, str, str]] = {}
-    seen: set[tuple[Strand, int, float, float]] = set()
-    for r in results:
-        if all(roll.bearing is None for _, roll in _rolls(r.stretch.idlers)):
-            continue
-        for place, load in enumerate(r.stretch.loads):
-            key = (r.stretch.strand, place, load.bulk_force, load.belt_force)
-            if key in seen:
-                continue
-            seen.add(key)
-            life = roll_life(r.stretch, place, r.rolls[place].curve.contact.speed)
-            if life is not None:
-                found = (life.both, load.name, r.stretch.section)
-                shortest[r.stretch.strand] = min(found, shortest.get(r.stretch.strand, found))
-    for strand, (hours, roll, section) in shortest.items():
-        if hours < ASKED_LIFE:
+def _life_warnings(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> Iterator[str]:
+    strands: tuple[Strand, ...] = ("carry", "return")
+    for strand in strands:
+        life = shortest_life([r.stretch for r in results], strand, si(conveyor.belt.speed))
+        if life is not None and life.too_short:
             yield (
-                f"{strand} rolls: L10 of the {roll} in {section} is {hours:,.0f} h, less than the {ASKED_LIFE:,.0f} h "
-                "that light series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
+                f"{strand} rolls: L10 of all bearings of a set in {life.section} is {life.hours:,.0f} h (of the "
+                f"{life.weakest} alone {life.weakest_hours:,.0f} h), less than the {ASKED_LIFE:,.0f} h that light "
+                "series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
             )
 
 

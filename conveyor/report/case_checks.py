@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from conveyor.figures import figure
 from conveyor.loop.belt_duty import belt_duty
-from conveyor.remarks.loop import HELD
+from conveyor.loop.settled import holds
 from conveyor.report.verdicts import Check, verdict
 from conveyor.units import System
 
@@ -70,8 +70,7 @@ def _take_up(study: CaseStudy, most: Governing, system: System) -> Iterator[Chec
     subject = f"{_CASES}: tension of the take-up ({_at(most.result, system)})"
     asked = f"at least {figure(most.value, 'force', system)}"
     if held is not None:
-        holds = held >= most.value * (HELD if most.value > 0.0 else 1.0)
-        yield Check(subject, figure(held, "force", system), asked, verdict(holds=holds))
+        yield Check(subject, figure(held, "force", system), asked, verdict(holds=holds(held, most.value)))
     elif len(study.results) > 1:
         yield Check(subject, "set anew in each case", asked, "not checked")
 

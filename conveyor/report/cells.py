@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.display import unit
+from conveyor.printable import printable
 from conveyor.report.columns import NAMED, OF_ROW, Table
 from conveyor.units import System
 
@@ -53,7 +53,6 @@ INFINITE = "∞"
 """Written where a figure has no bound: a cell cannot hold infinity as a number."""
 
 _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
-_UNPRINTABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
@@ -63,14 +62,14 @@ _HIGHEST = 409.0
 
 
 def legible(words: str) -> str:
-    r"""Return text as a cell can hold it: what XML cannot hold spelled out.
+    r"""Return text as a cell can hold it: printable, and not too long.
 
     Examples
     --------
     >>> legible("bell\x07")
     'bell\\x07'
     """
-    shown = _UNPRINTABLE.sub(lambda found: ascii(found[0])[1:-1], words)
+    shown = printable(words)
     if len(shown) <= LONGEST:
         return shown
     mark = f" ... (cut here: {len(words)} characters)"

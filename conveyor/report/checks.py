@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from conveyor.figures import belt_strength, figure
-from conveyor.line.roll_lives import set_life
+from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.walk import excited_band
+from conveyor.loop.starting import every_state
 from conveyor.models import Conveyor
 from conveyor.models.checks import cross_sections
 from conveyor.remarks import DEEP
-from conveyor.remarks.loop import HELD
-from conveyor.remarks.rolls import ASKED_LIFE
 from conveyor.report.case_checks import case_checks
 from conveyor.report.verdicts import Check, verdict
 from conveyor.units import System, is_quantity, si
@@ -110,12 +109,7 @@ def _drives(analysis: Analysis, system: System) -> Iterator[Check]:
 def _take_up(analysis: Analysis, system: System) -> Iterator[Check]:
     settled = analysis.balance.settled
     found = figure(settled.setting, "force", system)
-    governing = settled.condition_name(settled.governed_by)
-    short = {
-        name: asked
-        for name, asked in settled.conditions.items()
-        if settled.setting < asked * (HELD if asked > 0.0 else 1.0)
-    }
+    governing, short = settled.condition_name(settled.governed_by), settled.short
     for name, asked in (short or {governing: settled.needed}).items():
         yield Check(
             f"tension of the take-up ({name})",
@@ -123,13 +117,12 @@ def _take_up(analysis: Analysis, system: System) -> Iterator[Check]:
             f"at least {figure(asked, 'force', system)}",
             verdict(holds=not short),
         )
-    states = (*settled.states.values(), *analysis.motions.states.values())
-    slackest = min(states, key=lambda state: state.smallest)
+    slackest = min(every_state(analysis.balance, analysis.motions), key=lambda state: state.smallest)
     yield Check(
         f"smallest tension of all states ({slackest.name})",
         figure(slackest.smallest, "force", system),
         "not slack: at least 0",
-        verdict(holds=slackest.smallest >= 0.0),
+        verdict(holds=not slackest.slack),
     )
 
 
@@ -260,15 +253,14 @@ def _rolls(analysis: Analysis) -> Iterator[Check]:
             f"at most {DEEP:.0%} (small strain)",
             verdict(holds=deepest <= DEEP),
         )
-        lives = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
-        known = [life for life in lives if life is not None]
-        if known:
-            yield Check(
-                f"L10 life, {strand} idler sets",
-                f"{min(known):,.0f} h",
-                f"at least {ASKED_LIFE:,.0f} h",
-                verdict(holds=min(known) >= ASKED_LIFE),
-            )
+        life = shortest_life([r.stretch for r in results], strand, si(analysis.conveyor.belt.speed))
+        if life is not None:
+            subject, found = f"L10 life, {strand} idler sets", f"{life.hours:,.0f} h"
+            if life.whole or life.too_short:
+                asked = f"at least {ASKED_LIFE:,.0f} h"
+                yield Check(subject, found, asked, verdict(holds=not life.too_short))
+            else:
+                yield Check(subject, found, "bearings of some rolls not given", "not checked")
 
 
 def _rubber(analysis: Analysis, system: System) -> Iterator[Check]:

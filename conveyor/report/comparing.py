@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from conveyor.display import MONEY, unit
 from conveyor.figures import celsius
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.loop.year import earns_nothing
 from conveyor.markup import Html, joined
 from conveyor.report import plots
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
@@ -314,18 +316,22 @@ def drawings(comparison: Comparison, system: System) -> Iterator[Drawing]:
     """The figures of the page."""
     if not comparison.scenes:
         return
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = unit("speed", system).brief(min(scene.speed for scene in comparison.scenes))
+        at = unit("speed", system).brief(plots.drawn_speed(comparison))
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber.",
             lambda: plots.power_against_temperature(comparison, system=system),
             "power",
         )
-    if len({scene.speed for scene in comparison.scenes}) > 1:
+    if len(speeds) > 1 and warmth is not None:
+        at = unit("temperature", system).brief(warmth)
+        turning = " The ranking turns with the temperature: see what to know." if turned(comparison) else ""
         yield Drawing(
             "power-speed",
-            "Motor power over belt speed at the coldest common temperature.",
+            f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
+            f"{turning}",
             lambda: plots.power_against_speed(comparison, system=system),
             "power",
         )
@@ -345,12 +351,13 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
             lines.append(f'compound "{compound.name}" is illustrative, not measured: no choice rests on it')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
-            at = ", ".join(f"{celsius(row.temperature):g}" for row in rows)
+            at = _listed([celsius(row.temperature) for row in rows])
             lines.append(
                 f'compound "{compound.name}": its data do not cover what the rolls excite at {at} degC'
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
+    lines += turned(comparison)
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
@@ -358,6 +365,11 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         lines.append(
             "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
         )
+    fed_back = any(scene.motor < 0.0 for scene in comparison.scenes) or any(
+        study.year.fed_back_kwh > 0.0 for study in comparison.years.values()
+    )
+    if fed_back and earns_nothing(comparison.conveyor.operation):
+        lines.append("operation.feed_in_price not given: energy that is fed back earns nothing")
     if comparison.conveyor.duty:
         lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
         lines += [
@@ -369,6 +381,36 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )
     return tuple(lines)
+
+
+def turned(comparison: Comparison) -> list[str]:
+    """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
+    lines = []
+    for speed in sorted({scene.speed for scene in comparison.scenes}):
+        at: dict[float, list[Scene]] = {}
+        for scene in sorted(comparison.scenes, key=lambda s: (s.temperature, s.motor)):
+            if scene.speed == speed:
+                at.setdefault(scene.temperature, []).append(scene)
+        shared = {warmth: row for warmth, row in at.items() if len(row) == len(comparison.compounds)}
+        before = {
+            (one.compound, other.compound)
+            for row in shared.values()
+            for one, other in combinations(row, 2)
+            if other.motor - one.motor > one.error * abs(one.motor) + other.error * abs(other.motor)
+        }
+        if any((second, first) in before for first, second in before):
+            by_order: dict[tuple[str, ...], list[float]] = {}
+            for warmth, row in shared.items():
+                by_order.setdefault(tuple(s.compound for s in row), []).append(celsius(warmth))
+            orders = (f"{_listed(warm)} degC: {' < '.join(order)}" for order, warm in by_order.items())
+            lines.append(
+                f"the ranking turns with the temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
+            )
+    return lines
+
+
+def _listed(values: list[float]) -> str:
+    return ", ".join(f"{value:g}" for value in values)
 
 
 def plain(comparison: Comparison) -> dict[str, Any]:

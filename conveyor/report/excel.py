@@ -3,31 +3,22 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from openpyxl import Workbook
 
-from conveyor.display import chosen
 from conveyor.errors import InputError
+from conveyor.files import marks
 from conveyor.files.saving import save, writable
 from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
-from conveyor.report.comparing import of_comparison
 from conveyor.report.files import csv
 from conveyor.report.places import MOST_ROWS, Page, file_name
-from conveyor.report.tables import of_analysis
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
-    from conveyor.units import System
 
 SHEETS: Final = {
     "Summary": cover.summary,
@@ -59,22 +50,16 @@ _WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
 _PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
 
 
-def write(
-    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
-) -> Path:
-    """Write the workbook of an analysis: under a temporary name beside it first, then renamed.
+def write(contents: Contents, path: Path) -> Path:
+    """Write the workbook of a report: under a temporary name beside it first, then renamed.
 
     Parameters
     ----------
-    analysis : Analysis
-        What to report.
-    studies : Studies, optional
-        Load cases, duty and uncertainty, one sheet each.
+    contents : Contents
+        Its tables, in their unit system.
     path : Path
         Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Tables too long for a sheet go
         to ``<name of the workbook>_<name of the table>.csv`` beside it.
-    system : {"SI", "US"}, optional
-        Units of the tables; without it those of the spec's report.
 
     Returns
     -------
@@ -87,26 +72,24 @@ def write(
         The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
         is left, and an older workbook is untouched.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor.report.units, system))
-    _ready(path)
+    if path.suffix.lower() != ".xlsx":
+        raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
+    writable(path)
+    save(files(contents, path))
+    return path
+
+
+def files(contents: Contents, path: Path) -> dict[Path, bytes]:
+    """Workbook of a report and the tables too long for it, by the files they go to; as `write`."""
     with _uncollected():
-        found = of_analysis(shown, studies)
-        return _saved(path, found, build(found, path.stem))
-
-
-def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
-    """Write the workbook of a comparison of compounds; as `write`.
-
-    Raises
-    ------
-    InputError
-        As `write`.
-    """
-    units = chosen(comparison.conveyor.report.units, system)
-    _ready(path)
-    with _uncollected():
-        found = of_comparison(comparison, units)
-        return _saved(path, found, build_comparison(found, path.stem))
+        book, content = build(contents, path.stem), BytesIO()
+        try:
+            book.save(content)  # by way of temporary files
+        except OSError as error:
+            raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
+    beside = {path.with_name(file_name(path.stem, part)): csv(part.frame(contents.system)) for part in long}
+    return beside | {path: content.getvalue()}
 
 
 @contextmanager
@@ -121,44 +104,13 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def _ready(path: Path) -> None:
-    """Refuse a path that no workbook can stand at, before any time is spent on one."""
-    if path.suffix.lower() != ".xlsx":
-        raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
-    writable(path)
-
-
-def _saved(path: Path, found: Contents, book: Workbook) -> Path:
-    """Write a workbook, and beside it the tables too long for it."""
-    content = BytesIO()
-    try:
-        book.save(content)  # by way of temporary files
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
-    long = [part for part in found.tables if len(part.rows) > MOST_ROWS]
-    save(
-        {path.with_name(file_name(path.stem, part)): csv(part.frame(found.system)) for part in long}
-        | {path: content.getbuffer()}
-    )
-    return path
-
-
 def build(contents: Contents, stem: str = "") -> Workbook:
-    """Workbook of an analysis whose tables are given, not yet saved; `stem` names files beside it."""
-    return _book(contents, SHEETS, stem)
-
-
-def build_comparison(contents: Contents, stem: str = "") -> Workbook:
-    """Workbook of a comparison whose tables are given, not yet saved."""
-    return _book(contents, COMPARISON_SHEETS, stem)
-
-
-def _book(contents: Contents, fills: Mapping[str, Callable[[Page], None]], stem: str) -> Workbook:
-    about = contents.document
+    """Workbook of a report, not yet saved; `stem` names files beside it."""
+    about, fills = contents.document, COMPARISON_SHEETS if contents.document.facts else SHEETS
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
-    book.properties.creator = f"conveyor {version('conveyor')}"
+    book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
     for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or title not in _WHERE_ASKED:

@@ -5,22 +5,15 @@ from __future__ import annotations
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
 import pandas as pd
 
-from conveyor.display import chosen
 from conveyor.errors import InputError
+from conveyor.files import marks
 from conveyor.files.saving import save
+from conveyor.printable import printable
 from conveyor.report.columns import Contents
-from conveyor.report.comparing import of_comparison
-from conveyor.report.tables import of_analysis
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
-    from conveyor.units import System
 
 FileKind = Literal["csv", "parquet"]
 _KINDS: Final = ("csv", "parquet")
@@ -28,26 +21,15 @@ _FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
 """Beginnings that a spreadsheet reads as a formula when it opens a CSV file."""
 
 
-def write(
-    analysis: Analysis,
-    folder: Path,
-    studies: Studies | None = None,
-    *,
-    system: System | None = None,
-    kind: FileKind = "csv",
-) -> tuple[Path, ...]:
-    """Write the tables of an analysis and of its studies, one file each, named as docs/workbook.md lists them.
+def write(contents: Contents, folder: Path, kind: FileKind = "csv") -> tuple[Path, ...]:
+    """Write the tables of a report, one file each, named as docs/workbook.md lists them.
 
     Parameters
     ----------
-    analysis : Analysis
-        What to report.
+    contents : Contents
+        Its tables, in their unit system.
     folder : Path
         A folder that exists; files of the same names in it are replaced.
-    studies : Studies, optional
-        Load cases, duty and uncertainty.
-    system : {"SI", "US"}, optional
-        Units; without it those of the spec's report.
     kind : {"csv", "parquet"}
         Parquet needs the package pyarrow.
 
@@ -59,29 +41,8 @@ def write(
     Raises
     ------
     InputError
-        No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
+        No such folder, it cannot be written to, an unknown kind, or Parquet without pyarrow.
     """
-    shown = analysis.in_units(chosen(analysis.conveyor.report.units, system))
-    _ready(folder, kind)
-    return _written(of_analysis(shown, studies), folder, kind)
-
-
-def write_comparison(
-    comparison: Comparison, folder: Path, *, system: System | None = None, kind: FileKind = "csv"
-) -> tuple[Path, ...]:
-    """Write the tables of a comparison, one file each; as `write`.
-
-    Raises
-    ------
-    InputError
-        As `write`.
-    """
-    units = chosen(comparison.conveyor.report.units, system)
-    _ready(folder, kind)
-    return _written(of_comparison(comparison, units), folder, kind)
-
-
-def _ready(folder: Path, kind: str) -> None:
     if kind not in _KINDS:
         raise InputError(f'kind = "{kind}": csv or parquet')
     if kind == "parquet" and find_spec("pyarrow") is None:
@@ -92,13 +53,15 @@ def _ready(folder: Path, kind: str) -> None:
         raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
     if not there:
         raise InputError(f"{folder}: is no folder; create it or choose another")
+    made = files(contents, folder, kind)
+    save(made)
+    return tuple(made)
 
 
-def _written(found: Contents, folder: Path, kind: str) -> tuple[Path, ...]:
+def files(contents: Contents, folder: Path, kind: FileKind = "csv") -> dict[Path, bytes]:
+    """Tables of a report by the files they go to; as `write`."""
     encode = parquet if kind == "parquet" else csv
-    files = {folder / f"{part.key}.{kind}": encode(part.frame(found.system)) for part in found.tables}
-    save(files)
-    return tuple(files)
+    return {folder / f"{part.key}.{kind}": encode(part.frame(contents.system)) for part in contents.tables}
 
 
 def csv(frame: pd.DataFrame) -> bytes:
@@ -119,11 +82,15 @@ def csv(frame: pd.DataFrame) -> bytes:
 
 
 def _plain(value: object) -> object:
-    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
+    if not isinstance(value, str):
+        return value
+    return f"'{printable(value)}" if value.startswith(_FORMULA) else printable(value)
 
 
 def parquet(frame: pd.DataFrame) -> bytes:
     """Write a table as Parquet; a column of numbers with gaps keeps its gaps."""
     content = BytesIO()
-    frame.infer_objects().to_parquet(content, index=False, engine="pyarrow")
+    marked = frame.infer_objects()
+    marked.attrs = {marks.PARQUET: marks.maker()}
+    marked.to_parquet(content, index=False, engine="pyarrow")
     return content.getvalue()

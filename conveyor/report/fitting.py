@@ -45,9 +45,13 @@ def _shift(found: Fitted) -> Iterator[str]:
     yield f"shift of {shifted.temperatures.size} isotherms to {celsius(shifted.reference):.4g} degC"
     for t, shift, error in zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_a_T_error, strict=True):
         yield f"  {celsius(float(t)):8.2f} degC  log10 a_T {shift:+9.4f} +- {error:.4f}"
+    overlaps = ((shifted.storage_residual, "E'"), (shifted.loss_residual, "E''"))
+    scatter = ((shifted.storage_scatter, "E'"), (shifted.loss_scatter, "E''"))
+    told = " and ".join(f"{value:.1%} ({name})" for value, name in scatter if value is not None)
     yield (
-        f"  overlaps differ by {shifted.storage_residual:.1%} (E') and {shifted.loss_residual:.1%} (E''); scatter "
-        f"about the common curve {shifted.storage_scatter:.1%} and {shifted.loss_scatter:.1%}"
+        f"  overlaps differ by {' and '.join(f'{value:.1%} ({name})' for value, name in overlaps)}; scatter about the "
+        f"common curve {told}"
+        + ("" if None not in (shifted.storage_scatter, shifted.loss_scatter) else "; it alone placed them")
     )
     if shifted.correlation > _SHAPE_CORRELATION:
         yield (

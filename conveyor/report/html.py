@@ -7,23 +7,15 @@ from dataclasses import replace
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
 from conveyor.report.columns import Contents, Drawing, Table
-from conveyor.report.comparing import of_comparison
 from conveyor.report.page import Part, bullets, facts, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
-from conveyor.report.tables import of_analysis
 from conveyor.units import System
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
 
 _ENDINGS = (".html", ".htm")
 PARTS: Final = (
@@ -57,21 +49,15 @@ COMPARISON_PARTS: Final = (
 )
 
 
-def write(
-    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
-) -> Path:
-    """Write the HTML report of an analysis: under a temporary name beside it first, then renamed.
+def write(contents: Contents, path: Path) -> Path:
+    """Write the page of a report: under a temporary name beside it first, then renamed.
 
     Parameters
     ----------
-    analysis : Analysis
-        What to report.
+    contents : Contents
+        Its tables and drawings, in their unit system.
     path : Path
         Name of the page, ending in ``.html``; an older page there is replaced.
-    studies : Studies, optional
-        Load cases, duty and uncertainty.
-    system : {"SI", "US"}, optional
-        Units of the tables, those of the spec's report without it; figures are in SI units.
 
     Returns
     -------
@@ -82,34 +68,16 @@ def write(
     ------
     InputError
         The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
-        and an older page is untouched. Or the system is neither SI nor US.
+        and an older page is untouched.
     """
-    return _saved(path, lambda: build(analysis, studies, system=system))
+    if path.suffix.lower() not in _ENDINGS:
+        raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
+    writable(path)
+    save({path: build(contents).encode()})
+    return path
 
 
-def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
-    """Write the HTML report of a comparison of compounds; as `write`.
-
-    Raises
-    ------
-    InputError
-        As `write`.
-    """
-    return _saved(path, lambda: build_comparison(comparison, system=system))
-
-
-def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Html:
-    """Report of an analysis and of the studies its spec asks for, as text."""
-    shown = analysis.in_units(chosen(analysis.conveyor.report.units, system))
-    return made_of(of_analysis(shown, studies))
-
-
-def build_comparison(comparison: Comparison, *, system: System | None = None) -> Html:
-    """Report of a comparison, as text."""
-    return made_of(of_comparison(comparison, chosen(comparison.conveyor.report.units, system)))
-
-
-def made_of(contents: Contents) -> Html:
+def build(contents: Contents) -> Html:
     """Page of the tables and drawings of a report."""
     about = contents.document
     compared = bool(about.facts)
@@ -188,12 +156,3 @@ _OWN: Final[dict[str, Callable[[Contents], Html]]] = {
     "assumptions": lambda contents: bullets(contents.lines("assumption")),
 }
 """What parts of the page hold beside tables and drawings."""
-
-
-def _saved(path: Path, made: Callable[[], Html]) -> Path:
-    """Write a page under a temporary name beside its own, then rename."""
-    if path.suffix.lower() not in _ENDINGS:
-        raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
-    writable(path)
-    save({path: made().encode()})
-    return path

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from threading import Lock
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
 from conveyor.display import unit
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import saving
+from conveyor.files import marks, saving
+from conveyor.printable import printable
 from conveyor.units import System, si
 
 if TYPE_CHECKING:
@@ -24,6 +28,8 @@ if TYPE_CHECKING:
     from conveyor.studies.compared import Coverage, Scene
     from conveyor.studies.comparison import Comparison
 
+_NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
+_one_at_a_time = Lock()
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
@@ -88,14 +94,46 @@ def save(figure: Figure, path: str | Path) -> Path:
         is untouched.
     """
     where = Path(path)
-    known = figure.canvas.get_supported_filetypes()
-    if where.suffix.lower().removeprefix(".") not in known:
-        raise InputError(f'{where}: a figure\'s name ends in .png, .svg or .pdf, got "{where.suffix}"')
     saving.writable(where)
-    content = BytesIO()
-    figure.savefig(content, format=where.suffix.lower().removeprefix("."), dpi=150)
-    saving.save({where: content.getbuffer()})
+    saving.save({where: drawn(figure, where)})
     return where
+
+
+def drawn(figure: Figure, path: Path) -> bytes:
+    """Draw a figure in the format of a file's name: the same figure gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        An unknown ending.
+    """
+    maker = marks.maker()
+    about: dict[str, dict[str, str | None]] = {
+        ".png": {"Software": maker},
+        ".svg": {"Creator": maker, "Date": None},
+        ".pdf": {"Creator": maker, "CreationDate": None},
+    }
+    ending = path.suffix.lower()
+    if ending not in about:
+        raise InputError(f'{path}: a figure\'s name ends in .png, .svg or .pdf, got "{path.suffix}"')
+    content = BytesIO()
+    with drawing():
+        figure.savefig(content, format=ending[1:], dpi=150, metadata=about[ending])
+    return printable(content.getvalue().decode()).encode() if ending == ".svg" else content.getvalue()
+
+
+@contextmanager
+def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
+    """Draw one figure at a time, letters of SVG as paths or as text: settings and warnings are the whole process's.
+
+    Only what draws SVG reads these settings: figures that another thread makes meanwhile do not see them.
+    """
+    import matplotlib as mpl
+
+    settings = {"svg.fonttype": letters, "svg.hashsalt": "conveyor"}
+    with _one_at_a_time, mpl.rc_context(settings), warnings.catch_warnings():  # type: ignore[arg-type]
+        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
+        yield
 
 
 class Scenes(Protocol):
@@ -118,6 +156,23 @@ class Scenes(Protocol):
         """Where the data cover what the rolls ask for."""
 
 
+def drawn_speed(comparison: Scenes) -> float:
+    """Speed that power over temperature is drawn at: of those with an answer the next to the spec's [m/s]."""
+    spec = si(comparison.conveyor.belt.speed)
+    return min(
+        sorted({s.speed for s in comparison.scenes}), key=lambda given: abs(given - spec), default=spec
+    )
+
+
+def drawn_temperature(comparison: Scenes) -> float | None:
+    """Temperature that power over speed is drawn at: of those every compound answers the next to the spec's [K]."""
+    spec = si(comparison.conveyor.ambient.belt)
+    answered = [
+        {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
+    ]
+    return min(sorted(set.intersection(*answered)), key=lambda given: abs(given - spec), default=None)
+
+
 def power_against_temperature(
     comparison: Scenes, speed: float | None = None, *, system: System = "SI"
 ) -> Figure:
@@ -131,9 +186,7 @@ def power_against_temperature(
         No scene has an answer at that speed.
     """
     velocity = unit("speed", system, large=True)
-    spec = si(comparison.conveyor.belt.speed)
-    speeds = {scene.speed for scene in comparison.scenes}
-    chosen = min(speeds, key=lambda given: abs(given - spec), default=spec) if speed is None else speed
+    chosen = drawn_speed(comparison) if speed is None else speed
     found = [scene for scene in comparison.scenes if scene.speed == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.sign}: nothing to draw")
@@ -155,14 +208,9 @@ def power_against_speed(
         No scene has an answer at that temperature, or none that all compounds share.
     """
     warmth = unit("temperature", system, large=True)
-    answered = [
-        {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
-    ]
-    common = set.intersection(*answered)
-    if temperature is None and not common:
+    chosen = drawn_temperature(comparison) if temperature is None else temperature
+    if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
-    spec = si(comparison.conveyor.ambient.belt)
-    chosen = min(common, key=lambda given: abs(given - spec)) if temperature is None else temperature
     found = [scene for scene in comparison.scenes if scene.temperature == chosen]
     if not found:
         raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.sign}: nothing to draw")

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-import warnings
 from io import BytesIO
-from threading import Lock
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from conveyor.markup import Html, element
+from conveyor.printable import printable
 from conveyor.report.checks import RAISED
-from conveyor.report.plots import colour
+from conveyor.report.plots import colour, drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,9 +32,8 @@ _HOUSE = {colour(k) for k in range(8)}
 _GUIDE = "#5F6670"
 _PLAIN = 3  # decades about 1 that are written out
 _LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
-_SETTINGS = {"svg.fonttype": "none", "svg.hashsalt": "conveyor", "path.simplify_threshold": 0.5}
-_NO_GLYPH = "Glyph .* missing from font"  # the browser chooses the font: a glyph that ours lacks is no fault
-_one_at_a_time = Lock()  # matplotlib's settings and the warnings are the whole process's
+_SIMPLER = 0.5
+"""Of lines: deviation at which a point of them is left out [px]."""
 
 
 def inline(figure: Figure, name: str, label: str) -> Html:
@@ -50,10 +48,10 @@ def inline(figure: Figure, name: str, label: str) -> Html:
     label : str
         What it shows, for those who cannot see it.
     """
-    with _one_at_a_time:
+    with drawing(letters="none"):
         restyle(figure)
         drawn = _drawn(figure)
-    return Html(_cleaned(drawn, name, label))
+    return Html(_cleaned(printable(drawn.decode()), name, label))
 
 
 def restyle(figure: Figure) -> None:
@@ -76,9 +74,7 @@ def restyle(figure: Figure) -> None:
         legend = axis.get_legend()
         for text in (*axis.texts, *(legend.get_texts() if legend is not None else ())):
             text.set_parse_math(False)  # a user's "$" is a dollar
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
-        _fit(figure)
+    _fit(figure)
 
 
 def _fit(figure: Figure) -> None:
@@ -133,18 +129,17 @@ def _tell_apart(axis: Axes) -> None:
 
 
 def _drawn(figure: Figure) -> bytes:
-    import matplotlib as mpl
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
+    for line in (line for axis in figure.axes for line in axis.lines):
+        line.get_path().simplify_threshold = _SIMPLER
     content = BytesIO()  # savefig draws twice, the canvas once
-    with mpl.rc_context(_SETTINGS), warnings.catch_warnings():  # type: ignore[arg-type]
-        warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
-        FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None})  # type: ignore[no-untyped-call]
+    FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None})  # type: ignore[no-untyped-call]
     return content.getvalue()
 
 
-def _cleaned(drawn: bytes, name: str, label: str) -> str:
-    root = ET.fromstring(drawn)  # noqa: S314 drawn here
+def _cleaned(drawn: str, name: str, label: str) -> str:
+    root = ET.fromstring(drawn.encode())  # noqa: S314 drawn here
     used = {_link(node) for node in root.iter()} | {
         found for node in root.iter() for value in node.attrib.values() for found in _REFERENCE.findall(value)
     }

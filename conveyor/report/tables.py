@@ -24,7 +24,7 @@ from conveyor.figures import belt_strength
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.take_up import mean_tension, take_up_mass
 from conveyor.line.roll_lives import roll_life, set_life
-from conveyor.line.walk import excited_band, worst_energy_error, worst_error
+from conveyor.line.walk import StretchResult, excited_band, worst_energy_error, worst_error
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.report import analysis_plots, loop_plots
 from conveyor.report.checks import band_words, checks
@@ -221,8 +221,7 @@ def sections(a: Analysis) -> Table:
         Column("lift force", "force", attrgetter("lift"), "forces", json="lift_N", total=True),
         Column("total", "force", attrgetter("total"), "forces", json="total_N", total=True),
         Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
-        Column("idler set L10 life", "life",
-               lambda r: _seconds(set_life(r.stretch, r.rolls[0].curve.contact.speed)), "layout", sparse=True),
+        Column("idler set L10 life", "life", _set_life, "layout", sparse=True),
     )  # fmt: skip
     page = (
         OnPage("route", "Sections of both strands, in running direction", "layout"),
@@ -232,8 +231,10 @@ def sections(a: Analysis) -> Table:
     return Table("sections", "Sections", heading, columns, a.stretches, page, foot="all sections")
 
 
-def _seconds(hours: float | None) -> float | None:
-    return None if hours is None else hours * _HOUR
+def _set_life(r: StretchResult) -> float | None:
+    """Of the bearings of a set [s], where all are given."""
+    life = set_life(r.stretch, r.rolls[0].curve.contact.speed)
+    return life.hours * _HOUR if life is not None and life.whole else None
 
 
 def resistances(a: Analysis) -> Table:

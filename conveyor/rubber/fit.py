@@ -296,6 +296,34 @@ def _judged(
     )
 
 
+def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
+    """Error that the best of all positive spectra leaves, without a fit: see `PronyFit.consistency_floor`.
+
+    Parameters
+    ----------
+    frequency : array_like
+        Cyclic frequency, shape `(n,)` [Hz].
+    storage : array_like
+        E', shape `(n,)` [Pa].
+    loss : array_like
+        E'', shape `(n,)` [Pa].
+
+    Returns
+    -------
+    float
+        Root mean square of the errors of E' and E'' relative to a dense fit [-].
+
+    Raises
+    ------
+    InputError
+        As `fit_prony`.
+    NoSolutionError
+        If no term is active.
+    """
+    rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
+    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE), None))
+
+
 def _floor(rows: Rows) -> float:
     tau = even_times(rows.omega, FLOOR_TERMS_PER_DECADE, FLOOR_EXTRA_DECADES)
     return float(np.sqrt(np.mean((rows.matrix(tau) @ plain(rows, tau, None) - rows.target) ** 2)))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.rubber.arrays import FloatArray
+from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.strain import StrainSweep
 
 _KRAUS_STARTS = (0.3, 0.6, 0.9)  # about the exponents of carbon blacks, 0.5 to 0.6 (Kraus)
@@ -143,12 +144,10 @@ def _moduli(
     strain: FloatArray, measured: FloatArray, which: int, place: FloatArray
 ) -> tuple[tuple[float, float], FloatArray]:
     """The two moduli of one branch of the law at ln critical strain and ln m, and the relative errors left."""
-    from scipy.optimize import nnls
-
     share = _kraus_shapes(strain, math.exp(place[0]), math.exp(place[1]))[which]
     unit = float(measured.max())
     columns = np.stack([1.0 - share, share], axis=1) * (unit / measured)[:, None]
-    scaled, _ = nnls(columns, np.ones(measured.size))
+    scaled = non_negative(columns, np.ones(measured.size))
     return (unit * float(scaled[0]), unit * float(scaled[1])), np.asarray(columns @ scaled - 1.0)
 
 

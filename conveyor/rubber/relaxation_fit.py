@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.prony import PronySeries
 
 TERMS_PER_DECADE = 2.0
@@ -230,14 +231,12 @@ def _matrix(t: FloatArray, e: FloatArray, tau: FloatArray) -> FloatArray:
 
 def _solve(t: FloatArray, e: FloatArray, tau: FloatArray, held: float | None) -> FloatArray:
     """Moduli of least relative squares, equilibrium first, shape `(1 + m,)` [Pa]."""
-    from scipy.optimize import nnls
-
     unit = float(e.min())
     matrix = _matrix(t, e, tau) * unit
     ones = np.ones_like(t)
     if held is None:
-        found, _ = nnls(matrix, ones)
+        found = non_negative(matrix, ones)
     else:
-        rest, _ = nnls(matrix[:, 1:], ones - matrix[:, 0] * (held / unit))
+        rest = non_negative(matrix[:, 1:], ones - matrix[:, 0] * (held / unit))
         found = np.concatenate([[held / unit], rest])
     return np.asarray(np.where(found > DUST, found, 0.0) * unit)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.rubber.non_negative import non_negative
 
 DUST = 1.0e-12
 """NNLS may return zero as rounding, 1e-16; no data resolve a modulus this far below the smallest E'."""
@@ -247,14 +248,17 @@ def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
     ----------
     C. L. Lawson, R. J. Hanson, Solving Least Squares Problems (1974), chapter 23.
     """
-    from scipy.optimize import nnls
+    return _solved(rows, kernel(rows.omega, tau), held)
 
+
+def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
+    """`plain`, of the `kernel` of its times."""
     unit = float(np.exp(np.mean(np.log(rows.storage))))
-    matrix = rows.matrix(tau) * unit
+    matrix = terms / rows.scale[:, None] * unit
     if held is None:
-        moduli, _ = nnls(matrix, rows.target)
+        moduli = non_negative(matrix, rows.target)
     else:
-        rest, _ = nnls(matrix[:, 1:], rows.target - matrix[:, 0] * (held / unit))
+        rest = non_negative(matrix[:, 1:], rows.target - matrix[:, 0] * (held / unit))
         moduli = np.concatenate([[held / unit], rest])
     return np.asarray(moduli * unit)
 
@@ -292,11 +296,12 @@ def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
     R. W. M. Wedderburn, Biometrika 61 (1974) 439-447.
     """
     spread = rows.scale / np.concatenate([rows.storage, rows.loss])
+    terms = kernel(rows.omega, tau)
     for _ in range(PASSES):
-        moduli = plain(rows, tau, held)
+        moduli = _solved(rows, terms, held)
         if not moduli[1:].any():
             raise NoSolutionError(NO_TERM)
-        rows = replace(rows, scale=kernel(rows.omega, tau) @ moduli * spread)
+        rows = replace(rows, scale=terms @ moduli * spread)
     return rows
 
 

@@ -69,7 +69,7 @@ class ShiftComparison:
 
 @dataclass(frozen=True, eq=False)
 class _Shifts:
-    """Checked rows by ascending temperature; weights are 1/error^2 of those away from the reference."""
+    """Checked rows by ascending temperature, zero at the row nearest the reference; weights 1/error^2 of the others."""
 
     t: FloatArray
     y: FloatArray
@@ -81,8 +81,6 @@ class _Shifts:
         """Fit a law to some rows."""
         t, y = self.t[keep], self.y[keep]
         if name == "table":
-            if self.reference not in t:
-                t, y = np.append(t, self.reference), np.append(y, 0.0)
             return ShiftTable(t, y, reference=self.reference)
         error = None if self.error is None else self.error[keep]
         fit = fit_wlf if name == "WLF" else fit_arrhenius
@@ -101,7 +99,8 @@ def compare_shift_laws(
     log10_a_T : array_like
         Shifts at them, shape `(n,)` [-].
     reference : float
-        Absolute temperature, within the measured ones, at which a_T = 1 [K].
+        Absolute temperature, within the measured ones, at which a_T = 1 [K]. The laws are made to pass through the
+        row nearest to it: between two rows a_T = 1 is interpolated, not measured.
     error : array_like, optional
         Standard uncertainty of each shift, shape `(n,)`; rows weigh by 1/error^2. Equal weights when left
         out [decades].
@@ -156,6 +155,8 @@ def _checked(
         raise RangeError(
             f"reference {t_ref:g} K is outside the shifts, {t.min():g} to {t.max():g} K: choose one inside"
         )
+    nearest = int(np.argmin(np.abs(t - t_ref)))
+    t_ref, y = float(t[nearest]), y - y[nearest]
     order = np.argsort(t, kind="stable")
     sigma = None
     weight = np.ones_like(t)

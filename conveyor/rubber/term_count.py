@@ -8,6 +8,7 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray
+from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.rows import DUST, Rows, even_times
 
 DENSITIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 8.0)
@@ -118,11 +119,12 @@ class Penalised:
 
     def solve(self, target: FloatArray, strength: float) -> FloatArray:
         """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa]."""
-        from scipy.optimize import nnls
+        return self._solved(target, self._stacked(strength))
 
+    def _solved(self, target: FloatArray, matrix: FloatArray) -> FloatArray:
+        """`solve`, of the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
-        matrix = self._stacked(strength)
-        found, _ = nnls(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
+        found = non_negative(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
         full = found if self.held is None else np.concatenate([[self.held / self.unit[0]], found])
         return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
 
@@ -135,10 +137,13 @@ class Penalised:
 
     def judged(self, target: FloatArray, strength: float) -> Solution:
         """Solve, and count parameters and errors."""
-        moduli = self.solve(target, strength)
+        matrix = self._stacked(strength)
+        moduli = self._solved(target, matrix)
         active = moduli > 0.0 if self.held is None else moduli[1:] > 0.0
-        factor, _ = np.linalg.qr(self._stacked(strength)[:, active])
-        freedom = float(np.sum(factor[: len(self.triangle)] ** 2))
+        freedom = float(np.count_nonzero(active))
+        if strength > 0.0:
+            factor, _ = np.linalg.qr(matrix[:, active])
+            freedom = float(np.sum(factor[: len(self.triangle)] ** 2))
         weights = moduli / self.unit if self.held is None else (moduli / self.unit)[1:]
         error = self.columns @ weights + self.fixed - target
         return Solution(moduli, freedom, float(np.sqrt(np.mean(error**2))))

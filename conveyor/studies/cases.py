@@ -18,7 +18,6 @@ from conveyor.laws.power import motor_power
 from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.curved import Run
 from conveyor.loop.data import loop_data
-from conveyor.loop.settled import Settled
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.studies.scenes import Progress, Scene, runs
 from conveyor.studies.variants import with_case, with_temperature
@@ -288,7 +287,9 @@ def mains_power(conveyor: Conveyor, force: float) -> float:
 def _result(case: LoadCase, conveyor: Conveyor, done: Run, band: tuple[float, float]) -> CaseResult:
     found = done.balance
     forces, tensions, settled = found.forces, found.tensions, found.settled
-    low, high = (_force(settled, friction) for friction in band)
+    low, high = (
+        settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction) for friction in band
+    )
     roll, where = _heaviest_roll(done.stretches)
     carries = case.loading in {"as given", "full", "part load"}
     return CaseResult(
@@ -319,14 +320,6 @@ def _result(case: LoadCase, conveyor: Conveyor, done: Run, band: tuple[float, fl
         error=worst_error(done.stretches),
         balance=found,
     )
-
-
-def _force(settled: Settled, friction: float) -> float:
-    """Drive force in steady running with a friction over the computed one [N]; lift and acceleration have none."""
-    loop = settled.loop
-    before, behind = loop.singles(settled.bends, friction)
-    lift = loop.lifts.whole
-    return math.fsum((lift, friction * (loop.totals.whole - lift), *before, *behind))
 
 
 def _heaviest_roll(results: Sequence[StretchResult]) -> tuple[float, str]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor import shelf
+from conveyor.display import chosen
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.studies.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
@@ -23,6 +24,7 @@ from conveyor.units import Quantity, System, quantity, si
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.report.columns import Contents
     from conveyor.report.files import FileKind
     from conveyor.studies.drawing import ComparisonPlots
 
@@ -90,6 +92,12 @@ class Comparison:
 
         return comparing.ranking(self).frame()
 
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.comparing import of_comparison
+
+        return of_comparison(self, chosen(self.conveyor.report.units, system))
+
     def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the workbook.
 
@@ -106,9 +114,9 @@ class Comparison:
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.excel import write_comparison
+        from conveyor.report.excel import write
 
-        return write_comparison(self, Path(path), system=system)
+        return write(self.contents(system), Path(path))
 
     def to_tables(
         self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
@@ -129,9 +137,9 @@ class Comparison:
         InputError
             No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
         """
-        from conveyor.report.files import write_comparison
+        from conveyor.report.files import write
 
-        return write_comparison(self, Path(folder), system=system, kind=kind)
+        return write(self.contents(system), Path(folder), kind)
 
     def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page.
@@ -148,9 +156,9 @@ class Comparison:
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.html import write_comparison
+        from conveyor.report.html import write
 
-        return write_comparison(self, Path(path), system=system)
+        return write(self.contents(system), Path(path))
 
     @property
     def plots(self) -> ComparisonPlots:

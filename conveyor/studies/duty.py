@@ -7,9 +7,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.energy import Duty, DutyStep, duty_cost, duty_emission, duty_specific_energy, duty_sums
+from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.curved import Run
+from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.studies.cases import mains_power, shaft_power
 from conveyor.studies.scenes import Progress, Scene, runs
@@ -162,15 +163,13 @@ def analyse_duty(
             raise NoSolutionError(f"operation.duty[{i}] ({_described(entry)}): {found}")
         rows.append(_row(entry, variant, found))
     year = duty_sums([row.step for row in rows])
-    price, credit = operation.price, operation.feed_in_price
+    price = operation.price
     factor, saved = operation.emission, operation.feed_in_emission
     return DutyStudy(
         conveyor=conveyor,
         rows=tuple(rows),
         year=year,
-        cost=None
-        if price is None
-        else duty_cost(year, price=price.amount, credit=0.0 if credit is None else credit.amount),
+        cost=year_cost(operation, year),
         currency=None if price is None else price.currency,
         emission=None
         if factor is None

@@ -17,7 +17,7 @@ from conveyor.template.entries import NAMED, Content, Entry, Item, Sheets
 from conveyor.template.layout import Group, Leaf, Path, Table
 from conveyor.template.plan import Plan, references, whole, written_out
 from conveyor.template.values import from_cells
-from conveyor.template.workbook import read_workbook
+from conveyor.template.workbook import grids, read_workbook
 
 MOST_LINES: Final = 100
 """Errors listed of one workbook; the rest are counted."""
@@ -62,20 +62,20 @@ def read_template(path: str | FilePath) -> Filled:
     return read_filled(FilePath(path), Conveyor)
 
 
-def read_filled(where: FilePath, model: type[BaseModel]) -> Filled:
-    """Read a workbook of any model's plan, as `read_template` does that of a conveyor.
+def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None = None) -> Filled:
+    """Read a workbook of any model's plan, as `read_template` does that of a conveyor; or its bytes, if given.
 
     Raises
     ------
     InputError
         As `read_template`.
     """
-    sheets = Sheets(str(where), read_workbook(where))
+    sheets = Sheets(str(where), read_workbook(where) if content is None else grids(where, content))
     plan = whole(model)
-    content = sheets.content(plan)
+    held = sheets.content(plan)
     reader = _Reader(sheets, {} if sheets.problems else _written_out(plan, sheets))
-    reader.cells[()] = content.places[plan.forms[0].name]
-    data = {} if sheets.problems else reader.group(plan.root, _At(content, content.entries, (), (), None))[0]
+    reader.cells[()] = held.places[plan.forms[0].name]
+    data = {} if sheets.problems else reader.group(plan.root, _At(held, held.entries, (), (), None))[0]
     if sheets.problems:
         lines = sheets.problems[:MOST_LINES]
         if len(sheets.problems) > MOST_LINES:

@@ -19,6 +19,7 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
+from conveyor.files.archive import Limits, look_through
 from conveyor.files.content import file_content
 from conveyor.template.values import Value
 
@@ -30,6 +31,12 @@ thousand sections has a tenth of it, and so much takes some seconds to parse."""
 MOST_PARTS: Final = 2_000
 MOST_CELLS: Final = 300_000
 """Rows times columns of one sheet; a template of a thousand sections has a tenth of it."""
+
+MOST_ELEMENTS: Final = 150_000
+LIMITS: Final = Limits(
+    content=LARGEST_CONTENT, parts=MOST_PARTS, elements=MOST_ELEMENTS, expected="input workbook"
+)
+"""Looked for before anything is built of a workbook; a template of a thousand sections has 40,000 elements."""
 
 _OLE: Final = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _ENCRYPTED: Final = "EncryptedPackage".encode("utf-16-le")
@@ -90,8 +97,18 @@ def read_workbook(path: Path) -> dict[str, Grid]:
         The file cannot be read, is no workbook, is damaged, protected by a password, larger than a filled-in
         template can be, or declares XML entities.
     """
-    content = _content(path)
-    _check_parts(path, content)
+    return grids(path, _content(path))
+
+
+def grids(path: Path, content: bytes) -> dict[str, Grid]:
+    """Read every sheet of a workbook whose bytes are given; the path is for messages.
+
+    Raises
+    ------
+    InputError
+        As `read_workbook`.
+    """
+    look_through(content, str(path), LIMITS)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # openpyxl names the parts it does not keep; none is read here
@@ -117,30 +134,6 @@ def _content(path: Path) -> bytes:
         found = "empty" if not content else "not a workbook (.xlsx)"
         raise InputError(f"{path}: {found}; write one with: conveyor template input.xlsx")
     return content
-
-
-def _check_parts(path: Path, content: bytes) -> None:
-    """Refuse what would unpack to too much, and XML that defines entities, before anything is parsed."""
-    try:
-        with zipfile.ZipFile(BytesIO(content)) as archive:
-            problem = _part_problem(archive)
-    except _DAMAGED:
-        raise InputError(f"{path}: damaged or cut short; copy it again") from None
-    if problem:
-        raise InputError(f"{path}: {problem}")
-
-
-def _part_problem(archive: zipfile.ZipFile) -> str:
-    parts = archive.infolist()
-    if len(parts) > MOST_PARTS or sum(part.file_size for part in parts) > LARGEST_CONTENT:
-        return f"unpacks to more than {LARGEST_CONTENT:,} bytes or {MOST_PARTS:,} parts; this is no input workbook"
-    if any(part.flag_bits & 1 for part in parts):
-        return "protected by a password; save it without one"
-    for part in parts:
-        # without its zero bytes UTF-16 reads as ASCII
-        if b"<!DOCTYPE" in archive.read(part).replace(b"\0", b""):
-            return f"{part.filename} declares a document type, which no workbook does"
-    return ""
 
 
 def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[Grid]:

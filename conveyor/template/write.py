@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from contextlib import suppress
-from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
 from typing import Final
-from uuid import uuid4
 
 from conveyor import shelf, spec
 from conveyor.errors import InputError
-from conveyor.files.saving import writable
+from conveyor.files import marks
+from conveyor.files.saving import save, writable
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
 from conveyor.template.draw import Book
 from conveyor.template.fill import filled
-from conveyor.template.read import read_template
+from conveyor.template.read import read_filled
 
+_MADE: Final = Path("template.xlsx")
 EXAMPLE: Final = Path(__file__).with_name("example.yaml")
 
 
 def write_template(
     path: str | Path, conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = ()
 ) -> Path:
-    """Write an input workbook: under a temporary name beside it, read back and compared, then renamed.
+    """Write an input workbook: made, read back and compared, then written.
 
     Parameters
     ----------
@@ -48,39 +47,44 @@ def write_template(
         The path does not end in .xlsx, is a folder, lies in none or cannot be written; or a workbook cannot
         hold the conveyor without loss (characters that XML does not have, texts beyond 32767 characters).
     """
-    where, folders = Path(path), tuple(shelves)
-    given = spec.load(EXAMPLE) if conveyor is None else conveyor
+    where = Path(path)
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
     writable(where)
-    partial = where.with_name(f".{uuid4().hex}.xlsx")
-    try:
-        partial.write_bytes(_content(given, folders))
-        _compare(partial, given, folders)
-        partial.replace(where)
-    except OSError as error:
-        raise InputError(f"{where}: cannot be written ({error.strerror or error})") from None
-    finally:
-        with suppress(OSError):  # no such file after the rename
-            partial.unlink(missing_ok=True)
+    save({where: template(conveyor, shelves=shelves)})
     return where
+
+
+def template(conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = ()) -> bytes:
+    """Input workbook as bytes, read back and compared; as `write_template`.
+
+    Raises
+    ------
+    InputError
+        A workbook cannot hold the conveyor without loss.
+    """
+    given, folders = spec.load(EXAMPLE) if conveyor is None else conveyor, tuple(shelves)
+    content = _content(given, folders)
+    _compare(content, given, folders)
+    return content
 
 
 def _content(conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> bytes:
     drawn = Book(conveyor.name, shelf.names(shelves)).draw(filled(conveyor, shelves))
     drawn.properties.title = legible(conveyor.name)
-    drawn.properties.creator = f"conveyor {version('conveyor')}"
+    drawn.properties.creator = marks.maker()
     content = BytesIO()
     drawn.save(content)
     return content.getvalue()
 
 
-def _compare(partial: Path, conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> None:
+def _compare(content: bytes, conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> None:
     """Refuse to keep a workbook that does not read back to the same conveyor."""
     try:
-        same = spec.from_data(read_template(partial).data, shelves=shelves).as_data() == conveyor.as_data()
+        filled = read_filled(_MADE, Conveyor, content)
+        same = spec.from_data(filled.data, shelves=shelves).as_data() == conveyor.as_data()
     except InputError as error:
-        lines = str(error).replace(f"{partial}:", "")
+        lines = str(error).replace(f"{_MADE}:", "")
         raise InputError(f"a workbook cannot hold this conveyor; write it as YAML:\n{lines}") from None
     if not same:
         raise InputError(

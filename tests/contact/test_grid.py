@@ -13,6 +13,7 @@ from conveyor.contact.grid import Grid, solve_grid
 from conveyor.contact.layers import Layer
 from conveyor.errors import InputError, NoSolutionError
 
+ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16
 ONE = CreepSpectrum(0.1, [0.9], [1.0])
 SCENES = {
     "free": ContactProblem("free", 0.4, 0.05, ONE, 1.0),
@@ -182,7 +183,7 @@ def test_one_grid_serves_many_loads():
     grid = Grid(SCENES["confined"], 512)
     for pressure in (0.01, 0.05):
         alone = solve_grid(replace(SCENES["confined"], pressure=pressure), 512)
-        assert grid.contact(pressure).friction == alone.friction
+        assert grid.contact(pressure).friction == pytest.approx(alone.friction, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("points", [0, -4, 14, 513])

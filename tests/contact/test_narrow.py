@@ -8,11 +8,20 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from conveyor.contact import ContactProblem, CreepSpectrum, HalfSpace, Status, solve, solve_many
+from conveyor.contact import (
+    Confined,
+    ContactProblem,
+    CreepSpectrum,
+    Free,
+    HalfSpace,
+    Status,
+    solve,
+    solve_many,
+)
 from conveyor.contact.checks import WRAPPED
+from conveyor.contact.creep import Creeps
 from conveyor.contact.layers import Layers
 from conveyor.contact.narrow import solve_narrow
-from conveyor.contact.problem import Creeps
 from conveyor.contact.quadrature import build_rule
 from conveyor.contact.scene import Scene
 from conveyor.contact.short_rule import COARSE, FINE, WIDEST, _moments, short_rule
@@ -124,7 +133,6 @@ def test_a_scene_does_not_feel_its_neighbours():
     [
         ContactProblem("free", 0.4, 0.05, CreepSpectrum(0.1, [0.9], [1.0]), 1.0),  # wide
         ContactProblem("confined", 0.1, 1e-4, CreepSpectrum(0.1, [0.9], [1e120]), 0.1),  # squares overflow
-        ContactProblem(HalfSpace(), 0.1, 1e-4, CreepSpectrum(0.1, [0.9], [1.0])),  # a layer of the user's own
         ContactProblem(
             "free", 0.3, 0.001, CreepSpectrum(0.1, [0.9], [1.0]), 1e-4
         ),  # thin against the contact
@@ -135,6 +143,22 @@ def test_a_scene_does_not_feel_its_neighbours():
 )
 def test_what_is_not_plainly_narrow_is_handed_back(problem):
     assert solve_narrow([problem], 1e-6) == [None]
+
+
+@pytest.mark.parametrize("own", [HalfSpace(), Confined(0.03), Free(2.0)])
+def test_layers_of_ones_own_are_narrow_too(own):
+    class Wrapped:
+        reach = own.reach
+
+        def symbol(self, m, creep):
+            return own.symbol(m, creep)
+
+    scenes = [
+        ContactProblem(layer, 0.1, 1e-4, CreepSpectrum(0.1, [0.9], [0.1])) for layer in (own, Wrapped())
+    ]
+    known, asked = solve_many(scenes)
+    assert asked.stats.way == known.stats.way == "narrow"
+    assert asked.friction == pytest.approx(known.friction, rel=1e-7)
 
 
 def test_a_strip_beside_the_crown_is_not_taken_for_the_whole_contact():

@@ -182,7 +182,9 @@ def test_strain_sweep_of_double_amplitudes_in_shear() -> None:
     assert data.kind == "strain sweep"
     (sweep,) = data.strain_sweeps()
     # DSA % is twice the amplitude in percent; E = 3 G
-    np.testing.assert_allclose(sweep.strain, [0.0005, 0.005, 0.05, 0.1], rtol=ROUNDING)
+    np.testing.assert_allclose(
+        sweep.strain, np.array([0.0005, 0.005, 0.05, 0.1]) / np.sqrt(3.0), rtol=ROUNDING
+    )
     np.testing.assert_allclose(sweep.storage, [9e6, 7.2e6, 4.5e6, 3.6e6], rtol=ROUNDING)
     assert sweep.frequency == pytest.approx(10.0)
     assert sweep.temperature == pytest.approx(333.15)

@@ -220,8 +220,8 @@ def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
     start = time.process_time()
     data = read_dma(file)
     isotherms = data.isotherms()
-    # measured 0.15 s
-    assert time.process_time() - start < 0.5
+    # measured 0.15 s, ten times it for slower machines
+    assert time.process_time() - start < 1.5
     assert len(isotherms) == 20
     assert data.row_numbers.size == 10_000
 

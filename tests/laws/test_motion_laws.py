@@ -35,8 +35,9 @@ def test_start_power_is_the_limited_motor_power():
 
 
 def test_newton_at_the_start():
-    assert motion.start_acceleration(30e3, resistance=20e3, moving_mass=40e3) == 0.25
-    assert motion.start_acceleration(0.0, resistance=-10e3, moving_mass=40e3) == 0.25
+    for force, resistance in ((30e3, 20e3), (0.0, -10e3)):
+        found = motion.start_acceleration(force, resistance=resistance, moving_mass=40e3)
+        assert found == pytest.approx(0.25, rel=ROUNDING)
 
 
 def test_stop_turns_the_kinetic_energy_into_work():
@@ -55,7 +56,7 @@ def test_brake_gives_the_deceleration_asked_for():
 
 def test_bulk_slips_symmetrically_on_the_level_and_mirrors_with_the_slope():
     level = motion.bulk_slip_limits(0.5, inclination=0.0, gravity=9.81)
-    assert level == (-0.5 * 9.81, 0.5 * 9.81)
+    assert level == pytest.approx((-0.5 * 9.81, 0.5 * 9.81), rel=ROUNDING)
     up = motion.bulk_slip_limits(0.5, inclination=0.2, gravity=9.81)
     down = motion.bulk_slip_limits(0.5, inclination=-0.2, gravity=9.81)
     assert up[0] == pytest.approx(-down[1], rel=ROUNDING)

@@ -30,18 +30,10 @@ def test_specific_energy_of_a_conveyor_with_friction_only():
         assert energy == pytest.approx(0.02 * 9.81 / 3.6, rel=ROUNDING)  # 1 J/(kg m) = 1/3.6 kWh/(t km)
 
 
-def test_a_year_at_one_kilowatt():
-    hours = 8760
-    energy = power.annual_energy_kwh(1e3, operating_time=hours * 3600.0)
-    assert energy == pytest.approx(hours, rel=ROUNDING)
-    assert power.annual_cost(energy, price_per_kwh=0.2) == pytest.approx(1752.0, rel=ROUNDING)
-    assert power.annual_cost(-energy, price_per_kwh=0.2) == pytest.approx(-1752.0, rel=ROUNDING)
-
-
 def test_empirical_lift_is_the_potential_energy_with_367_for_3600_over_g():
     law = power.empirical_lift_power(100.0, lift=10.0)
     assert law == pytest.approx(100.0 * 10.0 * 3600 / 367, rel=ROUNDING)
-    assert power.empirical_lift_power(100.0, lift=-10.0) == -law
+    assert power.empirical_lift_power(100.0, lift=-10.0) == pytest.approx(-law, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(
@@ -56,8 +48,6 @@ def test_empirical_lift_is_the_potential_energy_with_367_for_3600_over_g():
         ),
         (lambda: power.motor_power(1.0, efficiency=0.0), r"efficiency = 0\.0"),
         (lambda: power.specific_energy(1.0, mass_flow=0.0, length=1.0), r"mass_flow = 0\.0"),
-        (lambda: power.annual_energy_kwh(1.0, operating_time=-1.0), r"operating_time = -1\.0"),
-        (lambda: power.annual_cost(1.0, price_per_kwh=-0.1), r"price_per_kwh = -0\.1"),
         (lambda: power.empirical_lift_power(-1.0, lift=1.0), r"mass_flow = -1\.0"),
         (
             lambda: power.empirical_level_power(

@@ -48,9 +48,10 @@ def test_equivalent_friction_factor_gives_back_the_factor():
 
 
 def test_main_resistance_is_even_in_the_slope_and_rolls_do_not_feel_it():
-    assert resistance.main_resistance(**WHOLE | {"inclination": -0.1}) == resistance.main_resistance(**WHOLE)
     bare = WHOLE | {"belt_mass": 0.0, "bulk_mass": 0.0}
-    assert resistance.main_resistance(**bare) == resistance.main_resistance(**bare | {"inclination": 0.0})
+    for one, other in ((WHOLE, WHOLE | {"inclination": -0.1}), (bare, bare | {"inclination": 0.0})):
+        expected = resistance.main_resistance(**one)
+        assert resistance.main_resistance(**other) == pytest.approx(expected, rel=ROUNDING)
 
 
 def test_slope_resistance_is_the_work_per_distance():
@@ -125,9 +126,19 @@ def test_wrap_resistances_by_hand():
 
 def test_pulley_bearing_of_a_weightless_pulley_carries_both_strands():
     load = resistance.pulley_load(tight_tension=2e4, slack_tension=1e4, pulley_mass=0.0, gravity=9.81)
-    assert load == 3e4
+    assert load == pytest.approx(3e4, rel=ROUNDING)
     drag = resistance.pulley_bearing_resistance(load, shaft_diameter=0.1, pulley_diameter=0.5)
     assert drag == pytest.approx(30.0, rel=ROUNDING)
+
+
+def test_a_snub_bears_the_vector_sum_of_both_strands():
+    pull = {"tight_tension": 3e4, "slack_tension": 3e4, "pulley_mass": 0.0, "gravity": 9.81}
+    third = resistance.pulley_load(**pull, wrap_angle=math.radians(60.0))  # an equilateral triangle of forces
+    assert third == pytest.approx(3e4, rel=ROUNDING)
+    square = resistance.pulley_load(**pull | {"slack_tension": 4e4}, wrap_angle=math.radians(90.0))
+    assert square == pytest.approx(5e4, rel=ROUNDING)
+    with pytest.raises(InputError, match=r"wrap_angle = 0\.0"):
+        resistance.pulley_load(**pull, wrap_angle=0.0)
 
 
 def test_idler_without_tilt_costs_nothing():

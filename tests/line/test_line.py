@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -103,6 +104,14 @@ def test_gauss_points_along_a_roll_suffice(line, result):
     fine = line.replace(calculation=line.calculation.replace(gauss_points=32))
     other = conveyor.analyse(fine).balance.forces.indentation
     assert other == pytest.approx(result.balance.forces.indentation, rel=2.0 * RTOL)
+
+
+def test_the_forces_along_a_stretch_add_up(result):
+    stretch = replace(
+        result.stretches[0], indentation=1000.0, rotation=200.0, flexure=130.0, tilt=50.0, lift=-300.0
+    )
+    assert stretch.main == pytest.approx(1330.0, rel=1e-15)
+    assert stretch.total == pytest.approx(1080.0, rel=1e-15)
 
 
 def test_a_wing_integrated_by_single_solves(result):

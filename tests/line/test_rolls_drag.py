@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import astuple
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from conveyor.line.stretches import roll_at, stretches
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
 MAKER = {"law": "maker", "drag": "2 N", "load_slope": 0.001, "rotation_slope": "0.001 N/rpm"}
 BEARING = {
     "law": "bearing",
@@ -50,7 +52,7 @@ def test_one_figure_is_the_drag_of_every_roll(line):
 def test_a_flat_line_is_one_figure(line):
     one = conveyor.analyse(carry_roll(line, drag="2 N")).balance
     flat = conveyor.analyse(carry_roll(line, drag_law={"law": "maker", "drag": "2 N"})).balance
-    assert flat.forces == one.forces
+    assert astuple(flat.forces) == pytest.approx(astuple(one.forces), rel=ROUNDING)
 
 
 def test_the_makers_line_takes_each_rolls_own_load_and_the_belts_speed(line):
@@ -202,7 +204,9 @@ def test_life_falls_with_the_cube_of_the_load_and_adds_up(line):
     assert middle.hours == pytest.approx(by_hand, rel=1e-12)
     # two equal bearings: 2^(-9/10) of one's life (Weibull slope 10/9)
     assert middle.both == pytest.approx(middle.hours * 2.0**-0.9, rel=1e-12)
-    assert set_life(stretch, 5.0) < min(life.both for life in lives)
+    together = set_life(stretch, 5.0)
+    assert together.whole
+    assert together.hours < min(life.both for life in lives) == together.weakest_hours
     assert set_life(carry_stretches(line)[0], 5.0) is None
 
 
@@ -219,7 +223,7 @@ def test_roller_bearings_and_single_rolls(line):
     )
     alone = line.replace(idlers=line.idlers.replace(**{"return": flat}))
     life = roll_life(stretches(alone)[-1], 0, 5.0)
-    assert life.heavier == life.lighter
+    assert life.heavier == pytest.approx(life.lighter, rel=1e-14)
 
 
 def test_tables_show_drag_and_life_where_bearings_are_given(line):
@@ -237,7 +241,8 @@ def test_tables_show_drag_and_life_where_bearings_are_given(line):
 def test_a_short_life_is_warned_of(line):
     weak = conveyor.analyse(carry_roll(line, bearing=LIFE | {"dynamic_rating": "6 kN"}))
     assert any(
-        "carry rolls: L10 of the middle in " in w and "less than the 30,000 h" in w for w in weak.warnings
+        "carry rolls: L10 of all bearings of a set in " in w and "of the middle alone" in w
+        for w in weak.warnings
     )
     strong = conveyor.analyse(carry_roll(line, bearing=LIFE))
     assert not any("L10" in w for w in strong.warnings)

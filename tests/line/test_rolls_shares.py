@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import astuple
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from conveyor.line.stretches import stretches
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
 TROUGH = {"middle_roll_length": 0.465, "trough_angle": math.radians(35), "surcharge_angle": math.radians(20)}
 
 
@@ -74,7 +76,7 @@ def test_by_cross_section_the_share_is_that_of_the_area_at_the_filling(line):
     trough = TROUGH | {"trough_angle": math.radians(45)}
     width = filled_width(area, **trough)
     assert middle_share(loads) == pytest.approx(middle_share_by_area(width, **trough), rel=1e-12)
-    assert loads[0].bulk_force == loads[2].bulk_force
+    assert loads[0].bulk_force == pytest.approx(loads[2].bulk_force, rel=1e-14)
     before = math.fsum(load.force for load in loads_of(line))
     assert math.fsum(load.force for load in loads) == pytest.approx(before, rel=1e-12)
 
@@ -100,9 +102,10 @@ def test_the_conventions_of_the_heap_hold_the_same_bulk(line):
     slope = math.atan(2.0 / 3.0 * math.tan(math.radians(20.0)))
     din = line.material.replace(surcharge_convention="DIN 22101", surcharge_angle=f"{slope!r} rad")
     assert din.surcharge == pytest.approx(math.radians(20.0), rel=1e-14)
-    assert surcharge_from_slope(slope) == din.surcharge
+    assert surcharge_from_slope(slope) == pytest.approx(din.surcharge, rel=1e-14)
     other = line.replace(material=din)
-    assert conveyor.analyse(other).balance.forces.total == conveyor.analyse(line).balance.forces.total
+    total = conveyor.analyse(line).balance.forces.total
+    assert conveyor.analyse(other).balance.forces.total == pytest.approx(total, rel=ROUNDING)
     # by area the same width is covered; the triangle has more of its heap over the middle
     iso = SetLoads(with_carry(line, share_rule="cross-section"), line.idlers.carry)
     triangle = SetLoads(with_carry(other, share_rule="cross-section"), line.idlers.carry)
@@ -122,7 +125,7 @@ def test_as_din_slope_the_same_angle_holds_more(line):
 def test_an_even_load_on_the_wings_keeps_the_force_and_lowers_the_peak(line):
     even, falling = loads_of(with_carry(line, wing_load="uniform")), loads_of(line)
     for one, other in zip(even, falling, strict=True):
-        assert one.force == other.force
+        assert one.force == pytest.approx(other.force, rel=1e-14)
     assert even[0].peak_line_load < falling[0].peak_line_load
     assert even[0].peak_line_load == pytest.approx(even[0].force / even[0].length, rel=1e-14)
     # indentation grows like w^(4/3): an even load loses less
@@ -132,7 +135,8 @@ def test_an_even_load_on_the_wings_keeps_the_force_and_lowers_the_peak(line):
 
 def test_an_offset_changes_no_load_and_says_so(line):
     made = conveyor.analyse(with_carry(line, offset="150 mm"))
-    assert made.balance.forces == conveyor.analyse(line).balance.forces
+    forces = conveyor.analyse(line).balance.forces
+    assert astuple(made.balance.forces) == pytest.approx(astuple(forces), rel=ROUNDING)
     assert any(
         "idlers.carry.offset: the loads of the rolls are those of a set in one plane" in w
         for w in made.warnings

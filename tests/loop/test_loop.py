@@ -20,6 +20,7 @@ CLOSED = 1e-9
 """Of the largest tension: the figure the package promises; rounding alone leaves about 1e-14."""
 
 ROUTE, DRIVE = DATA["route"], DATA["drive"]
+ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
 CASES = {
     "one drive": {},
     "tail drive alone": {"drive": {"position": "tail"}},
@@ -109,7 +110,8 @@ def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
     # the least setting: one condition holds exactly, and the figure is that condition's
     margins = [settled.setting - needed for needed in settled.conditions.values()]
     assert min(margins) == pytest.approx(0.0, abs=1e-9 * settled.setting)
-    assert settled.conditions[settled.condition_name(settled.governed_by)] == settled.needed
+    governing = settled.conditions[settled.condition_name(settled.governed_by)]
+    assert governing == pytest.approx(settled.needed, rel=ROUNDING)
 
 
 def test_the_take_up_holds_what_it_holds(case):
@@ -120,14 +122,22 @@ def test_the_take_up_holds_what_it_holds(case):
     for state in (*settled.states.values(), *motions(conveyor, results, found).states.values()):
         if take_up is None:
             # of all drives at the first one's place: a take-up stands behind the station, not between its pulleys
-            first = settled.loop.data.drives[0].boundary
-            beside = [drive.boundary == first for drive in settled.loop.data.drives]
-            held = min(side.slack for side, here in zip(state.drives, beside, strict=True) if here)
+            first = settled.loop.data.drives[0].spot
+            beside = [drive.spot == first for drive in settled.loop.data.drives]
+            here = [side for side, stands in zip(state.drives, beside, strict=True) if stands]
+            # the slack side of steady running, whatever brakes or masses do in this state
+            held = here[-1].leaving if settled.force >= 0.0 else here[0].arriving
         elif take_up.kind == "fixed":
             held = float((0.5 * (state.starts + state.ends)) @ geometry.length / geometry.length.sum())
         else:
             boundary = _boundary(conveyor, take_up.position, take_up.section)
             held = float(state.starts[boundary % len(state.starts)])
+            if take_up.position == "tail":  # the bulk lands behind it
+                held -= sum(
+                    s.force * (1.0 if "acceleration" in s.name else state.friction)
+                    for s in found.singles
+                    if "bulk" in s.name or "skirts" in s.name
+                )
         assert held == pytest.approx(settled.setting, rel=1e-12), state.name
 
 
@@ -168,7 +178,7 @@ def test_a_booster_takes_tension_out_of_the_belt():
     alone, helped = balanced(), balanced(drive={"further_drives": [BOOSTER]})
     assert helped.tensions.largest < alone.tensions.largest
     # its wrap apart, which the lower tension changes, the force is that of the conveyor
-    assert helped.forces.main == alone.forces.main
+    assert helped.forces.main == pytest.approx(alone.forces.main, rel=ROUNDING)
     assert helped.forces.total == pytest.approx(alone.forces.total, rel=5e-3)
 
 
@@ -196,7 +206,8 @@ def test_a_belt_that_drives_gives_its_motor_what_the_train_leaves():
     assert found.power.motor == pytest.approx(0.88 * found.power.belt, rel=1e-14)
     same = balanced(**CASES["downhill"] | {"drive": {}}).power
     assert same.motor == pytest.approx(0.94 * found.power.belt, rel=1e-14)
-    assert balanced(drive={"regeneration_efficiency": "88 %"}).power.motor == balanced().power.motor
+    driven = balanced(drive={"regeneration_efficiency": "88 %"}).power.motor
+    assert driven == pytest.approx(balanced().power.motor, rel=ROUNDING)
 
 
 def test_bulk_lies_behind_its_feeding_points_only():
@@ -257,7 +268,7 @@ def test_the_numbers_follow_the_conveyor_not_its_predecessor():
     one, other = line(), line(drive={"friction": 0.2})
     first = balance(one, forced(one)).tensions.slack
     assert balance(other, forced(other)).tensions.slack > first
-    assert balance(one, forced(one)).tensions.slack == first
+    assert balance(one, forced(one)).tensions.slack == pytest.approx(first, rel=ROUNDING)
 
 
 def test_start_and_stop_are_newton():

@@ -50,7 +50,8 @@ def test_arrhenius_shift(compound_data: dict[str, Any]) -> None:
     cold = RubberCompound.model_validate(compound_data).series(283.15)
     # R = 8.31446261815324 J/(mol K), exact in the SI of 2019.
     expected = math.exp(120e3 / 8.31446261815324 * (1 / 283.15 - 1 / 293.15))
-    assert cold.times[1] == pytest.approx(expected, rel=1e-12)
+    # SciPy before 1.15 has R to ten digits, 2e-11 off, times the exponent of 1.7
+    assert cold.times[1] == pytest.approx(expected, rel=5e-11)
 
 
 def test_without_shift_only_the_reference(compound_data: dict[str, Any]) -> None:

@@ -78,6 +78,45 @@ def test_what_is_too_weak_fails_and_is_warned_of(line, part, change, subject, wa
     assert any(warned in warning for warning in result.warnings)
 
 
+def _failed(result) -> list[str]:
+    return [check.subject for check in checks(result) if check.verdict == "FAIL"]
+
+
+def test_a_regenerative_belt_that_goes_slack_fails_and_is_warned_of():
+    """The warning stood behind a return for conveyors that draw no force at the start."""
+    line = conveyor.load(SPECS / "downhill_brakes.yaml")
+    route = line.route.as_data()
+    free = line.replace(route=route | {"take_up": {"kind": "gravity", "position": "head"}})
+    needed = conveyor.analyse(free).balance.settled.needed
+    held = {"kind": "gravity", "position": "head", "tension": f"{0.7 * needed} N"}
+    result = conveyor.analyse(line.replace(route=route | {"take_up": held}))
+    assert any(subject.startswith("smallest tension of all states") for subject in _failed(result))
+    assert any(warning.startswith("the belt goes slack in the state") for warning in result.warnings)
+
+
+@pytest.mark.parametrize(("rating", "short"), [("6.3 kN", True), ("40 kN", False)])
+def test_a_set_that_lives_too_short_fails_and_is_warned_of(rating, short):
+    """The check was of the set, the warning of one roll, which lives longer."""
+    line = conveyor.load(SPECS / "in_plant_us.yaml")
+    data = line.idlers.as_data()
+    for strand, distance in (("carry", "17 in"), ("return", "53 in")):
+        data[strand]["roll"] |= {"bearing": {"dynamic_rating": rating, "distance": distance}}
+    result = conveyor.analyse(line.replace(idlers=data))
+    failed = {subject.split()[2] for subject in _failed(result) if "L10" in subject}
+    told = {warning.split()[0] for warning in result.warnings if "L10 of all bearings" in warning}
+    assert failed == told
+    assert bool(told) == short
+
+
+def test_a_set_with_some_bearings_known_never_passes():
+    line = conveyor.load(SPECS / "in_plant_us.yaml")
+    data = line.idlers.as_data()
+    bearing = {"dynamic_rating": "40 kN", "distance": "17 in"}
+    data["carry"] |= {"middle_roll": data["carry"]["roll"] | {"bearing": bearing}}
+    (check,) = (c for c in checks(conveyor.analyse(line.replace(idlers=data))) if "L10" in c.subject)
+    assert (check.verdict, check.asked) == ("not checked", "bearings of some rolls not given")
+
+
 def test_small_pulley_fails(line):
     pulleys = [pulley.replace(diameter="250 mm") for pulley in line.route.pulleys]
     of = found(line.replace(route=line.route.replace(pulleys=pulleys)))

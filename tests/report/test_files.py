@@ -15,7 +15,8 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.report import files, places
-from conveyor.report.excel import _saved, build
+from conveyor.report.excel import build
+from conveyor.report.excel import files as workbook_files
 from conveyor.report.tables import of_analysis
 from conveyor.studies.comparison import compare_compounds
 
@@ -140,7 +141,7 @@ def lengthened(found, key, rows):
 def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
     found = lengthened(of_analysis(result), key, places.MOST_ROWS + 1)
     path = tmp_path / "line.xlsx"
-    _saved(path, found, build(found, path.stem))
+    save(workbook_files(found, path))
     assert sorted(item.name for item in tmp_path.iterdir()) == ["line.xlsx", f"line_{key}.csv"]
     beside = pd.read_csv(tmp_path / f"line_{key}.csv", encoding="utf-8-sig")
     assert len(beside) == places.MOST_ROWS + 1

@@ -47,7 +47,7 @@ def result(line):
 
 @pytest.fixture(scope="module")
 def text(result, line):
-    return html.build(result, studies(line))
+    return html.build(result.contents(studies(line)))
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ def comparison(line):
 
 @pytest.fixture(scope="module")
 def compared(comparison):
-    return html.build_comparison(comparison)
+    return html.build(comparison.contents())
 
 
 @pytest.fixture(scope="module", params=["analysis", "comparison"])
@@ -243,7 +243,7 @@ def test_numbers_as_in_the_workbook():
 def test_parts_follow_what_was_studied(result, text):
     asked = {"load-cases", "duty", "uncertainty"}
     assert asked <= set(re.findall(r'<h2 id="([\w-]+)"', text))
-    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result))
+    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result.contents()))
     assert not asked & set(plain)
     needed = ["key-figures", "checks", "warnings", "resistances", "route", "tensions", "rolls", "rubber"]
     needed += ["start-stop", "belt", "assumptions", "inputs", "provenance"]
@@ -251,7 +251,7 @@ def test_parts_follow_what_was_studied(result, text):
 
 
 def test_us_units(result):
-    prose = Page(html.build(result, system="US")).prose
+    prose = Page(html.build(result.contents(system="US"))).prose
     power = f"{result.summary['motor power [kW]'] * 1e3 / 745.69987158227022:,.1f}"  # 550 ft lbf/s
     assert f"{power}   hp" in prose or f"{power} hp" in re.sub(r"\s+", " ", prose)
     assert " [N] " not in prose.split("Inputs")[0]
@@ -275,7 +275,7 @@ def hostile(line):
 
 
 def test_hostile_names_are_text(hostile):
-    made = html.build(hostile)
+    made = html.build(hostile.contents())
     found = Page(made)
     assert found.faults == []
     assert "script" not in {tag for tag, _ in found.tags}

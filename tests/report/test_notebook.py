@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor.contact import ContactProblem, CreepSpectrum, solve
-from conveyor.contact.curve import load_curve
+from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
 from conveyor.markup import escaped
 from conveyor.models import LoadCase, RubberCompound
 from conveyor.rubber import PronySeries, fit_prony

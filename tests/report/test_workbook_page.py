@@ -11,7 +11,7 @@ import conveyor
 from conveyor.display import headed
 from conveyor.models import LoadCase
 from conveyor.report.comparing import of_comparison
-from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build, build_comparison
+from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build
 from conveyor.report.tables import of_analysis
 from conveyor.studies import Studies
 from conveyor.studies.cases import analyse_cases
@@ -146,7 +146,7 @@ def test_the_workbooks_have_these_names_and_no_others(page, written):
     """Figures and tables; of the tables all but those that stand as text, and the covers' of nothing."""
     pairs, ours = written[0], written[2]
     of = next(pair[0] for pair in pairs if "duty" in pair[0].by_key)
-    books = {CONVEYOR: build(of), COMPARISON: build_comparison(ours[0][0])}
+    books = {CONVEYOR: build(of), COMPARISON: build(ours[0][0])}
     for book, made in books.items():
         figures = {name for key, rows in page[2].items() if key[0] == book for name, *_ in rows}
         tables = {f"table_{key[2]}" for key in page[1] if key[0] == book}

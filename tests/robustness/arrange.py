@@ -131,10 +131,12 @@ def template() -> bytes:
         return write_template(Path(folder) / "input.xlsx").read_bytes()
 
 
-def book(change: Callable[[bytes], bytes], name: str = "input.xlsx") -> Callable[[Path], Arguments]:
+def book(
+    change: Callable[[bytes], bytes], *options: str, name: str = "input.xlsx"
+) -> Callable[[Path], Arguments]:
     def arrange(folder: Path) -> Arguments:
         (folder / name).write_bytes(change(template()))
-        return ("power", name)
+        return ("power", name, *options)
 
     return arrange
 

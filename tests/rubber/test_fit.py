@@ -72,7 +72,8 @@ def test_order_of_rows_does_not_matter() -> None:
     f, e1, e2 = noisy(0.02, 3)
     order = np.random.default_rng(1).permutation(f.size)
     a, b = fit_prony(f, e1, e2), fit_prony(f[order], e1[order], e2[order])
-    np.testing.assert_array_equal(a.series.moduli, b.series.moduli)
+    # the rows add up in another order: rounding, times the fit's condition of 1e6
+    assert b.series.moduli == pytest.approx(a.series.moduli, rel=1e-8, abs=1e-8 * a.series.moduli.max())
 
 
 def test_repeated_rows_weigh_as_often_as_they_stand() -> None:
@@ -123,9 +124,10 @@ def test_figures_of_the_shelf(name: str, equilibrium: float, storage: float, los
     """One term a decade inside the window: S120 8.4 / 7.1 %, S100 5.8 / 28 % rms of E' / E''."""
     curve = read_dma(SHELF / f"{name}.dma.csv")
     fit = fit_prony(curve.frequency, curve.storage, curve.loss, terms_per_decade=1.0)
-    assert round(fit.series.equilibrium / 1e6, 2) == equilibrium
-    assert float(f"{fit.storage.rms:.2g}") == storage
-    assert float(f"{fit.loss.rms:.2g}") == loss
+    # each printed to two digits
+    assert fit.series.equilibrium / 1e6 == pytest.approx(equilibrium, abs=0.0051)
+    assert fit.storage.rms == pytest.approx(storage, abs=0.00051)
+    assert fit.loss.rms == pytest.approx(loss, abs=0.0051)
     # more terms hardly help: the floor of all positive spectra is close
     assert 0.85 * fit.residual < fit.consistency_floor < fit.residual
 
@@ -138,7 +140,7 @@ def test_misfits_are_what_they_say() -> None:
     k = int(np.argmax(np.abs(error)))
     assert fit.tan_delta.rms == pytest.approx(np.sqrt(np.mean(error**2)), rel=1e-9)
     assert fit.tan_delta.worst == pytest.approx(error[k], rel=1e-9)
-    assert fit.tan_delta.worst_frequency == f[k]
+    assert fit.tan_delta.worst_frequency == pytest.approx(f[k], rel=1e-15)
     both = (fit.storage.rms**2 + fit.loss.rms**2) / 2
     assert fit.residual == pytest.approx(np.sqrt(both), rel=1e-12)
     assert fit.condition >= 1.0
@@ -267,7 +269,8 @@ def test_penalty_smooths_and_vanishes() -> None:
     bare = fit_prony(f, e1, e2, terms_per_decade=2.0)
     assert freedom[0] == pytest.approx(bare.active_terms + 1, rel=1e-12)
     assert residual[1] == pytest.approx(residual[0], rel=1e-6)
-    assert residual == sorted(residual)
+    # the first two are one minimum, each error a sum rounded as 1e-16 of its parts times the condition
+    assert np.all(np.diff(residual) >= -1e-9 * residual[0])
     # all that is free under an infinite one: E_e and a straight line of H/H0 over ln tau
     assert freedom[-1] == pytest.approx(3.0, abs=0.05)
 

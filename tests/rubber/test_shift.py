@@ -49,7 +49,8 @@ def test_arrhenius_closed_form_and_wlf_twin() -> None:
     law = Arrhenius(activation_energy=120e3, reference=293.15)
     t = np.array([253.15, 293.15, 333.15])
     expected = 120e3 / 8.31446261815324 * (1 / t - 1 / 293.15) / np.log(10)
-    np.testing.assert_allclose(law.log10_a_T(t), expected, rtol=1e-12, atol=1e-14)
+    # SciPy before 1.15 has R to ten digits, 2e-11 off
+    np.testing.assert_allclose(law.log10_a_T(t), expected, rtol=3e-11, atol=1e-14)
     # Arrhenius is WLF with its pole at absolute zero: c2 = T_ref
     c1 = 120e3 / (8.31446261815324 * np.log(10) * 293.15)
     np.testing.assert_allclose(WLF(c1, 293.15, 293.15).log10_a_T(t), expected, rtol=1e-12, atol=1e-14)
@@ -105,8 +106,9 @@ def test_fits_recover_their_law() -> None:
 def test_wlf_misses_the_measured_tables(name: str, rms: float, worst: float) -> None:
     """The reason to keep the tables: a WLF law misses them by 0.2 to 0.27 decades."""
     fit = fit_wlf(*shelf_table(name))
-    assert round(fit.rms, 2) == rms
-    assert round(abs(fit.worst), 2) == worst
+    # each printed to two digits
+    assert fit.rms == pytest.approx(rms, abs=0.0051)
+    assert abs(fit.worst) == pytest.approx(worst, abs=0.0051)
 
 
 def test_wlf_fit_is_a_minimum() -> None:

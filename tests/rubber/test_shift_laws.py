@@ -105,7 +105,20 @@ def test_reference_between_the_shifts() -> None:
     assert found["WLF"].rms < 1e-6
     law = found["table"].law
     assert law is not None
-    assert law.log10_a_T(REFERENCE + 5.0) == 0.0
+    assert law.reference in T  # a_T = 1 is measured there, not between two rows
+    assert np.diff(law.log10_a_T(T)) == pytest.approx(np.diff(y), rel=1e-12)
+
+
+@pytest.mark.parametrize("beside", [0.0, 0.002, -0.002, 0.4])
+def test_a_reference_beside_a_row_changes_no_verdict(beside: float) -> None:
+    y = LAW.log10_a_T(T) + 0.05 * np.sin(T)
+    error = 0.003 * np.abs(T - REFERENCE) ** 0.5 + 1e-3
+    at = {c.name: c for c in compare_shift_laws(T, y, REFERENCE, error=error)}
+    # the row 0.002 K from the reference has next to no error of its own; it must not judge the laws alone
+    near = compare_shift_laws(T, y, REFERENCE + beside, error=error)
+    for one in near:
+        assert one.rms == pytest.approx(at[one.name].rms, rel=1e-9)
+        assert one.left_out == pytest.approx(at[one.name].left_out, rel=1e-9)
 
 
 def test_refusals() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -242,6 +243,37 @@ def test_workbook_and_figures(found, tmp_path):
         assert plots.save(figure, tmp_path / "p.svg").stat().st_size > 5000
     with pytest.raises(InputError, match=r"ends in \.png, \.svg or \.pdf"):
         plots.save(figure, tmp_path / "p.xyz")
+
+
+def test_captions_say_what_is_drawn(line, tmp_path):
+    """The caption named the coldest temperature, the figure drew the one next to the spec's; likewise the speed."""
+    turning = compare_compounds(
+        line.replace(ambient={"temperature": "15 degC"}), ["s100", "standard-cover"],
+        temperatures=["-10 degC", "20 degC"], speeds=["4.5 m/s", "5 m/s"],
+    )  # fmt: skip
+    page = turning.to_html(tmp_path / "c.html").read_text(encoding="utf-8")
+    assert "Motor power over belt speed at 20 °C" in page
+    assert "20 °C" in plots.power_against_speed(turning).axes[0].get_title()
+    assert "temperature at 5 m/s;" in page
+    assert "5 m/s" in plots.power_against_temperature(turning).axes[0].get_title()
+
+
+def test_a_ranking_that_turns_with_the_temperature_is_said(found):
+    told = [remark for remark in comparing.remarks(found) if "the ranking turns" in remark]
+    assert len(told) == len(SPEEDS)
+    for speed, line in zip((4.5, 5.0), told, strict=True):
+        assert line.startswith(f"the ranking turns with the temperature; motor power at {speed:g} m/s: ")
+        for celsius in (-10, 0, 20):
+            (order,) = (
+                part.rpartition(": ")[2].split(" < ")
+                for part in line.partition("m/s: ")[2].split("; ")
+                if str(celsius) in part.partition(" degC")[0].split(", ")
+            )
+            power = [scene(found, name, celsius + 273.15, speed).motor for name in order]
+            assert power == sorted(power)
+            assert len(power) == len(NAMES)
+    steady = replace(found, scenes=tuple(s for s in found.scenes if s.temperature > 280.0))
+    assert comparing.turned(steady) == []
 
 
 @pytest.mark.parametrize("spec", ["examples/specs/downhill_brakes.yaml", "examples/specs/in_plant_us.yaml"])

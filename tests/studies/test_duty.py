@@ -11,6 +11,7 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
+from conveyor.report import comparing
 from conveyor.studies import Studies
 from conveyor.studies.duty import analyse_duty
 from conveyor.units import si
@@ -117,7 +118,7 @@ def test_the_year_is_the_sum_of_its_bars(line):
     assert study.energy_per_tonne_km == pytest.approx(total / tonne_km, rel=1e-12)
     table, summary = study.table, study.summary
     assert table["energy [MWh]"].sum() == pytest.approx(summary["drawn [MWh]"])
-    assert summary["cost [USD]"] == study.cost
+    assert summary["cost [USD]"] == pytest.approx(study.cost, rel=1e-14)
     assert summary["carbon dioxide [t]"] == pytest.approx(study.emission / 1e3)
     assert summary["in operation [h]"] == pytest.approx(1300.0)
 
@@ -126,6 +127,26 @@ def test_an_empty_year_has_no_energy_per_tonne(line):
     study = analyse_duty(operated(line, {"hours": "10 h", "share": 0.0}), rtol=RTOL)
     assert study.energy_per_tonne_km is None
     assert "energy [kWh/(t km)]" not in study.summary.index
+
+
+@pytest.mark.parametrize(("feed_in", "price"), [({}, 0.0), ({"feed_in_price": "0.05 EUR/kWh"}, 0.05)])
+def test_energy_fed_back_is_worth_the_same_in_a_flat_year_a_duty_and_a_comparison(downhill, feed_in, price):
+    """Even hours once earned the price of energy drawn; the same year as one bar of a duty earned nothing."""
+    flat = downhill.replace(operation={"hours_per_year": "5000 h", "price": "0.1 EUR/kWh", **feed_in})
+    bar = operated(downhill, {"hours": "5000 h", "share": "100 %"}, price="0.1 EUR/kWh", **feed_in)
+    found = conveyor.analyse(flat)
+    power = found.balance.power
+    assert power.mains < 0.0
+    expected = price * 5000.0 * power.mains / 1e3
+    assert power.cost_per_year == pytest.approx(expected, rel=1e-12, abs=1e-9)
+    told = "operation.feed_in_price not given: energy that is fed back earns nothing"
+    assert (told in found.warnings) == (not feed_in)
+    for spec in (flat, bar):
+        assert analyse_duty(spec).cost == pytest.approx(expected, rel=1e-12, abs=1e-9)
+        compared = conveyor.compare_compounds(spec, ["low-rolling-resistance-cover", "standard-cover"])
+        (row,) = compared.ranking.query("compound == @downhill.carry_compound.name").to_dict("records")
+        assert row["cost per year [EUR]"] == pytest.approx(expected, rel=1e-3, abs=1e-9)
+        assert (told in comparing.remarks(compared)) == (not feed_in)
 
 
 def test_downhill_feeds_back_and_earns_only_its_credit(downhill):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -421,6 +422,68 @@ def entities(encoding: str) -> Callable[[Path], None]:
         edit(path, "xl/workbook.xml", lambda xml: text.encode(encoding) + xml)
 
     return put_in
+
+
+def in_sheet(old: bytes, new: bytes) -> Callable[[Path], None]:
+    """Put XML into the second sheet."""
+    return lambda path: edit(path, "xl/worksheets/sheet2.xml", lambda xml: xml.replace(old, new))
+
+
+END = b"</sheetData>"
+SWELLING: dict[str, tuple[bytes, bytes, str]] = {
+    "merged to the end of the sheet": (
+        END,
+        END + b'<mergeCells><mergeCell ref="B40:XFD1048576"/></mergeCells>',
+        r"merges or links more than 150,000 cells \(B40:XFD1048576\); unmerge them",
+    ),
+    "a link on all cells": (
+        b"<legacyDrawing",
+        b'<hyperlinks><hyperlink ref="B40:XFD1048576" location="a"/></hyperlinks><legacyDrawing',
+        "merges or links more than 150,000 cells",
+    ),
+    "whole columns merged": (
+        END,
+        END + b'<mergeCells><mergeCell ref="B:Z"/></mergeCells>',
+        r"merges or links more than 150,000 cells \(B:Z\)",
+    ),
+    "empty cells": (
+        END,
+        b'<row r="60">' + b"<c/>" * 1_500_000 + b"</row>" + END,
+        "more than 150,000 cells and other",
+    ),
+    "a row of no sheet": (
+        END,
+        b'<row r="99999999999"/>' + END,
+        "row 99999999999, beyond the last of a sheet",
+    ),
+    "a column of no sheet": (
+        END,
+        b'<row r="60"><c r="ZZZZ60"/></row>' + END,
+        "ZZZZ60, beyond the last of a sheet",
+    ),
+    "nested": (END, b"<a>" * 300_000 + b"</a>" * 300_000 + END, "nested deeper than 100 levels"),
+    "a rule for many ranges": (
+        END,
+        END + (b'<dataValidation sqref="' + b"A1:B9 " * 40_000 + b'"/>') * 5,
+        "more than 150,000 cells",
+    ),
+    "a tag of a megabyte": (
+        b"<sheetData",
+        b'<sheetData a="' + b"x" * 1_000_000 + b'"',
+        "a tag of more than 262,144 bytes",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", SWELLING)
+def test_what_would_swell_is_refused_at_once(path: Path, case: str) -> None:
+    old, new, message = SWELLING[case]
+    in_sheet(old, new)(path)
+    assert path.stat().st_size < 120_000
+    begun = time.process_time()
+    with pytest.raises(InputError, match=message):
+        load(path)
+    assert time.process_time() - begun < 1.0
 
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + b"\0" * 600

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from conveyor.require import require_not_negative, require_positive
+from conveyor.require import require, require_not_negative, require_positive
 
 FABRIC_WRAP: Final = (9.0, 140.0)  # [-], [N/m]: ISO 5048, in 9 B (140 + 0.01 F/B) d/D
 STEEL_CORD_WRAP: Final = (12.0, 200.0)  # [-], [N/m]: general knowledge, a flagged default
@@ -103,8 +103,15 @@ def steel_cord_wrap_resistance(
     return _wrap(STEEL_CORD_WRAP, belt_width, tension, belt_thickness, pulley_diameter)
 
 
-def pulley_load(*, tight_tension: float, slack_tension: float, pulley_mass: float, gravity: float) -> float:
-    """Load on the bearings of a pulley, F_T = sqrt((T1 + T2)² + (g m_p)²) (ISO 5048).
+def pulley_load(
+    *,
+    tight_tension: float,
+    slack_tension: float,
+    pulley_mass: float,
+    gravity: float,
+    wrap_angle: float = math.pi,
+) -> float:
+    """Load on the bearings of a pulley, F_T = sqrt((T1 + T2)² + (g m_p)²) at half a turn (ISO 5048).
 
     Parameters
     ----------
@@ -116,6 +123,8 @@ def pulley_load(*, tight_tension: float, slack_tension: float, pulley_mass: floa
         m_p [kg], at least 0.
     gravity : float
         g [m/s²], positive.
+    wrap_angle : float
+        Angle α over which the belt lies on it [rad], above 0, at most 2 pi.
 
     Returns
     -------
@@ -129,7 +138,7 @@ def pulley_load(*, tight_tension: float, slack_tension: float, pulley_mass: floa
 
     Notes
     -----
-    Both strands horizontal, wrap of 180 deg.
+    Vector sum of both tensions, sqrt(T1² + T2² - 2 T1 T2 cos α), with the weight square to it.
 
     Examples
     --------
@@ -138,7 +147,12 @@ def pulley_load(*, tight_tension: float, slack_tension: float, pulley_mass: floa
     """
     require_not_negative(tight_tension=tight_tension, slack_tension=slack_tension, pulley_mass=pulley_mass)
     require_positive(gravity=gravity)
-    return math.hypot(tight_tension + slack_tension, gravity * pulley_mass)
+    require(
+        0.0 < wrap_angle <= 2.0 * math.pi, "wrap_angle", wrap_angle, "above 0 and at most 2 pi rad is needed"
+    )
+    # sqrt(T1² + T2² - 2 T1 T2 cos α) without cancellation at small angles
+    across = 2.0 * math.sqrt(tight_tension) * math.sqrt(slack_tension) * math.sin(0.5 * wrap_angle)
+    return math.hypot(tight_tension - slack_tension, across, gravity * pulley_mass)
 
 
 def pulley_bearing_resistance(load: float, *, shaft_diameter: float, pulley_diameter: float) -> float:

@@ -1,0 +1,114 @@
+"""Normalised creep of a rubber as the solver needs it: of one scene, or of several side by side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.errors import InputError
+
+Array = NDArray[np.float64]
+
+_SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
+
+
+@dataclass(frozen=True, eq=False)
+class CreepSpectrum:
+    """Normalised complex creep compliance j(m) = j∞ + Σ d_t/(1 - i m ζ_t).
+
+    Parameters
+    ----------
+    instantaneous : float
+        j∞ = E0/E∞ [-], in (0, 1].
+    weights : array_like, shape (t,)
+        d_t = E0 J_t [-], positive; j∞ + Σ d_t = 1.
+    times : array_like, shape (t,)
+        ζ_t = V τ_t k [-], retardation (not relaxation) times, zero or positive.
+
+    Raises
+    ------
+    InputError
+        A value outside its range, lengths that differ, or a sum other than one.
+
+    Examples
+    --------
+    >>> CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0]).compliance(np.array([1.0]))
+    array([0.55+0.45j])
+    """
+
+    instantaneous: float
+    weights: Array = field(default_factory=lambda: np.empty(0))
+    times: Array = field(default_factory=lambda: np.empty(0))
+
+    def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
+        d = np.array(weights, dtype=float, ndmin=1)
+        z = np.array(times, dtype=float, ndmin=1)
+        if d.ndim != 1 or d.shape != z.shape:
+            raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
+        if not np.all(np.isfinite(d) & (d > 0.0)):
+            raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
+        if not np.all(np.isfinite(z) & (z >= 0.0)):
+            raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
+        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
+            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
+        if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
+            raise InputError(
+                f"instantaneous + sum(weights) = {instantaneous + d.sum():.12g}: must be 1 "
+                "(compliances are in units of the rubbery compliance 1/E0)"
+            )
+        for array in (d, z):
+            array.flags.writeable = False
+        object.__setattr__(self, "instantaneous", float(instantaneous))
+        object.__setattr__(self, "weights", d)
+        object.__setattr__(self, "times", z)
+
+    def compliance(self, m: Array) -> NDArray[np.complex128]:
+        """j(m) at wave numbers m [-], shape of m."""
+        out = np.full(m.shape, self.instantaneous, dtype=complex)
+        if self.weights.size:
+            mz = np.multiply.outer(m, self.times)
+            with np.errstate(over="ignore"):  # 1/(1 + z²) of z = 1e200 is zero, to rounding
+                real = 1.0 / (1.0 + mz * mz)
+            out.real += real @ self.weights
+            real *= mz
+            out.imag = real @ self.weights
+        return out
+
+
+@dataclass(frozen=True, eq=False)
+class Creeps:
+    """Creep spectra of several scenes side by side (internal to the solver): terms of weight zero fill the gaps.
+
+    Shapes: `instantaneous` (b,), `weights` and `times` (b, t), every time positive.
+    """
+
+    instantaneous: Array
+    weights: Array
+    times: Array
+
+    def compliance(self, m: Array) -> NDArray[np.complex128]:
+        """j(m) of each scene at its wave numbers m, shape (b, k), or at those of all, shape (1, k)."""
+        x = m[:, :, None] * self.times[:, None, :]
+        real = 1.0 / (1.0 + x * x)
+        out = np.empty(x.shape[:2], dtype=complex)
+        out.real = (real @ self.weights[:, :, None])[..., 0] + self.instantaneous[:, None]
+        real *= x
+        out.imag = (real @ self.weights[:, :, None])[..., 0]
+        return out
+
+    @classmethod
+    def of(cls, spectra: Sequence[CreepSpectrum]) -> Creeps:
+        """Stack spectra."""
+        terms = max([1, *(creep.weights.size for creep in spectra)])
+        weights, times = np.zeros((len(spectra), terms)), np.ones((len(spectra), terms))
+        for row, creep in enumerate(spectra):
+            weights[row, : creep.weights.size] = creep.weights
+            times[row, : creep.times.size] = creep.times
+        return cls(np.array([creep.instantaneous for creep in spectra]), weights, times)
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Creeps:
+        return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])

@@ -1,0 +1,129 @@
+"""Contacts sampled at Chebyshev-Lobatto points of the half width, and what is interpolated between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from conveyor.contact.spectral import Contact
+
+Array = NDArray[np.float64]
+
+
+def points(degree: int) -> Array:
+    """t_j = cos(jπ/N), from 1 to -1; those of half the degree are every other one."""
+    t: Array = np.cos(np.arange(degree + 1) * (np.pi / degree))
+    return t
+
+
+def coefficients(values: Array) -> Array:
+    """Chebyshev coefficients of values at the points, along the last axis but one."""
+    found: Array = _transform(values.shape[-2] - 1) @ values
+    return found
+
+
+@lru_cache(maxsize=16)
+def _transform(degree: int) -> Array:
+    """From values at Lobatto points to Chebyshev coefficients: a_k = (2/N) Σ f_j cos(kjπ/N), ends halved."""
+    index = np.arange(degree + 1)
+    matrix = (2.0 / degree) * np.cos(np.multiply.outer(index, index) * (np.pi / degree))
+    matrix[:, [0, -1]] *= 0.5
+    matrix[[0, -1]] *= 0.5
+    return matrix
+
+
+def derivative(values: Array) -> Array:
+    """Derivative by t at the points, of values along the last axis."""
+    slope: Array = values @ _derivative(values.shape[-1] - 1).T
+    return slope
+
+
+@lru_cache(maxsize=16)
+def _derivative(degree: int) -> Array:
+    t = points(degree)
+    matrix: Array = np.array(
+        [chebyshev.chebval(t, chebyshev.chebder(column)) for column in _transform(degree).T]
+    ).T
+    return matrix
+
+
+@lru_cache(maxsize=16)
+def _between(degree: int) -> Array:
+    """From values at every other point to the interpolant's values at the points between."""
+    half = degree // 2
+    matrix: Array = chebyshev.chebvander(points(degree)[1::2], half) @ _transform(half)
+    return matrix
+
+
+def columns(rho: float, contact: Contact) -> Array:
+    """(ln p, μρ/α, ε/α) of contacts, shape (k, 3)."""
+    drag = contact.friction * rho / contact.alpha
+    return np.stack([np.log(contact.pressure), drag, contact.eps / contact.alpha], axis=-1)
+
+
+def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
+    """Relative error of friction at given load of the interpolants through every other point, shape (b,).
+
+    `contact` holds the curves one after the other, each with its degree + 1 points. The points of half the degree are
+    every other one: what the interpolant through those misses at the points between, where the error of Chebyshev
+    interpolation peaks, bounds the error of the interpolant through all.
+    """
+    shape = (-1, degree + 1)
+    drag = (contact.friction * rho / contact.alpha).reshape(shape)
+    values = np.stack([np.log(contact.pressure).reshape(shape), drag], axis=-1)
+    miss = np.abs(_between(degree) @ values[:, ::2] - values[:, 1::2])
+    smallest = np.maximum(np.abs(drag).min(axis=1), np.finfo(float).tiny)
+    worst: Array = (miss[..., 0] + miss[..., 1] / smallest[:, None]).max(axis=1)
+    return worst
+
+
+@dataclass(frozen=True, eq=False)
+class Sampled:
+    """Contacts of one scene at Chebyshev-Lobatto points of ln α, from the widest to the narrowest.
+
+    Where a higher order was needed, `finer` holds it at every so many points only: what it changes is small and smooth,
+    and a polynomial of low degree carries it to the others.
+    """
+
+    contacts: Contact
+    finer: Contact | None = None
+
+    @property
+    def best(self) -> Contact:
+        """Contacts of the highest order, both ends among them."""
+        return self.contacts if self.finer is None else self.finer
+
+    def interpolated(self, figures: Callable[[Contact], Array]) -> Array:
+        """Chebyshev coefficients of figures of the contacts, which have shape (k, f)."""
+        values = figures(self.contacts)
+        found = coefficients(values)
+        if self.finer is not None:
+            change = figures(self.finer) - values[:: stride(self.contacts, self.finer)]
+            found[: change.shape[0]] += coefficients(change)
+        return found
+
+    def left(self, rho: float) -> float:
+        """What reading the higher order's change between its points may do to friction.
+
+        Half the degree misses m of a change of size A: its square over A is left, four times that at most, and m.
+        """
+        if self.finer is None:
+            return 0.0
+        change = (
+            columns(rho, self.finer) - columns(rho, self.contacts)[:: stride(self.contacts, self.finer)]
+        )[:, :2]
+        miss = np.abs(_between(change.shape[0] - 1) @ change[::2] - change[1::2]).max(axis=0)
+        size = np.maximum(np.abs(change).max(axis=0), np.finfo(float).tiny)
+        miss = np.minimum(miss, 4.0 * miss * miss / size)
+        smallest = max(float(np.abs(columns(rho, self.finer)[:, 1]).min()), np.finfo(float).tiny)
+        return float(miss[0] + miss[1] / smallest)
+
+
+def stride(all_points: Contact, some: Contact) -> int:
+    """Every so many of the points are the others."""
+    return (all_points.alpha.size - 1) // (some.alpha.size - 1)

@@ -1,0 +1,73 @@
+"""Layers of one kind side by side: what the batched solver needs to know of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.belt import Belt, Belts
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.layers import HALF_SPACE_DEPTH, Confined, Free, HalfSpace, Layer, Layers
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Rows = NDArray[np.bool_] | NDArray[np.int_]
+
+
+class Stack(Protocol):
+    """Layers of b scenes."""
+
+    def reach(self, depth: float) -> Array:
+        """Wave numbers beyond which |S - j| < 4 q² exp(-2q) of q = `depth`, shape (b,)."""
+
+    def symbol(self, m: Array, j: ComplexArray) -> ComplexArray:
+        """S_m where the rubber that is touched has j(m), shape (b, k); m of shape (1, k) or (b, k)."""
+
+    def __getitem__(self, chosen: Rows) -> Stack:
+        """Some of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Own:
+    """Layers of the user's own, asked one by one."""
+
+    layers: Sequence[Layer]
+    creeps: Sequence[CreepSpectrum]
+
+    def reach(self, depth: float) -> Array:  # noqa: ARG002
+        """As each layer says."""
+        return np.array([layer.reach for layer in self.layers])
+
+    def symbol(self, m: Array, j: ComplexArray) -> ComplexArray:
+        """S_m, shape (b, k)."""
+        rows = np.broadcast_to(m, j.shape)
+        each = zip(self.layers, rows, self.creeps, strict=True)
+        return np.array([layer.symbol(row, creep) for layer, row, creep in each])
+
+    def __getitem__(self, chosen: Rows) -> Own:
+        places = np.arange(len(self.layers))[chosen]
+        return Own([self.layers[i] for i in places], [self.creeps[i] for i in places])
+
+
+def kind(layer: Layer) -> type:
+    """What a layer may be stacked with: its own type, and all layers of users' own together."""
+    return type(layer) if type(layer) in {HalfSpace, Free, Confined, Belt} else Own
+
+
+def stacked(layers: Sequence[Layer], creeps: Sequence[CreepSpectrum]) -> Stack:
+    """Layers of one kind, and the rubbers that are touched, side by side."""
+    belts = [layer for layer in layers if isinstance(layer, Belt)]
+    if len(belts) == len(layers):
+        return Belts.of(belts)
+    plain = [layer for layer in layers if isinstance(layer, (Free, Confined))]
+    if len(plain) == len(layers):
+        poisson = [layer.poisson if isinstance(layer, Confined) else 0.5 for layer in plain]
+        support = "free" if isinstance(plain[0], Free) else "confined"
+        return Layers(support, np.array([layer.thickness for layer in plain]), np.array(poisson))
+    if all(isinstance(layer, HalfSpace) for layer in layers):
+        return Layers("half-space", np.full(len(layers), HALF_SPACE_DEPTH), np.full(len(layers), 0.5))
+    return Own(layers, creeps)

@@ -1,0 +1,86 @@
+"""What a file is of this program's outputs, by the mark it was written with; nothing for everybody else's files."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from contextlib import suppress
+from importlib.metadata import version
+from io import BytesIO
+from typing import Final
+from xml.etree import ElementTree as ET
+
+REPORT: Final = "report workbook"
+PAGE: Final = "report page"
+FIGURE: Final = "figure"
+COMPOUND: Final = "compound file of conveyor fit"
+TABLE: Final = "table"
+TO_FILL_IN: Final = "file to fill in"
+"""A template or a starter: made to be edited, so without a mark, and no older one is replaced unasked."""
+
+FITTED: Final = "Written by conveyor fit"
+"""First line of the compound files it writes."""
+CATEGORY: Final = "conveyor report"
+"""Property of a workbook of results."""
+PARQUET: Final = "written by conveyor"
+"""Key among the attributes of a Parquet file."""
+
+_BOM: Final = b"\xef\xbb\xbf"
+_UNIT: Final = re.compile(r" ?\[[^\]]*\]")
+_LARGEST_PROPERTIES: Final = 20_000
+_HEAD: Final = 4_000
+
+
+def maker() -> str:
+    """Return the name and version that outputs are marked with."""
+    return f"conveyor {version('conveyor')}"
+
+
+def mark(content: bytes) -> str | None:
+    r"""Tell what a file is of this program's outputs.
+
+    Parameters
+    ----------
+    content : bytes
+        The file.
+
+    Returns
+    -------
+    str or None
+        Of a table with its headings, units apart; None of what this program did not write.
+
+    Examples
+    --------
+    >>> mark(b"# Written by conveyor fit\nname: mine\n")
+    'compound file of conveyor fit'
+    >>> mark("\ufeffroll,force [N]\r\n1,5\r\n".encode())
+    'table: roll,force'
+    >>> mark(b"name: mine\n") is None
+    True
+    """
+    head = content[:_HEAD]
+    signs = {
+        REPORT: content.startswith(b"PK") and _is_report(content),
+        PAGE: b'<meta name="generator" content="conveyor ' in head,
+        COMPOUND: head.startswith(b"# " + FITTED.encode() + b"\n"),
+        FIGURE: (head.startswith(b"\x89PNG") and b"Software\0conveyor " in head)
+        or (b"<svg" in head and b"<dc:title>conveyor " in head)
+        or (head.startswith(b"%PDF") and b"/Creator (conveyor " in content),
+        TABLE: content.startswith(b"PAR1") and PARQUET.encode() in content,
+    }
+    found = next((kind for kind, known in signs.items() if known), None)
+    if found is None and content.startswith(_BOM):
+        headings = content.partition(b"\r\n")[0].decode("utf-8-sig", "replace")
+        return f"{TABLE}: {_UNIT.sub('', headings)}"
+    return found
+
+
+def _is_report(content: bytes) -> bool:
+    with suppress(
+        zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, EOFError, OSError
+    ):
+        with zipfile.ZipFile(BytesIO(content)) as archive, archive.open("docProps/core.xml") as stream:
+            properties = stream.read(_LARGEST_PROPERTIES)
+        if b"<!DOCTYPE" not in properties:
+            return any(node.text == CATEGORY for node in ET.fromstring(properties))  # noqa: S314
+    return False

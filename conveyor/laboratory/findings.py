@@ -1,0 +1,170 @@
+"""Master curves that can be fitted but hardly are what they say: what was seen, what to do, and how to insist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.laboratory.table import FloatArray
+from conveyor.rubber.fit import consistency_floor
+from conveyor.rubber.misfit import scatter
+
+FINDINGS: Final = {
+    "few-rows": "fewer than five frequencies, or less than a decade of them",
+    "modulus": "an E' below 0.05 MPa or above 8 GPa",
+    "contradiction": "E' and E'' that no rubber shows together",
+}
+"""What a fit refuses unless it is accepted by name."""
+FEWEST_FREQUENCIES: Final = 5
+LEAST_DECADES: Final = 1.0
+"""A term spreads its loss over more than a decade: less shows no shape."""
+RUBBER: Final = (5e4, 8e9)
+"""E' of rubber, soft gel to glass with filler, with room on both sides (general knowledge) [Pa]."""
+DOUBTED: Final = 0.05
+"""What the best positive spectrum leaves before another reading of the columns is tried: measurements leave less, or
+no other reading does better [-]."""
+BETTER: Final = 0.25
+"""Share of it that the right reading leaves at most [-]."""
+CONTRADICTED: Final = 0.25
+"""What no measurement at hand leaves (S100: 13 %; a published polymer: 17 %) unless it scatters as much [-]."""
+OVER_SCATTER: Final = 1.5
+_UNITS: Final = (1.0, 1e3, 1e6, 1e9)
+_TANGENT: Final = (1e-4, 5.0)
+_LOGARITHM: Final = (-3.0, 12.0)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One of `FINDINGS`: what was seen and what to do about it."""
+
+    name: str
+    text: str
+
+
+def check_findings(
+    place: str, curve: tuple[FloatArray, FloatArray, FloatArray], accepted: frozenset[str], shear: float
+) -> tuple[str, ...]:
+    """Refuse a master curve for each finding that is not accepted.
+
+    Parameters
+    ----------
+    place : str
+        What messages begin with: the file [-].
+    curve : tuple of numpy.ndarray
+        Frequency [Hz], E' and E'' [Pa], each of shape `(n,)`.
+    accepted : frozenset of str
+        Names of `FINDINGS` that a person insists on [-].
+    shear : float
+        E over G: the file may have stated either [-].
+
+    Returns
+    -------
+    tuple of str
+        What was seen and accepted [-].
+
+    Raises
+    ------
+    InputError
+        For the first finding that is not accepted.
+    """
+    for name in accepted - FINDINGS.keys():
+        raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
+    seen = []
+    for finding in _findings(*curve, shear=shear):
+        if finding.name not in accepted:
+            raise InputError(
+                f"{place}: {finding.text}; if it is right as it stands, insist with --accept {finding.name} "
+                f'(accept={{"{finding.name}"}})'
+            )
+        seen.append(f"accepted ({finding.name}): {finding.text}")
+    return tuple(seen)
+
+
+def _findings(
+    frequency: FloatArray, storage: FloatArray, loss: FloatArray, *, shear: float
+) -> Iterator[Finding]:
+    count, decades = np.unique(frequency).size, float(np.log10(frequency.max() / frequency.min()))
+    if count >= FEWEST_FREQUENCIES:
+        yield from _contradiction(frequency, storage, loss, shear)
+    if count < FEWEST_FREQUENCIES or round(decades, 6) < LEAST_DECADES:
+        yield Finding(
+            "few-rows",
+            f"{count} frequencies over {decades:.2g} decades; a series needs {FEWEST_FREQUENCIES} over "
+            f"{LEAST_DECADES:g}: measure more frequencies, or more temperatures",
+        )
+    outside = np.flatnonzero((storage < RUBBER[0]) | (storage > RUBBER[1]))
+    if outside.size:
+        row = outside[0] if storage[outside[0]] < RUBBER[0] else int(np.argmax(storage))
+        yield Finding(
+            "modulus",
+            f"E' = {storage[row] / 1e6:.4g} MPa at {frequency[row]:.3g} Hz; rubber has {RUBBER[0] / 1e6:g} to "
+            f"{RUBBER[1] / 1e6:,.0f} MPa: correct the unit of the moduli in the header, or give --modulus-unit",
+        )
+
+
+def _contradiction(
+    frequency: FloatArray, storage: FloatArray, loss: FloatArray, shear: float
+) -> Iterator[Finding]:
+    left = _left(frequency, storage, loss)
+    if left < DOUBTED:
+        return
+    seen = (
+        f"E' and E'' contradict each other: the best of all positive spectra misses them by {left:.0%} (rms)"
+    )
+    tried = [(_left(*curve), advice) for curve, advice in _readings(frequency, storage, loss, shear)]
+    least, advice = min(tried, key=lambda one: one[0], default=(np.inf, ""))
+    noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
+    if least < BETTER * left:
+        yield Finding("contradiction", f"{seen}, but by {least:.1%} {advice}")
+    elif left > max(CONTRADICTED, OVER_SCATTER * float(np.hypot(*noise)) / np.sqrt(2.0)):
+        yield Finding(
+            "contradiction",
+            f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "
+            "set-ups in one curve, or a wrong shift",
+        )
+
+
+def _readings(
+    frequency: FloatArray, storage: FloatArray, loss: FloatArray, shear: float
+) -> Iterator[tuple[tuple[FloatArray, FloatArray, FloatArray], str]]:
+    """Other things the columns may hold, as frequency, E' and E'', and the words for it."""
+    yield (frequency, loss, storage), "with E' and E'' exchanged: exchange the names of the two columns"
+    for factor in (1e3, 1e-3):
+        yield (
+            (frequency, storage, loss * factor),
+            f"with E'' times {factor:g}: correct the unit of one of the moduli",
+        )
+    for unit in {unit * factor for unit in _UNITS for factor in (1.0, shear)}:
+        tangent = loss / unit
+        if _within(tangent, _TANGENT):
+            yield (
+                (frequency, storage, storage * tangent),
+                "if what is named E'' is tan delta: name the column 'tan delta'",
+            )
+        first, second = storage / unit, loss / unit
+        if _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
+            moduli = (10.0**first, 10.0**second)
+            yield (frequency, *moduli), "if the moduli are log10: name them log10 E' and log10 E''"
+            if _within(frequency, _LOGARITHM):
+                yield (
+                    (10.0**frequency, *moduli),
+                    "if frequency and moduli are log10: name the columns log10 f, log10 E' and log10 E''",
+                )
+    if _within(frequency, _LOGARITHM):
+        yield (10.0**frequency, storage, loss), "if the frequency is log10: name the column log10 f"
+
+
+def _within(values: FloatArray, limits: tuple[float, float]) -> bool:
+    return bool(limits[0] <= values.min() and values.max() <= limits[1])
+
+
+def _left(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:
+    """What the best positive spectrum leaves; infinite where none has a loss."""
+    try:
+        return consistency_floor(frequency, storage, loss)
+    except NoSolutionError:
+        return float("inf")

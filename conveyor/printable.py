@@ -1,0 +1,35 @@
+"""Text that may be shown: what would move a cursor, turn the reading direction or break a file becomes its code."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+_NOT_SHOWN: Final = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]"
+)
+"""Controls but the tab and the line feed, marks of direction, lone surrogates, non-characters."""
+
+
+def printable(text: str) -> str:
+    r"""Write control characters out: a hostile name may not move the cursor, colour the terminal or break a file.
+
+    Whatever the package prints or writes for people goes through here: terminal, SVG, CSV, HTML, workbooks.
+
+    Examples
+    --------
+    >>> printable("got \x1b[31mred\x9b")
+    'got \\x1b[31mred\\x9b'
+    """
+    return _NOT_SHOWN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
+
+
+def in_json(written: str) -> str:
+    r"""Write control characters in JSON text as JSON does; it reads back to the same.
+
+    Examples
+    --------
+    >>> in_json('"\x9b"')
+    '"\\u009b"'
+    """
+    return _NOT_SHOWN.sub(lambda found: f"\\u{ord(found[0]):04x}", written)

@@ -1,0 +1,137 @@
+"""Files that read well and are hardly what they say: refused with what was seen, and fitted where one insists."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conveyor.compound_file import Request, fit_file
+from conveyor.errors import InputError
+from conveyor.laboratory import read_dma
+from conveyor.laboratory.findings import FINDINGS, check_findings
+from conveyor.laboratory.moduli import equivalent_strain
+from conveyor.rubber import PronySeries
+
+FILES = Path(__file__).parents[1] / "laboratory" / "files"
+DOUBTFUL = FILES / "doubtful"
+MATERIALS = Path(__file__).parents[2] / "materials"
+
+SEEN = [
+    ("three_rows.csv", "few-rows", "3 frequencies over 0.4 decades"),
+    ("too_soft.csv", "modulus", "E' = 0.0127 MPa at 0.01 Hz; rubber has 0.05 to 8,000 MPa"),
+    ("too_stiff.csv", "modulus", "E' = 1.824e+04 MPa at 1e+06 Hz"),
+    ("tan_delta_as_loss.csv", "contradiction", "what is named E'' is tan delta"),
+    ("logarithms_unnamed.csv", "contradiction", "frequency and moduli are log10"),
+    ("butyl_columns_exchanged.csv", "contradiction", "exchange the names of the two columns"),
+]
+
+
+def request(at: str | None = "20 degC", **more: object) -> Request:
+    return Request("x", at, replicas=0, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("name", "finding", "seen"), SEEN, ids=[case[0] for case in SEEN])
+def test_refused_with_what_was_seen_and_how_to_insist(name: str, finding: str, seen: str) -> None:
+    with pytest.raises(InputError, match=re.escape(seen)) as refused:
+        fit_file(DOUBTFUL / name, request())
+    assert str(refused.value).startswith(str(DOUBTFUL / name))
+    assert f"--accept {finding}" in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["too_soft.csv", "too_stiff.csv"])
+def test_one_finding_is_insisted_on_and_written_down(name: str) -> None:
+    found = fit_file(DOUBTFUL / name, request(accept=frozenset({"modulus"})))
+    assert found.compound.fit is not None
+    assert "accepted (modulus)" in found.compound.fit.method
+    assert "accepted (modulus)" in found.understood[-1]
+
+
+def test_insisting_on_another_finding_does_not_help() -> None:
+    with pytest.raises(InputError, match="--accept modulus"):
+        fit_file(DOUBTFUL / "too_soft.csv", request(accept=frozenset({"few-rows"})))
+    with pytest.raises(InputError, match=f'"soft" .* allowed: {", ".join(FINDINGS)}'):
+        fit_file(DOUBTFUL / "too_soft.csv", request(accept=frozenset({"soft"})))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_good_rubber_is_not_doubted(seed: int) -> None:
+    """From a soft gum to a stiff, cold one, butyl's broad loss among them, with up to 5 % of noise."""
+    rng = np.random.default_rng(seed)
+    places = np.linspace(-9.0, 2.0, 45)
+    width, middle = rng.uniform(1.5, 6.0), rng.uniform(-7.0, -1.0)
+    moduli = 10.0 ** -(((places - middle) / width) ** 2)
+    soft = 10.0 ** rng.uniform(5.0, 6.5)
+    series = PronySeries(soft, moduli / moduli.sum() * soft * 10.0 ** rng.uniform(0.5, 3.0), 10.0**places)
+    f = np.logspace(-2.0, rng.uniform(0.5, 8.0), 40)
+    noise = 1.0 + 0.05 * (seed % 2) * rng.uniform(-1.0, 1.0, (2, f.size))
+    omega = 2.0 * np.pi * f
+    curve = (f, series.storage(omega) * noise[0], series.loss(omega) * noise[1])
+    assert check_findings("good", curve, frozenset(), 3.0) == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        (
+            "temperature_column.csv",
+            "temperature_column.csv:2: column of the temperature: the temperature is -15 degC",
+        ),
+        (
+            "one_temperature.csv",
+            "one_temperature.csv:2: column of the temperature: the temperature is 8 degC",
+        ),
+        (
+            "temperature_remark.csv",
+            'temperature_remark.csv:1: "reference_temperature": the temperature is 40 degC',
+        ),
+    ],
+)
+def test_a_temperature_against_the_files_own_is_refused(name: str, said: str) -> None:
+    with pytest.raises(InputError, match=re.escape(said) + ".* --at says 20 degC.*leave out --at"):
+        fit_file(DOUBTFUL / name, request())
+    stated = fit_file(DOUBTFUL / name, request(None))
+    assert stated.compound.reference_temperature.magnitude == pytest.approx(float(said.split()[-2]))
+
+
+def test_a_temperature_without_unit_is_asked_for(tmp_path: Path) -> None:
+    text = (DOUBTFUL / "temperature_remark.csv").read_text(encoding="utf-8").replace("40 degC", "40")
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r'a.csv:1: "reference_temperature": "40" has no unit; .* "40 degC"'):
+        fit_file(tmp_path / "a.csv", request())
+
+
+@pytest.mark.parametrize("name", ["s100", "s120"])
+@pytest.mark.parametrize("at", ["39.96 degC", "40 degC", None])
+def test_published_curves_at_their_temperature_as_rounded(name: str, at: str | None) -> None:
+    found = fit_file(MATERIALS / f"{name}.dma.csv", request(at, shift=MATERIALS / f"{name}.shift.csv"))
+    assert found.compound.shift is not None
+    assert {law.name for law in found.laws} == {"table", "WLF", "Arrhenius"}
+
+
+def test_a_shift_that_is_not_zero_at_the_reference_blames_the_shift_file(tmp_path: Path) -> None:
+    curve = (MATERIALS / "s100.dma.csv").read_text(encoding="utf-8").replace("# reference_temp", "# temp")
+    (tmp_path / "s100.csv").write_text(curve, encoding="utf-8")
+    with pytest.raises(InputError, match=r"s100\.shift\.csv: .*at the reference 42\.00 degC is -0\.16"):
+        fit_file(tmp_path / "s100.csv", request("42 degC", shift=MATERIALS / "s100.shift.csv"))
+
+
+def test_exchanged_temperatures_are_named_with_their_rows() -> None:
+    said = r"2\.00 degC \(from row 52 on\) and 14\.00 degC \(from row 32 on\) exchanged all shifts fall"
+    with pytest.raises(InputError, match=said):
+        fit_file(DOUBTFUL / "temperatures_exchanged.csv", request())
+
+
+def test_shear_strain_becomes_the_tensile_one_of_equal_energy() -> None:
+    first = read_dma(DOUBTFUL / "strain_sweep_in_shear.csv").strain_sweeps()[0]
+    shear, modulus = 1e-4, 15.559e6  # the file's first row
+    assert first.strain[0] == pytest.approx(shear / np.sqrt(3.0), rel=1e-14)
+    assert first.storage[0] == pytest.approx(3.0 * modulus, rel=1e-14)
+    assert first.storage[0] * first.strain[0] ** 2 == pytest.approx(modulus * shear**2, rel=1e-13)
+    # sqrt(2/3 e:e) of simple shear, e_12 = e_21 = gamma/2
+    strain = np.array([[0.0, 0.5], [0.5, 0.0]])
+    assert equivalent_strain(np.array([1.0]), 0.5)[0][0] == pytest.approx(
+        np.sqrt(2.0 / 3.0 * np.sum(strain**2)), rel=1e-14
+    )
