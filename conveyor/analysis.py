@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.balance import Balance
@@ -19,6 +20,7 @@ from conveyor.remarks import assumptions, warnings
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.report.columns import Contents, Table
     from conveyor.report.files import FileKind
     from conveyor.studies import Studies
     from conveyor.studies.drawing import AnalysisPlots
@@ -82,40 +84,41 @@ class Analysis:
     warnings: tuple[str, ...]
     convergence: Convergence | None = None
 
+    def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
+        from conveyor.report.tables import of_analysis
+
+        return of_analysis(self.in_units(chosen(self.conveyor.report.units, system)), studies)
+
+    @cached_property
+    def tables(self) -> dict[str, Table]:
+        """Every table of the reports by its name (docs/workbook.md); `.frame(system)` is the data frame."""
+        return self.contents().by_key
+
     @cached_property
     def summary(self) -> pd.Series:
         """Figures of the whole conveyor; units in the names."""
-        from conveyor.report import tables
-
-        return tables.summary(self.conveyor, self.stretches, self.balance)
+        return self.tables["results"].series(self.conveyor.name)
 
     @cached_property
     def sections(self) -> pd.DataFrame:
         """One row a section and strand; units in the names."""
-        from conveyor.report import tables
-
-        return tables.sections(self.stretches)
+        return self.tables["sections"].frame()
 
     @cached_property
     def resistances(self) -> pd.DataFrame:
         """Every force and its source; the rows add up to the effective tension."""
-        from conveyor.report import tables
-
-        return tables.resistances(self.stretches, self.balance)
+        return self.tables["resistances"].frame()
 
     @cached_property
     def rolls(self) -> pd.DataFrame:
         """One row a roll of every section's set; units in the names."""
-        from conveyor.report import tables
-
-        return tables.rolls(self.stretches)
+        return self.tables["rolls"].frame()
 
     @cached_property
     def rubber(self) -> pd.DataFrame:
         """One row a strand: compound, excited band against its data, working strain; units in the names."""
-        from conveyor.report import tables
-
-        return tables.rubber(self.conveyor, self.stretches)
+        return self.tables["rubber"].frame()
 
     @cached_property
     def motions(self) -> Motions:
@@ -151,72 +154,9 @@ class Analysis:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""
-        forces, power = self.balance.forces, self.balance.power
-        even = not self.conveyor.duty
-        return {
-            "name": self.conveyor.name,
-            "forces_N": {**asdict(forces), "total": forces.total},
-            "power_kW": {"belt": power.belt / 1e3, "motor": power.motor / 1e3, "mains": power.mains / 1e3},
-            "friction_factor": self.balance.friction_factor,
-            "tensions_N": asdict(self.balance.tensions),
-            "drives": _drives(self.balance),
-            "take_up": {
-                "kind": self.balance.settled.loop.data.take_up.kind,
-                "setting_N": self.balance.settled.setting,
-                "least_setting_N": self.balance.settled.needed,
-                "governed_by": self.balance.settled.condition_name(self.balance.settled.governed_by),
-            },
-            "energy": {
-                "kWh_per_tonne_km": power.energy_per_tonne_km,
-                "kWh_per_year": power.energy_per_year if even else None,
-                "cost_per_year": power.cost_per_year if even else None,
-                "currency": power.currency,
-            },
-            "classical": {
-                "friction_factor": self.balance.classical.friction_factor,
-                "secondary_by": self.balance.classical.secondary_by,
-                "total_N": self.balance.classical.total,
-                "motor_kW": self.balance.classical.motor / 1e3,
-            },
-            "cema": None
-            if self.balance.cema is None
-            else {
-                "friction_factor": self.balance.cema.friction_factor,
-                "total_N": self.balance.cema.total,
-                "motor_kW": self.balance.cema.motor / 1e3,
-            },
-            "rubber": [
-                {
-                    "strand": row["strand"],
-                    "compound": row["compound"],
-                    "temperature_degC": row["temperature [degC]"],
-                    "excited_Hz": [row["excited from [Hz]"], row["excited to [Hz]"]],
-                    "data_Hz": [row["data from [Hz]"], row["data to [Hz]"]],
-                    "working_strain": row["working strain [-]"],
-                    "storage_factor": row["E' factor of strain [-]"],
-                    "loss_factor": row["E'' factor of strain [-]"],
-                }
-                for row in self.rubber.astype(object).where(self.rubber.notna(), None).to_dict("records")
-            ],
-            "sections": [
-                {
-                    "section": r.stretch.section,
-                    "strand": r.stretch.strand,
-                    "length_m": r.stretch.length,
-                    "lift_m": r.stretch.rise,
-                    "indentation_N": r.indentation,
-                    "idler_rotation_N": r.rotation,
-                    "flexure_N": r.flexure,
-                    "tilt_N": r.tilt,
-                    "lift_N": r.lift,
-                    "total_N": r.total,
-                }
-                for r in self.stretches
-            ],
-            "error_estimate": self.error_estimate,
-            "assumptions": list(self.assumptions),
-            "warnings": list(self.warnings),
-        }
+        from conveyor.report.tables import plain
+
+        return plain(self)
 
     def to_excel(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
@@ -240,7 +180,7 @@ class Analysis:
         """
         from conveyor.report.excel import write
 
-        return write(self, Path(path), studies, system=system)
+        return write(self.contents(studies, system=system), Path(path))
 
     def to_tables(
         self,
@@ -270,7 +210,7 @@ class Analysis:
         """
         from conveyor.report.files import write
 
-        return write(self, Path(folder), studies, system=system, kind=kind)
+        return write(self.contents(studies, system=system), Path(folder), kind)
 
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
@@ -293,7 +233,7 @@ class Analysis:
         """
         from conveyor.report.html import write
 
-        return write(self, Path(path), studies, system=system)
+        return write(self.contents(studies, system=system), Path(path))
 
     @property
     def plots(self) -> AnalysisPlots:
@@ -311,21 +251,6 @@ class Analysis:
 
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""
-        from conveyor.report.representations import of_analysis
+        from conveyor.report import representations
 
-        return of_analysis(self)
-
-
-def _drives(found: Balance) -> list[dict[str, Any]]:
-    """Every drive in steady running, plain numbers."""
-    motor = found.settled.loop.data.motor
-    return [
-        {
-            "drive": side.name,
-            "force_N": side.force,
-            "motor_kW": motor(side.force) / 1e3,
-            "arriving_N": side.arriving,
-            "leaving_N": side.leaving,
-        }
-        for side in found.settled.steady.drives
-    ]
+        return representations.of_analysis(self.contents())

@@ -13,13 +13,16 @@ import pytest
 
 import conveyor
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
-from conveyor.report import case_tables, comparing, loop_tables, tables
+from conveyor.report.comparing import of_comparison, plain
+from conveyor.report.tables import of_analysis
 from conveyor.spec import from_data
 from conveyor.studies import Studies, studies
 
 ROOT = Path(__file__).parent.parent
 SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")
 NO_UNIT = "-"
+OF_WORDS = {"breakdown", "checks", "governing_cases", "inputs", "provenance", "remarks"}
+"""Tables that docs/workbook.md explains."""
 CURRENCY = re.compile(r"[A-Z]{3}|-")
 
 
@@ -53,23 +56,11 @@ def analysed(name: str) -> tuple[conveyor.Analysis, Studies]:
 
 def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
     result, asked = analysed(name)
-    stretches, found, compound = result.stretches, result.balance, result.conveyor.carry_compound
-    yield from (result.summary, result.sections, result.resistances, result.rolls, result.rubber)
-    yield from (tables.tensions(found), tables.indentation_curves(stretches), tables.solver(stretches))
-    yield from (tables.moduli(compound, 293.15), tables.prony(compound, 293.15))
-    yield pd.Series(dtype=float, index=tables.comparison(found).index)
-    yield from (loop_tables.belt(result.belt_duty), loop_tables.pulleys(result.belt_duty))
-    yield from (loop_tables.curves(result.belt_duty), loop_tables.convergence(result.convergence))
-    yield from (loop_tables.conditions(found), loop_tables.drives(found), loop_tables.take_up(found))
-    yield from (loop_tables.profile(result.conveyor), loop_tables.start_stop(result.motions))
-    yield loop_tables.tension_states(found, result.motions)
+    for table in of_analysis(result, asked).tables:
+        if table.key not in OF_WORDS:
+            yield pd.Series(dtype=float, index=table.frame().iloc[:, 0]) if table.by_row else table.frame()
     if asked.cases is not None:
-        yield from (case_tables.cases(asked.cases), case_tables.governing(asked.cases))
-        yield from (case_tables.refused_cases(asked.cases), case_tables.motors(asked.cases.motors()))
-    if asked.duty is not None:
-        yield from (case_tables.duty(asked.duty), case_tables.year(asked.duty))
-    if asked.uncertainty is not None:
-        yield from (case_tables.band(asked.uncertainty), case_tables.tornado(asked.uncertainty))
+        yield asked.cases.table
 
 
 def comparison() -> conveyor.Comparison:
@@ -116,7 +107,12 @@ def test_every_column_of_lives_is_named() -> None:
 
 def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
     found = comparison()
-    made = (found.table, found.ranking, comparing.coverage(found), comparing.refused(found))
+    held = of_comparison(found, "SI")
+    made = [
+        found.table,
+        found.ranking,
+        *(held[key].frame() for key in ("coverage", "refused") if key in held),
+    ]
     assert missing([column for frame in made for column in names(frame)]) == set()
 
 
@@ -145,7 +141,7 @@ def test_every_key_of_the_json_is_named() -> None:
         result, asked = analysed(name)
         for key in keys(result.to_dict() | asked.to_dict()):
             assert key in told or key.rsplit(".", 1)[-1] in rows(), key
-    for key in keys(comparing.to_dict(comparison())):
+    for key in keys(plain(comparison())):
         assert key in told or key.rsplit(".", 1)[-1] in rows(), key
 
 

@@ -35,6 +35,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks
 
 if TYPE_CHECKING:
+    from conveyor.report.columns import Contents
     from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
@@ -149,8 +150,9 @@ def compare(
         raise NoSolutionError(f"no scene has an answer: {reasons}")
     from conveyor.report import comparing
 
-    figures = json_text(comparing.to_dict(found))
-    _reports(found, to, system, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
+    contents = comparing.of_comparison(found, system)
+    figures = json_text(comparing.plain(found))
+    _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
     _figures(found, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
     written = to.save()
     if as_json:
@@ -158,15 +160,14 @@ def compare(
     elif not quiet:
         from conveyor.cli.compare_tables import show
 
-        show(found, system)
+        show(contents)
         if written:
             say("", *written)
 
 
 def _reports(
-    found: Comparison,
+    contents: Contents,
     to: Outputs,
-    system: System,
     *,
     output: Path | None,
     html: Path | None,
@@ -177,17 +178,15 @@ def _reports(
     """Make the workbook, the page and the tables that are asked for."""
     from conveyor.report import excel, files
     from conveyor.report import html as page
-    from conveyor.report.unit_systems import converted
 
     if output is not None:
-        to.add("workbook", output, excel.comparison_files(found, output, system=system))
+        to.add("workbook", output, excel.files(contents, output))
     if html is not None:
-        to.add("page", html, {html: page.build_comparison(found, system=system).encode()})
+        to.add("page", html, {html: page.build(contents).encode()})
     if tables is not None:
-        kind: files.FileKind = "parquet" if parquet else "csv"
-        to.add("tables", tables, files.comparison_files(found, tables, system=system, kind=kind))
+        to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
     if csv is not None:
-        to.add("table", csv, {csv: files.csv(converted(found.table, system))})
+        to.add("table", csv, {csv: files.csv(contents["scenes"].frame(contents.system))})
 
 
 def _figures(

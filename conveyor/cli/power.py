@@ -32,6 +32,7 @@ from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis
+    from conveyor.report.columns import Contents
     from conveyor.studies import Studies
     from conveyor.units import System
 
@@ -73,6 +74,7 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
+    from conveyor.report.tables import of_analysis
     from conveyor.studies import studies
 
     line = conveyor.load(spec, shelves=shelf or ())
@@ -83,7 +85,10 @@ def power(
         with spec_file.placing(spec):
             asked = studies(line, progress=told)
         figures = json_text(result.to_dict() | asked.to_dict())
-        wanted = _wanted(shown, asked, output, html, tables, parquet, plots, plot_kind)
+        contents = of_analysis(shown, asked)
+        wanted = _wanted(contents, output, html, tables, parquet)
+        if plots is not None:
+            wanted.append(("figures", plots, lambda folder: _drawn(shown, asked, folder, plot_kind)))
         for done, (what, where, made) in enumerate(wanted):
             if told is not None:
                 told("writing", done, len(wanted))
@@ -94,31 +99,26 @@ def power(
     elif not quiet:
         from conveyor.cli.power_tables import show
 
-        show(shown, asked, system)
+        show(contents)
         if written:
             say("", *written)
 
 
+Wanted = tuple[str, Path, Callable[[Path], Mapping[Path, bytes]]]
+
+
 def _wanted(
-    result: Analysis,
-    asked: Studies,
-    output: Path | None,
-    html: Path | None,
-    tables: Path | None,
-    parquet: bool,
-    plots: Path | None,
-    plot_kind: ImageKind,
-) -> list[tuple[str, Path, Callable[[Path], Mapping[Path, bytes]]]]:
-    """What is asked for, in the units of the analysis' report: where it goes, and what makes its files."""
+    contents: Contents, output: Path | None, html: Path | None, tables: Path | None, parquet: bool
+) -> list[Wanted]:
+    """Reports that are asked for: where they go, and what makes their files."""
     from conveyor.report import excel, files
     from conveyor.report import html as page
 
     kind: files.FileKind = "parquet" if parquet else "csv"
     every: list[tuple[str, Path | None, Callable[[Path], Mapping[Path, bytes]]]] = [
-        ("workbook", output, lambda path: excel.files(result, path, asked)),
-        ("page", html, lambda path: {path: page.build(result, asked).encode()}),
-        ("tables", tables, lambda folder: files.files(result, folder, asked, kind=kind)),
-        ("figures", plots, lambda folder: _drawn(result, asked, folder, plot_kind)),
+        ("workbook", output, lambda path: excel.files(contents, path)),
+        ("page", html, lambda path: {path: page.build(contents).encode()}),
+        ("tables", tables, lambda folder: files.files(contents, folder, kind)),
     ]
     return [(what, where, made) for what, where, made in every if where is not None]
 

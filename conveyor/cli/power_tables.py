@@ -3,171 +3,170 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, force, power, shown, table, words, wrapped
-from conveyor.units import System, si, text
+from conveyor.cli.terminal import console, table, words, wrapped
+from conveyor.display import headed, unit
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Table as Grid
 
-    from conveyor.analysis import Analysis
-    from conveyor.models import Conveyor
-    from conveyor.studies import Studies
-    from conveyor.studies.cases import CaseStudy
-    from conveyor.studies.uncertainty import UncertaintyStudy
+    from conveyor.report.columns import Contents, Figure, Table
+    from conveyor.units import System
+
+_SUMS: Final = ("main", "secondary", "special", "lift", "total")
+_DOCUMENT: Final = ("project", "number", "client", "engineer", "revision")
+_MATTERS: Final = 3
+"""Inputs that are said to matter first."""
 
 
-def show(result: Analysis, asked: Studies, system: System) -> None:
+def show(contents: Contents) -> None:
     """Print what a designer looks for, the most important first and what to doubt last."""
     screen = console()
-    _head(screen, result.conveyor, system)
+    _head(screen, contents)
     screen.print()
-    screen.print(_forces(result, system))
+    screen.print(_forces(contents))
     screen.print()
-    screen.print(_sums(result, system))
-    _checks(screen, result, asked, system)
-    if asked.cases is not None:
+    screen.print(_sums(contents))
+    _checks(screen, contents)
+    if "governing_cases" in contents:
         screen.print()
-        screen.print(_cases(asked.cases, system))
-    if asked.duty is not None:
-        from conveyor.report import case_tables
-
+        screen.print(_cases(contents["governing_cases"], contents.system))
+    if "duty_year" in contents:
         screen.print()
-        screen.print(_year(case_tables.year(asked.duty).items()))
-    if asked.uncertainty is not None:
-        _ranges(screen, asked.uncertainty, system)
-    notes.show(screen, result.warnings)
-    from conveyor.line.walk import worst_energy_error
-
-    balance = worst_energy_error(result.stretches)
+        screen.print(_year(contents["duty_year"].rows, contents.system))
+    if "power_band" in contents:
+        _ranges(screen, contents)
+    notes.show(screen, contents.lines("warning"))
+    error, balance = (
+        _figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error")
+    )
     screen.print(
-        f"\nrelative error of the contact solutions: at most {result.error_estimate:.0e}; "
+        f"\nrelative error of the contact solutions: at most {error:.0e}; "
         f"their energy balance closes to {balance:.0e}"
     )
 
 
-def _head(screen: Console, conveyor: Conveyor, system: System) -> None:
-    report, route, material = conveyor.report, conveyor.route, conveyor.material
-    screen.print(words(conveyor.name, style="bold"))
-    said = (
-        report.project,
-        report.number,
-        report.client and f"for {report.client}",
-        report.engineer and f"by {report.engineer}",
-        report.revision and f"revision {report.revision}",
-    )
-    if any(said):
-        screen.print(words(", ".join(filter(None, said))))
+def _figure(contents: Contents, key: str) -> Figure:
+    found: Figure = next(row for row in contents["results"].rows if row.key == key)
+    return found
+
+
+def _head(screen: Console, contents: Contents) -> None:
+    about, system = contents.document, contents.system
+    screen.print(words(about.title, style="bold"))
+    named = {"client": "for {}", "engineer": "by {}", "revision": "revision {}"}
+    said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT if name in about.said)
+    if about.said:
+        screen.print(words(", ".join(said)))
+    facts = {row.label: row.unit(system).brief(row.value) for row in contents["identity"].rows}
+    material = facts["material"].rpartition(",")[0]
     screen.print(
         words(
-            f"{material.name}, {shown(si(material.flow), 'mass flow', system)} over "
-            f"{shown(route.length, 'length', system)}, lift {shown(route.rise, 'length', system)}\n"
-            f"belt {text(conveyor.belt.width)} at {shown(si(conveyor.belt.speed), 'speed', system)}, "
-            f"{shown(si(conveyor.ambient.belt), 'temperature', system)}"
+            f"{material}, {facts['mass flow']} over {facts['length']}, lift {facts['lift']}\n"
+            f"belt {facts['belt width']} at {facts['belt speed']}, {facts['temperature of the covers']}"
         )
     )
 
 
-def _forces(result: Analysis, system: System) -> Table:
-    found = result.balance
-    forces, classical = found.forces, found.classical
-    rows = (
-        ("indentation", forces.indentation, None),
-        ("idler rotation", forces.idler_rotation, None),
-        ("flexure", forces.flexure, None),
-        ("main resistance", forces.main, classical.main),
-        ("secondary", forces.secondary, classical.secondary),
-        ("special", forces.special, classical.special),
-        ("lift", forces.lift, classical.lift),
-        ("effective tension", forces.total, classical.total),
-    )
+def _forces(contents: Contents) -> Grid:
+    system = contents.system
+    force, power = unit("force", system, large=True), unit("power", system, large=True)
+    sums = {row.key: row.value for row in contents["classical"].rows}
+    total = sums["total"][0]
+    names = {"main": "main resistance", "total": "effective tension"}
+    rows: list[tuple[str, float, float | None]] = [
+        (row.label, row.value, None)
+        for row in (
+            _figure(contents, f"{name}_force") for name in ("indentation", "idler_rotation", "flexure")
+        )
+    ]
+    rows += [(names.get(key, key), *sums[key][:2]) for key in _SUMS]
     made = table()
     made.add_column("force")
     made.add_column("this calculation", justify="right", no_wrap=True)
     made.add_column("share", justify="right", no_wrap=True)
-    made.add_column(f"classical, f = {classical.friction_factor:g}", justify="right", no_wrap=True)
+    made.add_column(f"classical, f = {sums['friction_factor'][1]:g}", justify="right", no_wrap=True)
     for name, value, other in rows:
-        share = f"{value / forces.total:.1%}" if forces.total else ""
-        beside = "" if other is None else force(other, system)
-        made.add_row(name, force(value, system), share, beside, end_section=name in {"flexure", "lift"})
+        share = f"{value / total:.1%}" if total else ""
+        beside = "" if other is None else force.said(other)
+        made.add_row(name, force.said(value), share, beside, end_section=name in {"flexure", "lift"})
     made.add_section()
-    drive = found.power
-    made.add_row("belt power", power(drive.belt, system))
-    made.add_row(
-        "motor power",
-        power(drive.motor, system),
-        "",
-        power(classical.motor, system),
-        style="bold",
-    )
-    if drive.mains != drive.motor:
-        made.add_row("mains power", power(drive.mains, system))
-    made.add_row("friction factor f", f"{found.friction_factor:.4f}", "", f"{classical.friction_factor:.4f}")
+    belt, motor, mains = (_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
+    made.add_row("belt power", power.said(belt))
+    made.add_row("motor power", power.said(motor), "", power.said(sums["motor"][1]), style="bold")
+    if mains != motor:
+        made.add_row("mains power", power.said(mains))
+    f, classical = sums["friction_factor"][:2]
+    made.add_row("friction factor f", f"{f:.4f}", "", f"{classical:.4f}")
     return made
 
 
-def _sums(result: Analysis, system: System) -> Table:
+def _sums(contents: Contents) -> Grid:
     """Tensions and energy: a name and what it is."""
     from rich.table import Table
 
-    drive, tensions = result.balance.power, result.balance.tensions
+    force = unit("force", contents.system, large=True)
+    known = {row.key: row for row in contents["results"].rows}
+    tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
-    made.add_row(
-        "tensions, tight / slack", f"{force(tensions.tight, system)} / {force(tensions.slack, system)}"
-    )
-    if drive.energy_per_tonne_km is not None:
-        made.add_row("energy", f"{drive.energy_per_tonne_km:.4f} kWh/(t km)")
-    if drive.energy_per_year is not None and not result.conveyor.duty:
-        cost = "" if drive.cost_per_year is None else f", {drive.cost_per_year:,.0f} {drive.currency}"
-        made.add_row("in a year", f"{drive.energy_per_year / 1e3:,.0f} MWh{cost}")
+    made.add_row("tensions, tight / slack", f"{tight} / {slack}")
+    if "specific_energy" in known:
+        energy = known["specific_energy"]
+        made.add_row("energy", energy.unit(contents.system).said(energy.value))
+    year = [known[key] for key in ("energy_per_year", "cost_per_year") if key in known]
+    if year:
+        said = (
+            f"{row.unit(contents.system).shown(row.value):,.0f} {row.unit(contents.system).sign}"
+            for row in year
+        )
+        made.add_row("in a year", ", ".join(said))
     return made
 
 
-def _checks(screen: Console, result: Analysis, asked: Studies, system: System) -> None:
-    from conveyor.report.checks import checks
-
-    found = checks(result, system, asked)
-    failed = [check for check in found if check.verdict == "FAIL"]
-    counts = [
-        f"{sum(check.verdict == word for check in found)} {word}" for word in ("pass", "FAIL", "not checked")
-    ]
-    screen.print(
-        words("checks: " + ", ".join(count for count in counts if not count.startswith("0 ")), style="bold")
-    )
-    for check in failed:
-        said = f"FAIL {check.subject}: {check.found}, {check.asked}"
-        screen.print(words(wrapped(said, screen.width, first="  ", further="    "), style="red"))
+def _checks(screen: Console, contents: Contents) -> None:
+    found = contents["checks"].rows
+    counts = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
+    said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    screen.print(words(f"checks: {said}", style="bold"))
+    for check in (check for check in found if check.verdict == "FAIL"):
+        failed = f"FAIL {check.subject}: {check.found}, {check.asked}"
+        screen.print(words(wrapped(failed, screen.width, first="  ", further="    "), style="red"))
 
 
-def _cases(study: CaseStudy, system: System) -> Table:
+def _cases(cases: Table, system: System) -> Grid:
     made = table("load cases that govern")
-    for heading, side in (("figure", "left"), ("value", "right"), ("case", "left"), ("at", "left")):
-        made.add_column(heading, justify="right" if side == "right" else "left")
-    written = {"force": force, "power": power}
-    for row in study.governing:
-        at = f"{shown(row.result.temperature, 'temperature', system)}, {shown(row.result.speed, 'speed', system)}"
-        made.add_row(row.figure, written[row.kind](row.value, system), words(row.result.case), at)
+    for heading in ("figure", "value", "case", "at"):
+        made.add_column(heading, justify="right" if heading == "value" else "left")
+    get = {column.key: column.get for column in cases.columns}
+    for row in cases.rows:
+        at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
+        value = unit(row.kind, system, large=True).said(get["value"](row))
+        made.add_row(row.label, value, words(get["case"](row)), at)
     return made
 
 
-def _year(figures: Iterable[tuple[object, float]]) -> Table:
+def _year(figures: Iterable[Figure], system: System) -> Grid:
     made = table("the year")
     made.add_column("figure")
     made.add_column("value", justify="right", no_wrap=True)
-    for name, value in figures:
-        made.add_row(words(str(name)), f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}")
+    for figure in figures:
+        value = figure.unit(system).shown(figure.value)
+        written = f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}"
+        made.add_row(words(headed(figure.label, figure.kind, system)), written)
     return made
 
 
-def _ranges(screen: Console, study: UncertaintyStudy, system: System) -> None:
-    low, high = study.band
-    first = ", ".join(effect.name for effect in study.effects[:3])
-    screen.print(words("\nranges of the inputs", style="bold"))
-    said = (
-        f"motor power {power(low, system)} to {power(high, system)} in nine tenths of the cases; "
-        f"what matters first: {first}"
+def _ranges(screen: Console, contents: Contents) -> None:
+    power, band = unit("power", contents.system, large=True), contents["power_band"]
+    low, high = (
+        power.said(band.columns[band.index(key)].get(band.rows[0]))
+        for key in ("motor_power_low", "motor_power_high")
     )
+    inputs = contents["sensitivity"]
+    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
+    screen.print(words("\nranges of the inputs", style="bold"))
+    said = f"motor power {low} to {high} in nine tenths of the cases; what matters first: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.contact import solve
+from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
 from conveyor.line.walk import RollResult, StretchResult, excited_band
-from conveyor.report.axes import scale
 from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
-from conveyor.units import System, display
+from conveyor.units import System
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,7 +39,7 @@ _TORNADO = 12  # inputs drawn, those that matter most
 
 def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     """Every kind of resistance [kN, lbf], the classical estimates beside their sums; numbers at the bars."""
-    force = scale("force", system)
+    force = unit("force", system, large=True)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
         (f"classical, f = {found.classical.friction_factor:g}", found.classical)
@@ -74,7 +74,7 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
-    axis.set(xlabel=f"force [{force.unit}]", title="Resistances")
+    axis.set(xlabel=force.beside("force"), title="Resistances")
     grouped(axis.xaxis)
     axis.legend(fontsize=8)
     return figure
@@ -105,7 +105,7 @@ def pressure_under_rolls(results: tuple[StretchResult, ...], *, system: System =
         A contact that was interpolated between others has no answer of its own.
     """
     figure, (axis,) = stacked(1, 3.6)
-    stress, way, line = (scale(kind, system) for kind in ("pressure", "thickness", "line force"))
+    stress, way, line = (unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
     strands: tuple[Strand, ...] = ("carry", "return")
     for k, strand in enumerate(strands):
         _, roll = governing_roll(results, strand)
@@ -121,14 +121,14 @@ def pressure_under_rolls(results: tuple[StretchResult, ...], *, system: System =
             way(contact.radius * x),
             stress(pascal * solution.pressure(x)),
             color=colour(k),
-            label=f"{strand}: {_figures(float(line(load)))} {line.unit}, "
-            f"roll {way(2.0 * contact.radius):.4g} {way.unit}, "
-            f"cover {way(contact.cover_thickness):.3g} {way.unit}",
+            label=f"{strand}: {_figures(float(line(load)))} {line.sign}, "
+            f"roll {way(2.0 * contact.radius):.4g} {way.sign}, "
+            f"cover {way(contact.cover_thickness):.3g} {way.sign}",
         )
     axis.axvline(0.0, color="0.75", linewidth=0.8, zorder=0)
     axis.set(
-        xlabel=f"distance from the roll's axis, positive where the belt arrives [{way.unit}]",
-        ylabel=f"pressure [{stress.unit}]",
+        xlabel=way.beside("distance from the roll's axis, positive where the belt arrives"),
+        ylabel=stress.beside("pressure"),
         title="Pressure under the rolls of the highest line load",
     )
     axis.margins(y=0.4)  # room for the legend above the curves
@@ -181,7 +181,7 @@ def case_power_against_temperature(
     """
     chosen, found = _at(study, "speed", speed, "m/s")
     figure = _power_lines(found, "temperature", system)
-    titled(figure, f"{study.conveyor.name}, {display(chosen, 'speed', system)}", _shaded(study))
+    titled(figure, f"{study.conveyor.name}, {unit('speed', system).brief(chosen)}", _shaded(study))
     return figure
 
 
@@ -197,8 +197,8 @@ def case_power_against_speed(
     """
     chosen, found = _at(study, "temperature", temperature, "K")
     figure = _power_lines(found, "speed", system)
-    at = scale("temperature", system)
-    titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.unit}", _shaded(study))
+    at = unit("temperature", system, large=True)
+    titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.sign}", _shaded(study))
     return figure
 
 
@@ -216,7 +216,7 @@ def _at(study: CaseStudy, name: str, value: float | None, unit: str) -> tuple[fl
 
 def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
-    power, along = scale("power", system), scale(over, system)
+    power, along = unit("power", system, large=True), unit(over, system, large=True)
     names = [result.case for result in found]
     lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
     for k, case in enumerate(lines or dict.fromkeys(names)):
@@ -225,7 +225,7 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
         axis.plot(at, power([r.motor for r in rows]), color=colour(k), marker="o", markersize=4, label=case)
         low, high = (power([getattr(r, f"motor_{end}") for r in rows]) for end in ("low", "high"))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
-    axis.set(xlabel=f"belt {over} [{along.unit}]", ylabel=f"motor power [{power.unit}]")
+    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
     grouped(axis.yaxis)
     return figure
@@ -238,7 +238,7 @@ def _shaded(study: CaseStudy) -> str:
 
 def tornado(study: UncertaintyStudy, *, system: System = "SI") -> Figure:
     """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
-    effects, power = study.effects[:_TORNADO], scale("power", system)
+    effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
     figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))
     rows = range(len(effects))
     for label, k, ends in (
@@ -258,7 +258,7 @@ def tornado(study: UncertaintyStudy, *, system: System = "SI") -> Figure:
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.grid(visible=False, axis="y")
-    axis.set_xlabel(f"change of the motor power [{power.unit}]")
+    axis.set_xlabel(power.beside("change of the motor power"))
     titled(figure, study.conveyor.name)
     axis.legend(fontsize=8)
     return figure

@@ -1,4 +1,4 @@
-"""Cells and tables of the workbook: text stays text, numbers stay numbers, formats follow the units."""
+"""Cells and tables of the workbook: text stays text, numbers stay numbers, formats follow the kinds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-import pandas as pd
 from openpyxl.cell.cell import Cell, MergedCell
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.utils import get_column_letter
@@ -17,8 +16,10 @@ from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.display import unit
 from conveyor.printable import printable
-from conveyor.report.formats import number_format
+from conveyor.report.columns import NAMED, OF_ROW, Table
+from conveyor.units import System
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)
@@ -48,7 +49,6 @@ _BAD = Look(Font(name="Calibri", bold=True, color="FFFFFF"), PatternFill("solid"
 _OPEN = Look(Font(name="Calibri", italic=True, color="7A5200"), PatternFill("solid", fgColor="FFF3D6"))
 VERDICTS = {"pass": _GOOD, "yes": _GOOD, "FAIL": _BAD, "NO": _BAD, "not checked": _OPEN}
 """How verdicts look; bold on dark is a failure without colours, too."""
-_JUDGED = {"verdict", "covered", "large enough"}
 INFINITE = "∞"
 """Written where a figure has no bound: a cell cannot hold infinity as a number."""
 
@@ -96,48 +96,39 @@ def put(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: st
 
 
 def table(
-    sheet: Worksheet,
-    frame: pd.DataFrame,
-    row: int,
-    column: int = 1,
-    *,
-    widest: int = _WIDEST,
-    by_row: str = "",
+    sheet: Worksheet, shown: Table, system: System, row: int, column: int = 1, *, widest: int = _WIDEST
 ) -> int:
     """Write a table with its header at (row, column); returns its last row.
 
     Parameters
     ----------
-    sheet, frame, row, column
-        What, and where its first header cell goes.
+    sheet, shown, system, row, column
+        What, in which units, and where its first header cell goes.
     widest : int
         Width at which a column of long text stops growing [characters].
-    by_row : str
-        Name of a column of figures' names: each row's numbers are formatted by its own unit.
     """
-    names = [str(name) for name in frame.columns]
-    formats = [number_format(str(name)) for name in frame[by_row]] if by_row else []
-    for j, name in enumerate(names, start=column):
-        values = [_worded(value) for value in frame[name].tolist()]
-        text = not name.endswith("]") and all(v is None or isinstance(v, str) for v in values)
+    names = [shown.name(each, system) for each in shown.columns]
+    for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
+        values = [_worded(value) for value in shown.cells(each, system)]
+        number = each.kind == OF_ROW or (each.kind != NAMED and unit(each.kind, system).label is not None)
+        text = not number and all(v is None or isinstance(v, str) for v in values)
         _head(sheet.cell(row, j), name, right=not text)
         at = row + 1, j
+        patterns = [shown.unit(each, item, system).pattern for item in shown.rows]
         longest = (
-            _text_column(sheet, at, values, widest)
-            if text
-            else _number_column(sheet, at, values, formats or [number_format(name)] * len(values))
+            _text_column(sheet, at, values, widest) if text else _number_column(sheet, at, values, patterns)
         )
-        if name in _JUDGED:
+        if each.kind == "verdict":
             _judge(sheet, at, values)
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
         wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
-    _tops(sheet, (row + 1, row + len(frame)), (column, column + len(names) - 1))
+    _tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
     wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
-    return row + len(frame)
+    return row + len(shown.rows)
 
 
 def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> None:
@@ -244,19 +235,17 @@ def _width(sheet: Worksheet, column: int) -> float:
     return float(sheet.column_dimensions[get_column_letter(column)].width)
 
 
-def total(sheet: Worksheet, row: int, columns: int, values: dict[int, Any]) -> None:
-    """Write a line of totals: values by column, a rule above all `columns`."""
-    for j in range(1, columns + 1):
+def total(sheet: Worksheet, row: int, shown: Table, system: System) -> None:
+    """Write a table's line of totals, a rule above it."""
+    for j, (column, value) in enumerate(zip(shown.columns, shown.totals(), strict=True), start=1):
         cell = sheet.cell(row, j)
-        put(
-            cell,
-            values.get(j),
-            BOLD,
-            None if isinstance(values.get(j), str) else sheet.cell(row - 1, j).number_format,
-        )
-        cell.border = TOTAL
-        if isinstance(values.get(j), str):
+        if isinstance(value, str):
+            put(cell, value, BOLD)
             cell.alignment = Alignment(horizontal="left", indent=1)
+        else:
+            written = unit(column.kind, system)
+            put(cell, written.shown(value), BOLD, written.pattern)
+        cell.border = TOTAL
 
 
 def print_set_up(sheet: Worksheet, name: str, *, paper: str = "A4", portrait: bool = False) -> None:

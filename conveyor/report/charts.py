@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
-import pandas as pd
 from openpyxl.chart import BarChart, Reference, ScatterChart, Series
 from openpyxl.chart.legend import Legend
 from openpyxl.chart.shapes import GraphicalProperties
@@ -15,8 +15,11 @@ from openpyxl.drawing.line import LineProperties
 from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphProperties, RegularTextRun
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.display import headed
 from conveyor.report.cells import ACCENT, legible
-from conveyor.report.tables import CURVE_POINTS
+from conveyor.report.columns import Table
+from conveyor.report.places import Place
+from conveyor.units import System
 
 _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
@@ -43,11 +46,6 @@ def _head(sheet: Worksheet, header: int, column: int) -> str:
 def axis_title(words: str) -> Title:
     """Words beside an axis."""
     return _title(words, size=10)
-
-
-def _unit(sheet: Worksheet, header: int, column: int) -> str:
-    """Unit in the header of a column, in its brackets."""
-    return _head(sheet, header, column).rpartition(" ")[2]
 
 
 def _dress(chart: Any, title: str, x: str, y: str) -> None:
@@ -83,45 +81,43 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     return chart
 
 
-def power_over_temperature(
-    sheet: Worksheet, rows: tuple[int, int], *, count: int, speed: str, least: float
-) -> ScatterChart:
-    """Motor power of `count` compounds (columns 2 …) over temperature (column 1); `rows` are header and last.
+def power_over_temperature(sheet: Worksheet, place: Place, shown: Table, system: System) -> ScatterChart:
+    """Motor power of compounds (all columns but the first) over temperature; the speed is the table's note.
 
-    The power axis begins below `least`, at a round figure: differences between compounds are what is looked for.
+    The power axis begins below the least, at a round figure: differences between compounds are what is looked for.
     """
-    header, last = rows
-    power = f"motor power {_unit(sheet, header, 2)}"
-    chart = _scatter(f"Motor power at {speed}", f"belt {_head(sheet, header, 1)}", power)
-    at = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
-    for column in range(2, 2 + count):
-        _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), at)
+    chart = _curves(
+        sheet,
+        place,
+        "temperature",
+        place.keys[1:],
+        title=f"Motor power at {shown.note}",
+        words=(f"belt {_head(sheet, place.header, 1)}", headed("motor power", "power", system)),
+    )
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
     chart.x_axis.tickLblPos = "low"
     chart.y_axis.crosses = "min"
+    least = min(value for column in shown.columns[1:] for value in shown.cells(column, system))
     if least > 0.0:
         step = 10.0 ** math.floor(math.log10(least))
         chart.y_axis.scaling.min = step * math.floor(0.95 * least / step * 10.0) / 10.0
     return chart
 
 
-def tension(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
-    """Tension and least tension for sag against the way round the loop (columns 2, 3, 4)."""
-    chart = _scatter("Tension round the loop", _head(sheet, header, 2), _head(sheet, header, 3))
-    way = Reference(sheet, min_col=2, min_row=header + 1, max_row=last)
-    for column in (3, 4):
-        _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), way)
+def tension(sheet: Worksheet, place: Place) -> ScatterChart:
+    """Tension and least tension for sag against the way round the loop."""
+    chart = _curves(
+        sheet, place, "distance_from_drive", ("tension", "least_for_sag"), title="Tension round the loop"
+    )
     chart.x_axis.number_format = chart.y_axis.number_format = "#,##0"
     chart.x_axis.scaling.min = 0.0
     return chart
 
 
-def profile(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
-    """Height over the horizontal distance from the tail (columns 3, 4)."""
-    across_words = f"horizontal distance from the tail {_unit(sheet, header, 3)}"
-    chart = _scatter("Profile of the route", across_words, _head(sheet, header, 4))
-    across = Reference(sheet, min_col=3, min_row=header + 1, max_row=last)
-    _line(chart, Reference(sheet, min_col=4, min_row=header, max_row=last), across)
+def profile(sheet: Worksheet, place: Place, system: System) -> ScatterChart:
+    """Height over the horizontal distance from the tail."""
+    words = tuple(headed(name, "length", system) for name in ("horizontal distance from the tail", "height"))
+    chart = _curves(sheet, place, "horizontal", ("height",), title="Profile of the route", words=words)
     chart.legend = None
     chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "#,##0"
     chart.x_axis.tickLblPos = "low"
@@ -129,30 +125,61 @@ def profile(sheet: Worksheet, *, header: int, last: int) -> ScatterChart:
     return chart
 
 
-def indentation(sheet: Worksheet, frame: pd.DataFrame, *, header: int) -> ScatterChart:
-    """Indentation against line load, a curve for each of the first blocks of rows (columns 2, 3)."""
-    chart = _scatter("Indentation against line load", _head(sheet, header, 2), _head(sheet, header, 3))
-    for start in range(0, min(len(frame), MOST_CURVES * CURVE_POINTS), CURVE_POINTS):
-        first, last = header + 1 + start, header + start + CURVE_POINTS
-        loads = Reference(sheet, min_col=2, min_row=first, max_row=last)
-        label = legible(str(frame["contact"].iloc[start]))
-        _line(chart, Reference(sheet, min_col=3, min_row=first, max_row=last), loads, label)
+def indentation(sheet: Worksheet, shown: Table, place: Place) -> ScatterChart:
+    """Indentation against line load, a curve for each of the first blocks of rows with one label."""
+    across, up = place.column("line_load"), place.column("indentation")
+    chart = _scatter(
+        "Indentation against line load", _head(sheet, place.header, across), _head(sheet, place.header, up)
+    )
+    ends = [
+        i
+        for i, row in enumerate(shown.rows)
+        if shown.rows[i + 1 : i + 2] == () or _ends(row, shown.rows[i + 1])
+    ]
+    first = place.header + 1
+    for end in ends[:MOST_CURVES]:
+        last = place.header + 1 + end
+        loads = Reference(sheet, min_col=across, min_row=first, max_row=last)
+        label = legible(shown.rows[end][0])
+        _line(chart, Reference(sheet, min_col=up, min_row=first, max_row=last), loads, label)
+        first = last + 1
     chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "General"
     chart.x_axis.scaling.min = chart.y_axis.scaling.min = 0.0
     return chart
 
 
-def moduli(sheet: Worksheet, name: str, *, header: int, last: int) -> ScatterChart:
-    """E' and E'' against frequency, both axes logarithmic (columns 1, 2, 3)."""
-    modulus = f"modulus {_unit(sheet, header, 2)}"
-    chart = _scatter(f"Moduli of {name}", _head(sheet, header, 1), modulus)
-    frequency = Reference(sheet, min_col=1, min_row=header + 1, max_row=last)
-    for column in (2, 3):
-        _line(chart, Reference(sheet, min_col=column, min_row=header, max_row=last), frequency)
+def _ends(row: Any, following: Any) -> bool:
+    """Whether a block of a table of curves ends with a row: another label follows, or a smaller load."""
+    return bool(row[0] != following[0] or row[1] > following[1])
+
+
+def moduli(sheet: Worksheet, name: str, place: Place, system: System) -> ScatterChart:
+    """E' and E'' against frequency, both axes logarithmic."""
+    words = headed("frequency", "frequency", system), headed("modulus", "pressure", system)
+    chart = _curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"
     chart.x_axis.tickLblPos = chart.y_axis.tickLblPos = "low"
     chart.x_axis.crosses = chart.y_axis.crosses = "min"
+    return chart
+
+
+def _curves(
+    sheet: Worksheet,
+    place: Place,
+    across: str,
+    up: Sequence[str],
+    *,
+    title: str,
+    words: tuple[str, ...] = (),
+) -> ScatterChart:
+    """Columns of a table over another one; axes are named as the columns unless otherwise said."""
+    x, y = place.column(across), [place.column(key) for key in up]
+    named = words or (_head(sheet, place.header, x), _head(sheet, place.header, y[0]))
+    chart = _scatter(title, *named)
+    at = Reference(sheet, min_col=x, min_row=place.header + 1, max_row=place.last)
+    for column in y:
+        _line(chart, Reference(sheet, min_col=column, min_row=place.header, max_row=place.last), at)
     return chart
 
 

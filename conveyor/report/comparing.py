@@ -1,75 +1,193 @@
-"""A comparison of compounds as tables: pandas, units in the names. Column names are stable."""
+"""Every table of a comparison of compounds, declared once; its ranking, and what to know before believing it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-
+from conveyor.display import MONEY, unit
 from conveyor.figures import celsius
+from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import earns_nothing
-from conveyor.units import si
+from conveyor.markup import Html, joined
+from conveyor.report import plots
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report.representations import folded, of_table
+from conveyor.report.tables import Remark, bands, document, provenance
+from conveyor.spec import fingerprint
+from conveyor.units import System, si
 
 if TYPE_CHECKING:
     from conveyor.studies.comparison import Comparison, Scene
 
-
-def scenes(comparison: Comparison) -> pd.DataFrame:
-    """One row a scene, in the order compound, speed, temperature."""
-    currency = _currency(comparison)
-    rows = [
-        {
-            "compound": scene.compound,
-            "temperature [degC]": celsius(scene.temperature),
-            "belt speed [m/s]": scene.speed,
-            "indentation [N]": scene.indentation,
-            "effective tension [N]": scene.effective,
-            "equivalent DIN f [-]": scene.friction_factor,
-            "motor power [kW]": scene.motor / 1e3,
-            "motor power, low [kW]": _kilo(scene.motor_low),
-            "motor power, high [kW]": _kilo(scene.motor_high),
-            "largest tension [N]": scene.largest_tension,
-            "energy [kWh/(t km)]": scene.energy_per_tonne_km,
-            "energy per year [MWh]": _kilo(scene.energy_per_year),
-            f"cost per year [{currency}]": scene.cost_per_year,
-            "error estimate [-]": scene.error,
-        }
-        for scene in comparison.scenes
-    ]
-    return _answered(pd.DataFrame(rows))
+_COSTS = ("energy_per_year", "cost_per_year", "saving_per_year", "extra_cost_of_the_belt", "payback")
+_COMPOUND = Column("compound", "text", attrgetter("compound"))
+_TEMPERATURE = Column("temperature", "temperature", attrgetter("temperature"))
+_SPEED = Column("belt speed", "speed", attrgetter("speed"), key="speed")
 
 
-def _kilo(value: float | None) -> float | None:
-    return None if value is None else value / 1e3
+def of_comparison(comparison: Comparison, system: System) -> Contents:
+    """Every table of a comparison in a unit system."""
+    ranked, every = ranking(comparison), scenes(comparison)
+    parts = (
+        replace(ranked, columns=tuple(c for c in ranked.columns if c.key not in _COSTS)),
+        costs(ranked),
+        *powers(comparison, system),
+        every,
+        coverage(comparison),
+        refused(comparison),
+        remarks_table(comparison),
+        compounds(comparison),
+        provenance(fingerprint(comparison.conveyor), "Notes"),
+    )
+    kept = tuple(part for part in parts if not part.empty)
+    facts = (
+        ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
+        ("savings against", comparison.base),
+        ("cover", comparison.cover),
+        (
+            "belt temperatures",
+            _span([scene.temperature for scene in comparison.scenes], "temperature", system),
+        ),
+        ("belt speeds", _span([scene.speed for scene in comparison.scenes], "speed", system)),
+    )
+    about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
+    return Contents(about, kept, system, tuple(drawings(comparison, system)))
 
 
-def _currency(comparison: Comparison) -> str:
+def _span(values: list[float], kind: str, system: System) -> str:
+    ends = [unit(kind, system).brief(value) for value in (min(values), max(values))] if values else []
+    return " to ".join(dict.fromkeys(ends)) or "none answered"
+
+
+def _money(comparison: Comparison) -> str:
     operation = comparison.conveyor.operation
-    return "-" if operation is None or operation.price is None else operation.price.currency
+    return MONEY + ("-" if operation is None or operation.price is None else operation.price.currency)
 
 
-def _answered(frame: pd.DataFrame) -> pd.DataFrame:
-    """Without the columns that no row fills."""
-    return frame.dropna(axis="columns", how="all")
+def scenes(comparison: Comparison) -> Table:
+    """One row a scene, in the order compound, speed, temperature."""
+    columns = (
+        _COMPOUND,
+        _TEMPERATURE,
+        _SPEED,
+        Column("indentation", "force", attrgetter("indentation")),
+        Column("effective tension", "force", attrgetter("effective")),
+        Column("equivalent DIN f", "friction", attrgetter("friction_factor")),
+        Column("motor power", "power", attrgetter("motor")),
+        Column("motor power, low", "power", attrgetter("motor_low"), sparse=True),
+        Column("motor power, high", "power", attrgetter("motor_high"), sparse=True),
+        Column("largest tension", "force", attrgetter("largest_tension")),
+        Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), sparse=True),
+        Column("energy per year", "energy", lambda row: _joule(row.energy_per_year), None, sparse=True),
+        Column("cost per year", _money(comparison), attrgetter("cost_per_year"), None, sparse=True),
+        Column("error estimate", "error", attrgetter("error")),
+    )  # fmt: skip
+    page = (OnPage("scenes", "One row a compound, speed and temperature"),)
+    return Table("scenes", "Scenes", "Every scene that has an answer", columns, comparison.scenes, page)
 
 
-def ranking(comparison: Comparison) -> pd.DataFrame:
+def _joule(kwh: float | None) -> float | None:
+    return None if kwh is None else kwh * JOULE_PER_KWH
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A compound at a speed over all temperatures, SI; energies of a year [kWh].
+
+    Attributes
+    ----------
+    compound : str
+        Name.
+    speed, temperature : float
+        Of the belt [m/s]; that of the peak [K].
+    averaged : int
+        Temperatures that means are over: those that every compound has an answer for.
+    indentation, motor, low, high, peak : float or None
+        Means [N, W], ends of the band [W], largest power [W].
+    base : float or None
+        Mean power of the base [W].
+    energy, cost, before, extra : float or None
+        Of a year [kWh, currency]; the base's cost; what its belt costs more [currency].
+    """
+
+    compound: str
+    speed: float
+    temperature: float
+    averaged: int
+    indentation: float | None
+    motor: float | None
+    low: float | None
+    high: float | None
+    peak: float
+    base: float | None
+    energy: float | None
+    cost: float | None
+    before: float | None
+    extra: float | None
+
+    @property
+    def change(self) -> float | None:
+        """Power against the base's [-]."""
+        return None if not self.motor or not self.base else self.motor / self.base - 1.0
+
+    @property
+    def saving(self) -> float | None:
+        """Cost of the base less its own [currency a year]."""
+        return None if self.cost is None or self.before is None else self.before - self.cost
+
+    @property
+    def payback(self) -> float | None:
+        """Extra cost over saving [a]; None where nothing is saved."""
+        saved = self.saving
+        return None if self.extra is None or saved is None or saved <= 0.0 else self.extra / saved
+
+
+def ranking(comparison: Comparison) -> Table:
     """One row a compound and speed, the least mean power of each speed first.
 
     Means are over the temperatures that every compound has an answer for at that speed, each of the same weight; the
     peak is the largest over all answered ones: the cold start of the rubber.
     """
-    rows = [
-        row
-        for speed in dict.fromkeys(s.speed for s in comparison.scenes)
-        for row in _ranked(comparison, speed)
-    ]
-    return _answered(pd.DataFrame(rows))
+    money, speeds = _money(comparison), dict.fromkeys(scene.speed for scene in comparison.scenes)
+    rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
+    columns = (
+        _COMPOUND,
+        _SPEED,
+        Column("temperatures averaged", "count", attrgetter("averaged"), page=None),
+        Column("mean indentation", "force", attrgetter("indentation"), page=None, sparse=True),
+        Column("mean motor power", "power", attrgetter("motor"), sparse=True),
+        Column("mean motor power, low", "power", attrgetter("low"), sparse=True),
+        Column("mean motor power, high", "power", attrgetter("high"), sparse=True),
+        Column("motor power against base", "share", attrgetter("change"), sparse=True),
+        Column("peak motor power", "power", attrgetter("peak")),
+        Column("at temperature", "temperature", attrgetter("temperature")),
+        Column("energy per year", "energy", lambda row: _joule(row.energy), sparse=True),
+        Column("cost per year", money, attrgetter("cost"), sparse=True),
+        Column("saving per year", money, attrgetter("saving"), sparse=True),
+        Column("extra cost of the belt", money, attrgetter("extra"), sparse=True),
+        Column("payback", "years", attrgetter("payback"), sparse=True),
+    )
+    heading, page = (
+        "Ranking, the least mean power of each speed first",
+        (OnPage("ranking", "The least mean power first"),),
+    )
+    return Table("ranking", "Ranking", heading, columns, rows, page)
 
 
-def _ranked(comparison: Comparison, speed: float) -> list[dict[str, object]]:
+def costs(ranked: Table) -> Table:
+    """Energy, cost and saving of a year, of the ranking; without rows where it has none of them."""
+    heading = "Energy, cost and saving of a year"
+    columns = ranked.only("compound", "speed", *_COSTS).columns
+    rows = ranked.rows if len(columns) > 2 else ()
+    return Table("costs", "Ranking", heading, columns, rows, (OnPage("ranking", heading),))
+
+
+def _ranked(comparison: Comparison, speed: float) -> list[Ranked]:
     by_compound: dict[str, dict[float, Scene]] = {}
     for scene in comparison.scenes:
         if scene.speed == speed:
@@ -87,33 +205,26 @@ def _row(
     found: dict[float, Scene],
     at: list[Scene],
     base: list[Scene],
-) -> dict[str, object]:
+) -> Ranked:
     name, speed = key
-    currency = _currency(comparison)
-    (energy, cost), (_, before) = (
-        _year(comparison, other, speed, group) for other, group in ((name, at), (comparison.base, base))
-    )
-    saved = None if cost is None or before is None else before - cost
-    extra = comparison.extra_costs.get(name)
+    energy, cost = _year(comparison, name, speed, at)
     peak = max(found.values(), key=lambda scene: scene.motor)
-    motor, motor_before = (_mean([s.motor for s in group]) for group in (at, base))
-    return {
-        "compound": name,
-        "belt speed [m/s]": speed,
-        "temperatures averaged": len(at),
-        "mean indentation [N]": _mean([s.indentation for s in at]),
-        "mean motor power [kW]": _kilo(motor),
-        "mean motor power, low [kW]": _kilo(_mean([s.motor_low for s in at])),
-        "mean motor power, high [kW]": _kilo(_mean([s.motor_high for s in at])),
-        "motor power against base [-]": None if not motor or not motor_before else motor / motor_before - 1.0,
-        "peak motor power [kW]": peak.motor / 1e3,
-        "at temperature [degC]": celsius(peak.temperature),
-        "energy per year [MWh]": _kilo(energy),
-        f"cost per year [{currency}]": cost,
-        f"saving per year [{currency}]": saved,
-        f"extra cost of the belt [{currency}]": extra,
-        "payback [a]": None if extra is None or saved is None or saved <= 0.0 else extra / saved,
-    }
+    return Ranked(
+        compound=name,
+        speed=speed,
+        temperature=peak.temperature,
+        averaged=len(at),
+        indentation=_mean([s.indentation for s in at]),
+        motor=_mean([s.motor for s in at]),
+        low=_mean([s.motor_low for s in at]),
+        high=_mean([s.motor_high for s in at]),
+        peak=peak.motor,
+        base=_mean([s.motor for s in base]),
+        energy=energy,
+        cost=cost,
+        before=_year(comparison, comparison.base, speed, base)[1],
+        extra=comparison.extra_costs.get(name),
+    )
 
 
 def _year(
@@ -132,37 +243,103 @@ def _mean(values: list[float] | list[float | None]) -> float | None:
     return math.fsum(known) / len(known) if known and len(known) == len(values) else None
 
 
-def coverage(comparison: Comparison) -> pd.DataFrame:
+def coverage(comparison: Comparison) -> Table:
     """What the rolls ask of each compound at each temperature, and what its data hold."""
-    return pd.DataFrame(
-        [
-            {
-                "compound": row.compound,
-                "temperature [degC]": celsius(row.temperature),
-                "excited from [Hz]": row.excited[0],
-                "excited to [Hz]": row.excited[1],
-                "data from [Hz]": None if row.data is None else row.data[0],
-                "data to [Hz]": None if row.data is None else row.data[1],
-                "covered": "yes" if row.covered else "NO",
-            }
-            for row in comparison.coverage
-        ]
+    columns = (
+        _COMPOUND,
+        _TEMPERATURE,
+        *bands(attrgetter("excited"), lambda row: row.data or (None, None)),
+        Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
+    heading = "Frequencies that hold nine tenths of the loss, against the compounds' data"
+    page = (OnPage("coverage", "What the rolls excite, and what the data hold"),)
+    note = "NO in the last column: the rolls ask for frequencies beyond the data."
+    return Table("coverage", "Coverage", heading, columns, comparison.coverage, page, note)
 
 
-def refused(comparison: Comparison) -> pd.DataFrame:
+def refused(comparison: Comparison) -> Table:
     """Scenes without an answer, and why."""
-    return pd.DataFrame(
-        [
-            {
-                "compound": row.compound,
-                "temperature [degC]": celsius(row.temperature),
-                "belt speed [m/s]": row.speed,
-                "reason": row.reason,
-            }
-            for row in comparison.refused
-        ],
-        columns=["compound", "temperature [degC]", "belt speed [m/s]", "reason"],
+    columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", attrgetter("reason")))
+    heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
+    return Table("refused", "Coverage", heading, columns, rows, (OnPage("refused", heading),))
+
+
+def powers(comparison: Comparison, system: System) -> Iterator[Table]:
+    """Motor power over temperature, one column a compound, a table a speed in rising order.
+
+    Only temperatures that every compound has an answer for: a gap in one column would break its line.
+    """
+    for number, speed in enumerate(sorted({scene.speed for scene in comparison.scenes}), start=1):
+        at = [scene for scene in comparison.scenes if scene.speed == speed]
+        names = [c.name for c in comparison.compounds if any(scene.compound == c.name for scene in at)]
+        power = {(scene.compound, scene.temperature): scene.motor for scene in at}
+        rows = tuple(
+            t
+            for t in sorted({scene.temperature for scene in at})
+            if all((name, t) in power for name in names)
+        )
+        columns = (
+            Column("temperature", "temperature", lambda t: t),
+            *(Column(name, "power", _power(name, power)) for name in names),
+        )
+        said = unit("speed", system).brief(speed)
+        yield Table(
+            f"power_{number}", "Power", f"Motor power over temperature at {said}", columns, rows, note=said
+        )
+
+
+def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
+    return lambda temperature: powers[name, temperature]
+
+
+def compounds(comparison: Comparison) -> Table:
+    """What is known of each compound."""
+    columns = (
+        Column("compound", "text", attrgetter("name")),
+        Column("kind", "text", attrgetter("kind")),
+        Column("strain", "text", lambda compound: compound.strain or "not stated"),
+        Column("origin", "text", attrgetter("source.origin")),
+        Column("licence", "text", attrgetter("source.licence")),
+        Column("not known", "text", lambda c: "; ".join(c.missing) or "nothing listed"),
+    )
+    return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
+
+
+def remarks_table(comparison: Comparison) -> Table:
+    """What to know of a comparison."""
+    columns = (Column("remark", "text", attrgetter("text")),)
+    rows = tuple(Remark(("warning", line)) for line in remarks(comparison))
+    return Table("remarks", "Notes", "Remarks", columns, rows)
+
+
+def drawings(comparison: Comparison, system: System) -> Iterator[Drawing]:
+    """The figures of the page."""
+    if not comparison.scenes:
+        return
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
+    if len({scene.temperature for scene in comparison.scenes}) > 1:
+        at = unit("speed", system).brief(plots.drawn_speed(comparison))
+        yield Drawing(
+            "power-temperature",
+            f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber.",
+            lambda: plots.power_against_temperature(comparison, system=system),
+            "power",
+        )
+    if len(speeds) > 1 and warmth is not None:
+        at = unit("temperature", system).brief(warmth)
+        turning = " The ranking turns with the temperature: see what to know." if turned(comparison) else ""
+        yield Drawing(
+            "power-speed",
+            f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
+            f"{turning}",
+            lambda: plots.power_against_speed(comparison, system=system),
+            "power",
+        )
+    yield Drawing(
+        "tangents",
+        "Loss tangents, dotted beyond the data; shaded: what the rolls excite.",
+        lambda: plots.compared_loss_tangents(comparison, system=system),
+        "loss-tangents",
     )
 
 
@@ -236,21 +413,21 @@ def _listed(values: list[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
-def to_dict(comparison: Comparison) -> dict[str, object]:
+def plain(comparison: Comparison) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
         "conveyor": comparison.conveyor.name,
         "base": comparison.base,
         "cover": comparison.cover,
-        "ranking": _records(comparison.ranking),
-        "scenes": _records(comparison.table),
-        "coverage": _records(coverage(comparison)),
-        "refused": _records(refused(comparison)),
+        "ranking": ranking(comparison).records(),
+        "scenes": scenes(comparison).records(),
+        "coverage": coverage(comparison).records(),
+        "refused": refused(comparison).records(),
         "warnings": list(remarks(comparison)),
     }
 
 
-def _records(frame: pd.DataFrame) -> list[dict[str, object]]:
-    """Rows with None where a figure is not known."""
-    rows = frame.astype(object).where(frame.notna(), None).to_dict("records")
-    return [{str(name): value for name, value in row.items()} for row in rows]
+def notebook(comparison: Comparison) -> Html:
+    """The ranking, and what to know of it."""
+    shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
+    return joined([shown, folded("what to know", remarks(comparison))])

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from datetime import date
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Final
+from typing import Any, Final
 
 from openpyxl.styles import Alignment, Border, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.figures import belt_strength
+from conveyor.display import headed, unit
 from conveyor.report import charts
 from conveyor.report.cells import (
     ACCENT,
@@ -28,27 +28,13 @@ from conveyor.report.cells import (
     put,
     table,
 )
-from conveyor.report.contents import CHECKS_AND_NOTES
-from conveyor.report.formats import number_format
+from conveyor.report.columns import CHECKS_AND_NOTES, Document, Figure, Table
 from conveyor.report.places import Page
-from conveyor.spec import fingerprint
-from conveyor.units import Quantity, convert, display, si, unit_label
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.models import Conveyor
-    from conveyor.models.report import Report
 
 _COLUMNS: Final = "ABCDEFG"
 _WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}
-_KEY_FIGURES: Final = (
-    "motor_power", "belt_power", "effective_tension", "equivalent_f", "indentation_share", "specific_energy",
-)  # fmt: skip
-_TENSION_AND_POWER: Final = (
-    "motor_power", "belt_power", "mains_power", "effective_tension", "tight_side_tension", "slack_side_tension",
-    "tight_side_tension_at_start", "smallest_tension", "belt_safety_at_start", "take_up_setting", "equivalent_f",
-    "specific_energy", "energy_per_year", "cost_per_year", "classical_motor_power", "contact_error_estimate",
-)  # fmt: skip
+_FIRST: Final = ("power", "force")
+"""Kinds of figures in their order below "Tensions and power"; others follow."""
 _MOST_CHECKS: Final = 22
 """Checks that the page takes beside the rest; those that passed give way first."""
 _CHART_ROWS: Final = 14
@@ -60,17 +46,17 @@ _ROW: Final = 15.0  # [pt]
 _GAP: Final = 7.0  # [pt]
 
 
-def summary(page: Page, analysis: Analysis) -> None:
+def summary(page: Page) -> None:
     """Head, what the conveyor is, key figures, tensions and power, breakdown, governing cases, checks."""
     sheet = page.sheet
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
-    row = _head(sheet, analysis)
-    row = _facts(sheet, analysis.conveyor, row)
+    row = _head(sheet, page.contents.document)
+    row = _facts(page, row)
     row = _tiles(page, row)
-    row = _figures(page, analysis, row)
+    row = _figures(page, row)
     row = _picture(page, row)
-    _checked(page, analysis, row)
+    _checked(page, row)
     sheet.page_setup.fitToHeight = 1
     sheet.print_options.horizontalCentered = True
 
@@ -87,14 +73,14 @@ def _gap(sheet: Worksheet, row: int) -> int:
     return row + 1
 
 
-def _head(sheet: Worksheet, analysis: Analysis) -> int:
-    conveyor, report = analysis.conveyor, analysis.conveyor.report
-    put(sheet["A1"], conveyor.name, TITLE)
+def _head(sheet: Worksheet, about: Document) -> int:
+    put(sheet["A1"], about.title, TITLE)
     sheet.row_dimensions[1].height = 24.0
-    stamp = f"Power and tensions of a belt conveyor; conveyor {version('conveyor')}, spec {fingerprint(conveyor)[:16]}"
-    put(sheet["A2"], stamp, GREY)
+    made = f"conveyor {version('conveyor')}, spec {about.fingerprint[:16]}"
+    put(sheet["A2"], f"Power and tensions of a belt conveyor; {made}", GREY)
     row = 3
-    for k, (name, value) in enumerate([*_said(report).items(), ("date", date.today())]):
+    facts: list[tuple[str, Any]] = [*about.said.items(), ("date", date.today())]
+    for k, (name, value) in enumerate(facts):
         row, column = 3 + k // 2, 1 + 3 * (k % 2)
         put(sheet.cell(row, column), name, GREY)
         put(sheet.cell(row, column + 1), value)
@@ -102,66 +88,17 @@ def _head(sheet: Worksheet, analysis: Analysis) -> int:
     return _gap(sheet, row + 1)
 
 
-def _said(report: Report) -> dict[str, str]:
-    names = ("project", "client", "number", "revision", "engineer")
-    return {name: value for name in names if (value := getattr(report, name)) is not None}
-
-
-def documented(report: Report) -> str:
-    """What the spec says of the document, in one line; nothing where it says nothing.
-
-    Examples
-    --------
-    >>> from conveyor.models.report import Report
-    >>> documented(Report(project="Mine", revision="B"))
-    'project: Mine, revision: B; '
-    """
-    said = ", ".join(f"{name}: {value}" for name, value in _said(report).items())
-    return f"{said}; " if said else ""
-
-
-def _facts(sheet: Worksheet, conveyor: Conveyor, row: int) -> int:
+def _facts(page: Page, row: int) -> int:
     """What the conveyor is: figures on the left, words on the right."""
-    belt, system = conveyor.belt, conveyor.report.units
-    _rule(sheet, row, "The conveyor")
-    figures = (
-        ("length", "length", conveyor.route.length),
-        ("lift", "length", conveyor.route.rise),
-        ("belt width", "thickness", si(belt.width)),
-        ("belt speed", "speed", si(belt.speed)),
-        ("mass flow", "mass flow", si(conveyor.material.flow)),
-        ("temperature of the covers", "temperature", si(conveyor.ambient.belt)),
-    )
-    for i, (name, kind, value) in enumerate(figures, start=row + 1):
-        label = f"{name} [{unit_label(kind, system)}]"
-        shown = "0.###" if label.endswith("[m/s]") else "#,##0.##"
-        _line(sheet, (i, 1), label, round(convert(value, kind, system), 9), shown)
-    for i, (name, words) in enumerate(_words(conveyor), start=row + 1):
-        _line(sheet, (i, 4), name, words)
-    return _gap(sheet, row + 1 + len(figures))
-
-
-def _words(conveyor: Conveyor) -> tuple[tuple[str, str], ...]:
-    belt, material, system = conveyor.belt, conveyor.material, conveyor.report.units
-
-    def shown(value: Quantity, kind: str) -> str:
-        return display(si(value), kind, system).replace("^3", "³")
-
-    carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
-    strength = "" if carcass.strength is None else f", {belt_strength(si(carcass.strength), system)}"
-    sets = [
-        f"{idlers.rolls} x {shown(idlers.roll.diameter, 'thickness')}, every {shown(idlers.spacing, 'length')}"
-        for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
-    ]
-    top_rubber = "rubber of the bottom cover" if top.compound is None else top.compound.name
-    return (
-        ("belt", f"{carcass.kind}{strength}"),
-        ("top cover", f"{shown(top.thickness, 'thickness')}, {top_rubber}"),
-        ("bottom cover", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
-        ("carry idlers", sets[0]),
-        ("return idlers", sets[1]),
-        ("material", f"{material.name}, {shown(material.density, 'density')}"),
-    )
+    sheet, system, rows = page.sheet, page.contents.system, page.contents["identity"].rows
+    _rule(sheet, row, page.contents["identity"].heading)
+    sides = [[r for r in rows if r.kind != "text"], [r for r in rows if r.kind == "text"]]
+    for column, figures in zip((1, 4), sides, strict=True):
+        for i, figure in enumerate(figures, start=row + 1):
+            written = figure.unit(system)
+            shown = headed(figure.label, figure.kind, system), written.shown(figure.value)
+            _line(sheet, (i, column), *shown, written.pattern)
+    return _gap(sheet, row + 1 + max(map(len, sides)))
 
 
 def _line(
@@ -179,127 +116,118 @@ def _line(
 
 def _tiles(page: Page, row: int) -> int:
     """Key figures, large, each under its name."""
-    sheet, names = page.sheet, _by_name(page)
-    given = [names[name] for name in _KEY_FIGURES if name in names]
+    sheet, system = page.sheet, page.contents.system
     for letter in _COLUMNS:
         sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
-    for letter, (name, value) in zip("ABDEFG", given, strict=False):
-        caption, figure = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
-        put(caption, name.replace(" of main resistance", ""), GREY)
-        put(figure, value, FIGURE, _format(name, value, large="#,##0"))
+    for letter, figure in zip("ABDEFG", page.contents.marked("large"), strict=False):
+        caption, cell = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
+        put(caption, headed(figure.label.replace(" of main resistance", ""), figure.kind, system), GREY)
+        put(cell, *_shown(figure, page, FIGURE, large="#,##0"))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
-        figure.alignment = Alignment(horizontal="left", vertical="center", indent=1)
+        cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
     sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
     return _gap(sheet, row + 2)
 
 
-def _format(name: str, value: float, *, large: str = "#,##0.0") -> str:
-    """Number format of a figure by its unit; small figures with more digits, large ones with as many as asked for."""
-    shown = number_format(name)
-    if shown != "#,##0.0":
-        return shown
-    return large if abs(value) >= _LARGE else "0.000" if abs(value) < _SMALL else shown
+def _shown(figure: Figure, page: Page, font: Any = None, *, large: str = "#,##0.0") -> tuple[Any, Any, str]:
+    """Value, font and number format of a figure; small ones with more digits, large ones with as many as asked for."""
+    written = figure.unit(page.contents.system)
+    value, pattern = written.shown(figure.value), written.pattern
+    if pattern == "#,##0.0":
+        pattern = large if abs(value) >= _LARGE else "0.000" if abs(value) < _SMALL else pattern
+    return value, font, pattern
 
 
-def _by_name(page: Page) -> dict[str, tuple[str, float]]:
-    """Figures by the name others link to: words with unit, value."""
-    found = {}
-    for key in ("results", "take_up"):
-        part = page.contents[key]
-        figures = part.frame[part.by_row].tolist(), part.frame["value"].tolist()
-        said = "take-up " if key == "take_up" else ""
-        for name, i in part.figures().items():
-            found[name] = (f"{said}{figures[0][i]}", float(figures[1][i]))
-    return found
-
-
-def _figures(page: Page, analysis: Analysis, row: int) -> int:
+def _figures(page: Page, row: int) -> int:
     """Tensions and power on the left; breakdown and the classical estimate on the right."""
-    sheet, names = page.sheet, _by_name(page)
+    sheet, contents = page.sheet, page.contents
     _rule(sheet, row, "Tensions and power", 1, 2)
+    rank = {kind: i for i, kind in enumerate(_FIRST)}
+    ordered = sorted(contents.marked("cover"), key=lambda figure: rank.get(figure.kind, len(rank)))
     i = row
-    for name in _TENSION_AND_POWER:
-        if name in names:
-            i += 1
-            label, value = names[name]
-            _line(sheet, (i, 1), label.replace(" of the contacts", ""), value, _format(label, value))
-            if name == "motor_power":
-                sheet.cell(i, 1).font = sheet.cell(i, 2).font = BOLD
+    for i, figure in enumerate(ordered, start=row + 1):
+        label = f"take-up {figure.label}" if figure.key.startswith("take_up") else figure.label
+        value, _, pattern = _shown(figure, page)
+        name = headed(label.replace(" of the contacts", ""), figure.kind, contents.system)
+        _line(sheet, (i, 1), name, value, pattern)
+        if i == row + 1:
+            sheet.cell(i, 1).font = sheet.cell(i, 2).font = BOLD
     _rule(sheet, row, "Resistances", 4)
-    last = table(sheet, page.contents["breakdown"].frame, row + 1, 4)
-    sheet.row_dimensions[row + 1].height = _ROW
-    part = page.contents["classical"]
+    last = _placed(page, "breakdown", row + 1)
+    part = contents["classical"]
     put(sheet.cell(last + 1, 4), "Beside the classical estimate", BOLD)
-    head = last + 2
-    last = table(sheet, part.frame, head, 4, by_row="quantity")
-    sheet.row_dimensions[head].height = _ROW
-    governed = f"{part.note}; governing at the drive: {analysis.balance.tensions.governed_by}"
-    put(sheet.cell(last + 1, 4), governed, GREY)
+    last = _placed(page, "classical", last + 2)
+    put(sheet.cell(last + 1, 4), part.note, GREY)
     return _gap(sheet, max(i, last + 1) + 1)
+
+
+def _placed(page: Page, key: str, row: int) -> int:
+    last = table(page.sheet, page.contents[key].on_sheet(), page.contents.system, row, 4)
+    page.sheet.row_dimensions[row].height = _ROW
+    return last
 
 
 def _picture(page: Page, row: int) -> int:
     """The breakdown as a chart; beside it the cases that govern, where there are any."""
     sheet, cases = page.sheet, page.contents.by_key.get("governing_cases")
-    place = page.contents["breakdown"]
-    first = next(i for i in range(1, row) if sheet.cell(i, 4).value == place.frame.columns[0])
-    rows = first, first + len(place.frame)
-    chart = charts.bars(sheet, "Resistance breakdown", rows, label=4, value=5)
+    breakdown = page.contents["breakdown"]
+    label = breakdown.name(breakdown.columns[0], page.contents.system)
+    first = next(i for i in range(1, row) if sheet.cell(i, 4).value == label)
+    rows = first, first + len(breakdown.rows)
+    chart = charts.bars(sheet, "Resistance breakdown", rows, label=4, value=4 + breakdown.index("force"))
     charts.sized(chart, _WHOLE_WIDTH if cases is None else _HALF, _CHART_HEIGHT)
     sheet.add_chart(chart, f"A{row}")
     end = row + _CHART_ROWS
     if cases is not None:
-        _rule(sheet, row, "Governing load cases", 4)
-        header_row(sheet, row + 1, 4, ("figure", "value", "case", "at"))
-        sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
-        at = next(name for name in cases.frame.columns if str(name).startswith("temperature"))
-        unit = str(at).rpartition("deg")[2].rstrip("]")
-        for i, found in enumerate(cases.frame.to_dict("records"), start=row + 2):
-            label = str(found["figure"])
-            put(sheet.cell(i, 4), label)
-            sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
-            put(sheet.cell(i, 5), float(found["value"]), None, number_format(label))
-            put(sheet.cell(i, 6), str(found["case"]))
-            put(sheet.cell(i, 7), f"{found[at]:g} °{unit}")
-            for j in (6, 7):  # indents hold only where the side is named
-                sheet.cell(i, j).alignment = Alignment(horizontal="left", indent=1, shrink_to_fit=True)
-            for j in range(4, 8):
-                sheet.cell(i, j).border = _HAIR
-        end = max(end, row + 2 + len(cases.frame))
+        _governing(page, cases, row)
+        end = max(end, row + 2 + len(cases.rows))
     return _gap(sheet, end)
 
 
-def _checked(page: Page, analysis: Analysis, row: int) -> None:
+def _governing(page: Page, cases: Table, row: int) -> None:
+    sheet, system = page.sheet, page.contents.system
+    _rule(sheet, row, "Governing load cases", 4)
+    header_row(sheet, row + 1, 4, ("figure", "value", "case", "at"))
+    sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
+    columns = {column.key: column.get for column in cases.columns}
+    for i, figure in enumerate(cases.rows, start=row + 2):
+        written = figure.unit(system)
+        put(sheet.cell(i, 4), headed(figure.label, figure.kind, system))
+        sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
+        put(sheet.cell(i, 5), written.shown(columns["value"](figure)), None, written.pattern)
+        put(sheet.cell(i, 6), columns["case"](figure))
+        put(sheet.cell(i, 7), unit("temperature", system).brief(columns["temperature"](figure)))
+        for j in (6, 7):  # indents hold only where the side is named
+            sheet.cell(i, j).alignment = Alignment(horizontal="left", indent=1, shrink_to_fit=True)
+        for j in range(4, 8):
+            sheet.cell(i, j).border = _HAIR
+
+
+def _checked(page: Page, row: int) -> None:
     """The checks, what failed first where not all of them fit; the way to the warnings."""
-    sheet, part = page.sheet, page.contents["checks"]
-    records = part.frame.to_dict("records")
-    count = Counter(str(record["verdict"]) for record in records)
+    sheet, checks = page.sheet, page.contents["checks"].rows
+    count = Counter(check.verdict for check in checks)
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
     _rule(sheet, row, f"Checks: {counted}")
     header_row(sheet, row + 1, 1, ("check", "", "", "found", "asked for", "", "verdict"))
-    shown = records
-    if len(records) > _MOST_CHECKS:
-        passed = [record for record in records if record["verdict"] == "pass"]
-        left_out = passed[max(0, len(passed) - (len(records) - _MOST_CHECKS)) :]
-        shown = [record for record in records if record not in left_out]
+    passed = [check for check in checks if check.verdict == "pass"]
+    over = max(0, len(checks) - _MOST_CHECKS)
+    left_out = passed[max(0, len(passed) - over) :] if over else []
     i = row + 1
-    for record in shown:
+    for check in checks:
+        if not any(check is other for other in left_out):
+            i += 1
+            for column, value in ((1, check.subject), (4, check.found), (5, check.asked), (7, check.verdict)):
+                put(sheet.cell(i, column), value)
+            _coloured(sheet, i, VERDICTS[check.verdict])
+    if left_out:
         i += 1
-        for column, name in ((1, "check"), (4, "found"), (5, "asked for"), (7, "verdict")):
-            put(sheet.cell(i, column), str(record[name]))
-        _coloured(sheet, i, VERDICTS[str(record["verdict"])])
-    if len(shown) < len(records):
-        i += 1
-        put(
-            sheet.cell(i, 1),
-            f"and {len(records) - len(shown)} more that passed: see {CHECKS_AND_NOTES}",
-            GREY,
-        )
-    words = (
-        f"{len(analysis.warnings)} warnings, {len(analysis.assumptions)} assumptions: see {CHECKS_AND_NOTES}"
-    )
+        words = f"and {len(left_out)} more that passed: see {CHECKS_AND_NOTES}"
+        put(sheet.cell(i, 1), words, GREY)
+    kinds = ("warning", "assumption")
+    said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)
     link = sheet.cell(i + 1, 1)
-    put(link, words)
+    put(link, f"{said}: see {CHECKS_AND_NOTES}")
     link.hyperlink = Hyperlink(ref=link.coordinate, location=f"'{CHECKS_AND_NOTES}'!A1")
     link.font = LINK
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
 import pandas as pd
 
@@ -13,15 +13,7 @@ from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import save
 from conveyor.printable import printable
-from conveyor.report import comparison_contents, contents
-from conveyor.report.contents import Contents
-from conveyor.report.unit_systems import chosen
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
-    from conveyor.units import System
+from conveyor.report.columns import Contents
 
 FileKind = Literal["csv", "parquet"]
 _KINDS: Final = ("csv", "parquet")
@@ -29,26 +21,15 @@ _FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
 """Beginnings that a spreadsheet reads as a formula when it opens a CSV file."""
 
 
-def write(
-    analysis: Analysis,
-    folder: Path,
-    studies: Studies | None = None,
-    *,
-    system: System | None = None,
-    kind: FileKind = "csv",
-) -> tuple[Path, ...]:
-    """Write the tables of an analysis and of its studies, one file each, named as docs/workbook.md lists them.
+def write(contents: Contents, folder: Path, kind: FileKind = "csv") -> tuple[Path, ...]:
+    """Write the tables of a report, one file each, named as docs/workbook.md lists them.
 
     Parameters
     ----------
-    analysis : Analysis
-        What to report.
+    contents : Contents
+        Its tables, in their unit system.
     folder : Path
         A folder that exists; files of the same names in it are replaced.
-    studies : Studies, optional
-        Load cases, duty and uncertainty.
-    system : {"SI", "US"}, optional
-        Units; without it those of the spec's report.
     kind : {"csv", "parquet"}
         Parquet needs the package pyarrow.
 
@@ -60,52 +41,8 @@ def write(
     Raises
     ------
     InputError
-        No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
+        No such folder, it cannot be written to, an unknown kind, or Parquet without pyarrow.
     """
-    _ready(folder, kind)
-    made = files(analysis, folder, studies, system=system, kind=kind)
-    save(made)
-    return tuple(made)
-
-
-def files(
-    analysis: Analysis,
-    folder: Path,
-    studies: Studies | None = None,
-    *,
-    system: System | None = None,
-    kind: FileKind = "csv",
-) -> dict[Path, bytes]:
-    """Tables of an analysis by the files they go to; as `write`."""
-    shown = analysis.in_units(chosen(analysis.conveyor, system))
-    return _encoded(contents.of_analysis(shown, studies), folder, kind)
-
-
-def write_comparison(
-    comparison: Comparison, folder: Path, *, system: System | None = None, kind: FileKind = "csv"
-) -> tuple[Path, ...]:
-    """Write the tables of a comparison, one file each; as `write`.
-
-    Raises
-    ------
-    InputError
-        As `write`.
-    """
-    _ready(folder, kind)
-    made = comparison_files(comparison, folder, system=system, kind=kind)
-    save(made)
-    return tuple(made)
-
-
-def comparison_files(
-    comparison: Comparison, folder: Path, *, system: System | None = None, kind: FileKind = "csv"
-) -> dict[Path, bytes]:
-    """Tables of a comparison by the files they go to; as `write`."""
-    found = comparison_contents.of_comparison(comparison, chosen(comparison.conveyor, system))
-    return _encoded(found, folder, kind)
-
-
-def _ready(folder: Path, kind: str) -> None:
     if kind not in _KINDS:
         raise InputError(f'kind = "{kind}": csv or parquet')
     if kind == "parquet" and find_spec("pyarrow") is None:
@@ -116,11 +53,15 @@ def _ready(folder: Path, kind: str) -> None:
         raise InputError(f"{folder}: cannot be written to ({error.strerror or error})") from None
     if not there:
         raise InputError(f"{folder}: is no folder; create it or choose another")
+    made = files(contents, folder, kind)
+    save(made)
+    return tuple(made)
 
 
-def _encoded(found: Contents, folder: Path, kind: str) -> dict[Path, bytes]:
+def files(contents: Contents, folder: Path, kind: FileKind = "csv") -> dict[Path, bytes]:
+    """Tables of a report by the files they go to; as `write`."""
     encode = parquet if kind == "parquet" else csv
-    return {folder / f"{part.key}.{kind}": encode(part.frame) for part in found.parts}
+    return {folder / f"{part.key}.{kind}": encode(part.frame(contents.system)) for part in contents.tables}
 
 
 def csv(frame: pd.DataFrame) -> bytes:

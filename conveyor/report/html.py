@@ -2,47 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Final
 
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
-from conveyor.markup import Html, joined
-from conveyor.report import html_sections as sections
-from conveyor.report.checks import checks
-from conveyor.report.html_comparison import parts_of, top_of
-from conveyor.report.html_studies import studied
-from conveyor.report.page import Part, facts, page
-from conveyor.report.unit_systems import chosen
-from conveyor.spec import fingerprint
+from conveyor.markup import Html, element, joined
+from conveyor.report.columns import Contents, Drawing, Table
+from conveyor.report.page import Part, bullets, facts, listed, page, table, tiles, verdict
+from conveyor.report.svg import figure, inline
 from conveyor.units import System
 
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.models import Conveyor
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
-
 _ENDINGS = (".html", ".htm")
+PARTS: Final = (
+    ("key-figures", "Key figures"),
+    ("checks", "Checks"),
+    ("warnings", "Warnings"),
+    ("summary", "Summary"),
+    ("resistances", "Resistances"),
+    ("route", "Route and sections"),
+    ("tensions", "Tensions, drives and take-up"),
+    ("rolls", "Roll contacts"),
+    ("rubber", "Rubber"),
+    ("start-stop", "Start and stop"),
+    ("belt", "Belt, pulleys and curves"),
+    ("load-cases", "Load cases"),
+    ("duty", "Duty of a year"),
+    ("uncertainty", "Uncertainty"),
+    ("assumptions", "Assumptions"),
+    ("inputs", "Inputs"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page of a conveyor; those that hold nothing are left out."""
+COMPARISON_PARTS: Final = (
+    ("ranking", "Ranking"),
+    ("warnings", "What to know"),
+    ("power", "Power"),
+    ("loss-tangents", "Loss tangents"),
+    ("coverage", "Coverage of the data"),
+    ("scenes", "Every scene"),
+    ("refused", "Without an answer"),
+)
 
 
-def write(
-    analysis: Analysis, path: Path, studies: Studies | None = None, *, system: System | None = None
-) -> Path:
-    """Write the HTML report of an analysis: under a temporary name beside it first, then renamed.
+def write(contents: Contents, path: Path) -> Path:
+    """Write the page of a report: under a temporary name beside it first, then renamed.
 
     Parameters
     ----------
-    analysis : Analysis
-        What to report.
+    contents : Contents
+        Its tables and drawings, in their unit system.
     path : Path
         Name of the page, ending in ``.html``; an older page there is replaced.
-    studies : Studies, optional
-        Load cases, duty and uncertainty.
-    system : {"SI", "US"}, optional
-        Units of the tables, those of the spec's report without it; figures are in SI units.
 
     Returns
     -------
@@ -53,88 +68,91 @@ def write(
     ------
     InputError
         The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
-        and an older page is untouched. Or the system is neither SI nor US.
+        and an older page is untouched.
     """
-    _ready(path)
-    save({path: build(analysis, studies, system=system).encode()})
-    return path
-
-
-def write_comparison(comparison: Comparison, path: Path, *, system: System | None = None) -> Path:
-    """Write the HTML report of a comparison of compounds; as `write`.
-
-    Raises
-    ------
-    InputError
-        As `write`.
-    """
-    _ready(path)
-    save({path: build_comparison(comparison, system=system).encode()})
-    return path
-
-
-def build(analysis: Analysis, studies: Studies | None = None, *, system: System | None = None) -> Html:
-    """Report of an analysis and of the studies its spec asks for, as text."""
-    system = chosen(analysis.conveyor, system)
-    analysis = analysis.in_units(system)
-    conveyor = analysis.conveyor
-    found = checks(analysis, system, studies)
-    parts: list[Part] = [
-        sections.key_figures(analysis, found, system),
-        sections.checked(found),
-        sections.warned(analysis),
-        sections.summed_up(analysis, system),
-        sections.resistances(analysis, system),
-        sections.route(analysis, system),
-        sections.tensions(analysis, system),
-        sections.rolls(analysis, system),
-        sections.rubber(analysis, system),
-        sections.start_and_stop(analysis, system),
-        sections.belt(analysis, system),
-        *(() if studies is None else studied(studies, system)),
-        sections.assumed(analysis),
-        sections.entered(analysis),
-        sections.provenance(analysis, system),
-    ]
-    return page(
-        conveyor.name,
-        f"Belt conveyor calculation, {date.today().isoformat()}",
-        joined([titled(conveyor), sections.top(analysis, system)]),
-        parts,
-        stamp(conveyor),
-        paper=conveyor.report.sheet(system),
-    )
-
-
-def build_comparison(comparison: Comparison, *, system: System | None = None) -> Html:
-    """Report of a comparison, as text."""
-    conveyor = comparison.conveyor
-    system = chosen(conveyor, system)
-    return page(
-        conveyor.name,
-        f"Comparison of belt covers, {date.today().isoformat()}",
-        joined([titled(conveyor), top_of(comparison, system)]),
-        parts_of(comparison, system),
-        stamp(conveyor),
-        paper=conveyor.report.sheet(system),
-    )
-
-
-def titled(conveyor: Conveyor) -> Html:
-    """What the spec's report says of the document."""
-    report = conveyor.report
-    said = {name: getattr(report, name) for name in ("project", "number", "client", "engineer", "revision")}
-    given = [(name, value) for name, value in said.items() if value is not None]
-    return facts(given, "facts document") if given else Html("")
-
-
-def stamp(conveyor: Conveyor) -> str:
-    """What made a page, and of what."""
-    return f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec SHA-256 {fingerprint(conveyor)[:16]}"
-
-
-def _ready(path: Path) -> None:
-    """Refuse a path that no page can stand at, before any time is spent on one."""
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
     writable(path)
+    save({path: build(contents).encode()})
+    return path
+
+
+def build(contents: Contents) -> Html:
+    """Page of the tables and drawings of a report."""
+    about = contents.document
+    compared = bool(about.facts)
+    made = (
+        f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec SHA-256 {about.fingerprint[:16]}"
+    )
+    document = facts(about.said.items(), "facts document") if about.said else Html("")
+    parts = [_part(contents, *named) for named in (COMPARISON_PARTS if compared else PARTS)]
+    return page(
+        about.title,
+        f"{about.kind}, {date.today().isoformat()}",
+        joined([document, _top(contents)]),
+        [part for part in parts if part.content],
+        made,
+        paper=about.paper,
+    )
+
+
+def _top(contents: Contents) -> Html:
+    """What the conveyor is, or what was compared at what; the notes of the spec."""
+    said = contents.document.facts
+    if not said:
+        rows = contents["identity"].rows
+        said = tuple((row.label, row.unit(contents.system).brief(row.value)) for row in rows)
+    return joined([facts(said), *(element("p", line) for line in contents.lines("note of the spec"))])
+
+
+def _part(contents: Contents, name: str, heading: str) -> Part:
+    """A part of the page: what is its own, drawings, tables with their notes."""
+    content = [_OWN[name](contents)] if name in _OWN else []
+    content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == name]
+    for shown in contents.parts:
+        places = [place for place in shown.page if place.part == name]
+        for place in places:
+            if place is shown.page[0]:
+                drawings = [drawing for drawing in contents.drawings if drawing.above == shown.key]
+                if drawings and name == "rubber":
+                    content.append(element("h3", shown.heading))
+                content += [_drawn(drawing) for drawing in drawings]
+            content.append(_table(shown.on_page(place), place.caption, contents.system))
+        if places and shown.note:
+            content.append(element("p", shown.note, class_="note"))
+    return Part(name, heading, joined(content))
+
+
+def _table(shown: Table, caption: str, system: System) -> Html:
+    if shown.key == "checks":
+        order = ("check", "verdict", "found", "asked")
+        columns = sorted(shown.columns, key=lambda c: order.index(c.key) if c.key in order else len(order))
+        return table(replace(shown, columns=tuple(columns)), caption, system, kind="checks")
+    return listed(shown, caption, system) if shown.figures else table(shown, caption, system)
+
+
+def _drawn(drawing: Drawing) -> Html:
+    return figure(inline(drawing.draw(), drawing.name, drawing.caption), drawing.caption)
+
+
+def _key_figures(contents: Contents) -> Html:
+    """What a designer looks for first, and how many checks failed."""
+    checks, warned = contents["checks"].rows, len(contents.lines("warning"))
+    count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
+    counted = joined(
+        part for word, n in count.items() if n for part in (f"{n} ", verdict(word), Html("&ensp;"))
+    )
+    link = element("a", f"{warned} warnings", href="#warnings")
+    content = [tiles(contents.marked("tile"), contents.system), element("p", "Checks: ", counted, " ", link)]
+    failed = [check.subject for check in checks if check.verdict == "FAIL"]
+    if failed:
+        content.append(element("p", "Failed: ", "; ".join(failed), "."))
+    return joined(content)
+
+
+_OWN: Final[dict[str, Callable[[Contents], Html]]] = {
+    "key-figures": _key_figures,
+    "warnings": lambda contents: bullets(contents.lines("warning"), "warnings"),
+    "assumptions": lambda contents: bullets(contents.lines("assumption")),
+}
+"""What parts of the page hold beside tables and drawings."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
-import pandas as pd
-
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
 from conveyor.models.listed import Listed
@@ -20,15 +18,12 @@ def _written(value: Any) -> Any:
     return text(value) if is_quantity(value) else value
 
 
-def inputs(conveyor: Conveyor) -> pd.DataFrame:
+def inputs(conveyor: Conveyor) -> tuple[Row, ...]:
     """Field, value as entered (text), SI value (number where it is one), SI unit, origin; compounds by name.
 
     Fields that are left open and have no default have no row.
     """
-    rows = list(_rows((), conveyor, "spec"))
-    return pd.DataFrame(
-        rows, columns=["field", "as entered", "SI value", "SI unit", "given by"], dtype=object
-    )
+    return tuple(_rows((), conveyor, "spec"))
 
 
 def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[Row]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.report.axes import scale
-from conveyor.report.loop_tables import profile
+from conveyor.display import unit
 from conveyor.report.plots import colour, grouped, plain, stacked, titled
 from conveyor.units import System
 
@@ -24,12 +24,13 @@ _ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
-def route_profile(conveyor: Conveyor, *, system: System = "SI") -> Figure:
-    """Height over horizontal distance from the tail; feeding points, drives and vertical curves marked."""
+def route_profile(
+    conveyor: Conveyor, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
+) -> Figure:
+    """Height over horizontal distance from the tail [m], of every boundary of sections; what is where is marked."""
     figure, (axis,) = stacked(1, _HEIGHT)
-    table = profile(conveyor)
-    length = scale("length", system)
-    x, z = length(table["horizontal [m]"]), length(table["height [m]"])
+    length = unit("length", system, large=True)
+    x, z = length(np.transpose(boundaries))
     axis.plot(x, z, color="#1F4E79", marker=".", zorder=2)
     names = [section.name for section in conveyor.route.sections]
     for point in conveyor.route.feeding_points:
@@ -50,7 +51,7 @@ def route_profile(conveyor: Conveyor, *, system: System = "SI") -> Figure:
         axis.set_ylim(-_ROOM * np.ptp(x), _ROOM * np.ptp(x))
     elif np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=f"horizontal distance [{length.unit}]", ylabel=f"height over the tail [{length.unit}]")
+    axis.set(xlabel=length.beside("horizontal distance"), ylabel=length.beside("height over the tail"))
     titled(figure, conveyor.name)
     grouped(axis.xaxis)
     _legend_once(axis)
@@ -62,7 +63,7 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     figure, (axis,) = stacked(1, _HEIGHT)
     settled = found.settled
     geometry = settled.loop.geometry
-    force, length = scale("force", system), scale("length", system)
+    force, length = unit("force", system, large=True), unit("length", system, large=True)
     way = length(np.repeat(geometry.way, 2)[1:-1])
     states = settled.states | ({} if moving is None else moving.states)
     for k, state in enumerate(states.values()):
@@ -77,8 +78,8 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
     )
     axis.set(
-        xlabel=f"distance from the head along the belt, return strand first [{length.unit}]",
-        ylabel=f"tension [{force.unit}]",
+        xlabel=length.beside("distance from the head along the belt, return strand first"),
+        ylabel=force.beside("tension"),
     )
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from typing import Final
 
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import GREY, HEADING, put, table
-from conveyor.report.contents import Contents, Part
+from conveyor.report.cells import GREY, HEADING, put, table, total
+from conveyor.report.columns import Contents, Table
 
 MOST_ROWS: Final = 10_000
 """Rows of a table that a sheet takes: beyond them a workbook takes seconds to write and to open."""
@@ -21,7 +22,7 @@ _FILTERED_ROWS: Final = 20
 _NAMES: Final = 56  # characters of a name on one line
 
 
-def file_name(stem: str, part: Part) -> str:
+def file_name(stem: str, part: Table) -> str:
     """Name of the file beside a workbook that holds a table too long for it."""
     return f"{stem}_{part.key}.csv"
 
@@ -36,13 +37,22 @@ def define(sheet: Worksheet, name: str, cells: str) -> None:
 
 @dataclass(frozen=True)
 class Place:
-    """Rows of a table's header and of its last row, its columns; whole if no row is left out."""
+    """Rows of a table's header and of its last row, its columns by name; whole if no row is left out."""
 
     header: int
     last: int
     first_column: int
-    last_column: int
+    keys: tuple[str, ...]
     whole: bool = True
+
+    @property
+    def last_column(self) -> int:
+        """Of the table."""
+        return self.first_column + len(self.keys) - 1
+
+    def column(self, key: str) -> int:
+        """Where a column stands."""
+        return self.first_column + self.keys.index(key)
 
     @property
     def cells(self) -> str:
@@ -73,31 +83,27 @@ class Page:
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
     ) -> Place:
         """Write a table, its heading at (row, column) and its header in the row below; name it and its figures."""
-        part = self.contents[key]
+        part = self.contents[key].on_sheet()
         top = row
         if heading:
             put(self.sheet.cell(row, column), part.heading, HEADING)
             top = row + 1
-        frame, whole = part.frame, len(part.frame) <= MOST_ROWS
+        shown, whole = part, len(part.rows) <= MOST_ROWS
         if not whole:
-            words = (
-                f"{len(frame):,} rows, the first {SHOWN_ROWS} here; all of them: {file_name(self.stem, part)}"
-            )
+            words = f"{len(part.rows):,} rows, the first {SHOWN_ROWS} here; all of them: {file_name(self.stem, part)}"
             put(self.sheet.cell(row, column + 2), words, GREY)
-            frame = frame.iloc[:SHOWN_ROWS]
-        last = table(self.sheet, frame, top, column, widest=widest, by_row=part.by_row)
-        place = Place(top, last, column, column + len(frame.columns) - 1, whole)
+            shown = replace(part, rows=part.rows[:SHOWN_ROWS])
+        last = table(self.sheet, shown, self.contents.system, top, column, widest=widest)
+        place = Place(top, last, column, tuple(each.key for each in part.columns), whole)
         if whole:
             define(self.sheet, f"table_{key}", place.cells)
-            self._figures(part, place)
+            if part.links:
+                letter = get_column_letter(place.column("value"))
+                for i, figure in enumerate(part.rows, start=top + 1):
+                    define(self.sheet, figure.key, f"{letter}{i}")
+            if part.foot:
+                total(self.sheet, last + 1, part, self.contents.system)
         return place
-
-    def _figures(self, part: Part, place: Place) -> None:
-        names = part.figures()
-        if names:
-            letter = get_column_letter(place.first_column + list(part.frame.columns).index("value"))
-            for name, i in names.items():
-                define(self.sheet, name, f"{letter}{place.header + 1 + i}")
 
     def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> Place:
         """Write the one table of a sheet: its header stays in view and is printed on each page."""
@@ -108,17 +114,21 @@ class Page:
             self.sheet.auto_filter.ref = place.cells
         return place
 
-    def stacked(self, keys: tuple[str, ...], row: int = 1) -> dict[str, Place]:
-        """Write tables under one another, those that there are; where each stands."""
+    def stacked(self, keys: Iterable[str], row: int = 1) -> dict[str, Place]:
+        """Write tables under one another, those that there are, each with its note; where each stands."""
         places = {}
         for key in keys:
-            if key in self.contents.by_key:
+            if key in self.contents:
                 places[key] = self.place(key, row)
-                row = places[key].last + 1
+                row = places[key].last + (2 if self.contents[key].foot else 1)
                 note = self.contents[key].note
                 if note:
                     put(self.sheet.cell(row + 1, 1), note, GREY)
                     row += 2
                 row += 2
-        self.sheet.freeze_panes = "B1"
+        self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
+
+    def below(self, place: Place, keys: Iterable[str]) -> None:
+        """Write further tables below one, under one another."""
+        self.stacked(keys, place.last + 4)

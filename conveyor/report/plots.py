@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
+from conveyor.display import unit
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks, saving
 from conveyor.printable import printable
-from conveyor.report.axes import scale
-from conveyor.units import System, display, si
+from conveyor.units import System, si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -185,13 +185,13 @@ def power_against_temperature(
     InputError
         No scene has an answer at that speed.
     """
-    velocity = scale("speed", system)
+    velocity = unit("speed", system, large=True)
     chosen = drawn_speed(comparison) if speed is None else speed
     found = [scene for scene in comparison.scenes if scene.speed == chosen]
     if not found:
-        raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.unit}: nothing to draw")
+        raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.sign}: nothing to draw")
     figure = _power(comparison, found, "temperature", system)
-    titled(figure, f"{comparison.conveyor.name}, {display(chosen, 'speed', system)}")
+    titled(figure, f"{comparison.conveyor.name}, {unit('speed', system).brief(chosen)}")
     return figure
 
 
@@ -207,22 +207,22 @@ def power_against_speed(
     InputError
         No scene has an answer at that temperature, or none that all compounds share.
     """
-    warmth = scale("temperature", system)
+    warmth = unit("temperature", system, large=True)
     chosen = drawn_temperature(comparison) if temperature is None else temperature
     if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
     found = [scene for scene in comparison.scenes if scene.temperature == chosen]
     if not found:
-        raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.unit}: nothing to draw")
+        raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.sign}: nothing to draw")
     figure = _power(comparison, found, "speed", system)
-    titled(figure, f"{comparison.conveyor.name}, {warmth(chosen):g} {warmth.unit}")
+    titled(figure, f"{comparison.conveyor.name}, {warmth(chosen):g} {warmth.sign}")
     return figure
 
 
 def _power(comparison: Scenes, found: Sequence[Scene], over: str, system: System) -> Figure:
     """Lines of scenes over temperature or speed."""
     figure, (axis,) = stacked(1, 4.0)
-    power, along = scale("power", system), scale(over, system)
+    power, along = unit("power", system, large=True), unit(over, system, large=True)
     beyond = {(row.compound, row.temperature) for row in comparison.coverage if not row.covered}
     ringed: list[tuple[float, float]] = []
     for k, compound in enumerate(comparison.compounds):
@@ -250,7 +250,7 @@ def _power(comparison: Scenes, found: Sequence[Scene], over: str, system: System
             fillstyle="none",
             label="beyond the data",
         )
-    axis.set(xlabel=f"belt {over} [{along.unit}]", ylabel=f"motor power [{power.unit}]")
+    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
     grouped(axis.yaxis)
     return figure
@@ -277,7 +277,7 @@ def loss_tangents(
         Of the temperature in the label.
     """
     figure, (axis,) = stacked()
-    warmth = scale("temperature", system)
+    warmth = unit("temperature", system, large=True)
     for k, compound in enumerate(compounds):
         series = compound.series(temperature)
         data = compound.frequencies(temperature)
@@ -290,8 +290,8 @@ def loss_tangents(
         axis.axvspan(low, high, color="0.55", alpha=0.18 if k == 0 else 0.10, linewidth=0, label=name)
     axis.set(
         xscale="log",
-        xlabel=f"frequency at {warmth(temperature):g} {warmth.unit} [Hz]",
-        ylabel="tan δ [-]",
+        xlabel=unit("frequency").beside(f"frequency at {warmth(temperature):g} {warmth.sign}"),
+        ylabel=unit("friction").beside("tan δ"),
         title="Loss tangent (dotted: beyond the data)",
     )
     axis.set_ylim(bottom=0.0)
@@ -332,7 +332,7 @@ def master_curve(
 ) -> Figure:
     """E', E'' and tan δ of one compound at a temperature [K], its reference temperature without."""
     figure, (above, below) = stacked(2, 7.0)
-    modulus, warmth = scale("pressure", system), scale("temperature", system)
+    modulus, warmth = unit("pressure", system, large=True), unit("temperature", system, large=True)
     at = si(compound.reference_temperature) if temperature is None else temperature
     series, data = compound.series(at), compound.frequencies(at)
     low, high = _WIDEST if data is None else data
@@ -350,10 +350,14 @@ def master_curve(
         ):
             bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0)
             axis.fill_between(f, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
-    above.set(xscale="log", yscale="log", ylabel=f"modulus [{modulus.unit}]")
+    above.set(xscale="log", yscale="log", ylabel=modulus.beside("modulus"))
     titled(figure, f"{compound.name} ({compound.kind})")
-    where = f"{warmth(at):g} {warmth.unit}"
-    below.set(xscale="log", xlabel=f"frequency at {where} [Hz]", ylabel="tan δ [-]")
+    where = f"{warmth(at):g} {warmth.sign}"
+    below.set(
+        xscale="log",
+        xlabel=unit("frequency").beside(f"frequency at {where}"),
+        ylabel=unit("friction").beside("tan δ"),
+    )
     below.set_ylim(bottom=0.0)
     above.legend(fontsize=8)
     return figure

@@ -1,188 +1,251 @@
-"""Results as tables: pandas, units in the names, no spreadsheet in sight. Column names are stable."""
+"""Every table of an analysis, declared once: its figures and columns, where they come from and where they appear.
+
+Nothing else in reports reaches into results. Names of sheets, tables, columns and figures are stable: docs/workbook.md
+lists them.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+import platform
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, replace
+from datetime import date
+from functools import partial
+from importlib.metadata import version
+from itertools import accumulate
+from operator import attrgetter, itemgetter
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import pandas as pd
 
-from conveyor.figures import celsius
+from conveyor.display import MONEY, unit
+from conveyor.figures import belt_strength
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.laws.take_up import mean_tension, take_up_mass
 from conveyor.line.roll_lives import roll_life, set_life
-from conveyor.line.stretches import Strand
 from conveyor.line.walk import StretchResult, excited_band, worst_energy_error, worst_error
-from conveyor.loop.balance import Balance
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.units import si
+from conveyor.report import analysis_plots, loop_plots
+from conveyor.report.checks import band_words, checks
+from conveyor.report.columns import (
+    NAMED,
+    OF_ROW,
+    Column,
+    Contents,
+    Document,
+    Drawing,
+    Figure,
+    OnPage,
+    Table,
+    figures,
+)
+from conveyor.report.inputs import inputs as entered
+from conveyor.report.study_tables import of_studies
+from conveyor.spec import fingerprint
+from conveyor.units import System, si, text
 
-CURVE_POINTS = 25
-DECADES = (-3, 7)  # of frequency shown in the rubber table [Hz]
-PER_DECADE = 4
+if TYPE_CHECKING:
+    from conveyor.analysis import Analysis
+    from conveyor.studies import Studies
 
-
-def summary(conveyor: Conveyor, results: tuple[StretchResult, ...], found: Balance) -> pd.Series:
-    """Figures of the whole conveyor, one a row."""
-    forces, power, tensions, classical = found.forces, found.power, found.tensions, found.classical
-    strength = conveyor.belt.carcass.strength
-    even = not conveyor.duty  # a duty has its own year (case_tables.year)
-    rows: dict[str, float | None] = {
-        "length [m]": conveyor.route.length,
-        "lift [m]": conveyor.route.rise,
-        "belt speed [m/s]": si(conveyor.belt.speed),
-        "mass flow [t/h]": si(conveyor.material.flow) * 3.6,
-        "motor power [kW]": power.motor / 1e3,
-        "belt power [kW]": power.belt / 1e3,
-        "mains power [kW]": power.mains / 1e3,
-        "effective tension [N]": forces.total,
-        "indentation [N]": forces.indentation,
-        "idler rotation [N]": forces.idler_rotation,
-        "flexure [N]": forces.flexure,
-        "secondary [N]": forces.secondary,
-        "special [N]": forces.special,
-        "lift force [N]": forces.lift,
-        "indentation share of main resistance [-]": forces.indentation / forces.main,
-        "equivalent DIN f [-]": found.friction_factor,
-        "tight side tension [N]": tensions.tight,
-        "slack side tension [N]": tensions.slack,
-        "tight side tension at start [N]": tensions.tight_start,
-        "smallest tension [N]": tensions.smallest,
-        "belt safety at start [-]": (
-            None if strength is None else si(strength) * si(conveyor.belt.width) / tensions.largest
-        ),
-        "energy [kWh/(t km)]": power.energy_per_tonne_km,
-        "energy per year [MWh]": power.energy_per_year / 1e3
-        if even and power.energy_per_year is not None
-        else None,
-        f"cost per year [{power.currency or '-'}]": power.cost_per_year if even else None,
-        "classical f [-]": classical.friction_factor,
-        "classical effective tension [N]": classical.total,
-        "classical motor power [kW]": classical.motor / 1e3,
-        "largest error estimate of the contacts [-]": worst_error(results),
-        "largest energy error of the contacts [-]": worst_energy_error(results),
-    }
-    given = {name: value for name, value in rows.items() if value is not None}
-    return pd.Series(given, name=conveyor.name, dtype=float)
+CURVE_POINTS: Final = 25
+Getter = Callable[[Any], Any]
+_DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
+_HOUR: Final = 3600.0
+_VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def rubber(conveyor: Conveyor, results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
-    compounds: dict[Strand, RubberCompound] = {
-        "carry": conveyor.carry_compound,
-        "return": conveyor.return_compound,
-    }
-    at = si(conveyor.ambient.belt)
-    rows = []
-    for strand, compound in compounds.items():
-        band = excited_band(results, strand) or (None, None)
-        data = compound.frequencies(at) or (None, None)
-        strain = next(r.surface.strain for r in results if r.stretch.strand == strand)
-        rows.append(
-            {
-                "strand": strand,
-                "compound": compound.name,
-                "kind": compound.kind,
-                "temperature [degC]": celsius(at),
-                "excited from [Hz]": band[0],
-                "excited to [Hz]": band[1],
-                "data from [Hz]": data[0],
-                "data to [Hz]": data[1],
-                "working strain [-]": None if strain is None else strain.strain,
-                "E' factor of strain [-]": 1.0 if strain is None else strain.storage_factor,
-                "E'' factor of strain [-]": 1.0 if strain is None else strain.loss_factor,
-            }
-        )
-    return pd.DataFrame(rows)
-
-
-def sections(results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """One row a stretch: geometry, masses, forces; both strands, in running direction.
-
-    The life of a set stands there where the bearings of all its rolls are given.
-    """
-    table = pd.DataFrame(
-        [
-            {
-                "section": r.stretch.section,
-                "strand": r.stretch.strand,
-                "length [m]": r.stretch.length,
-                "lift [m]": r.stretch.rise,
-                "inclination [deg]": math.degrees(r.stretch.inclination),
-                "idler spacing [m]": r.stretch.spacing,
-                "belt mass [kg/m]": r.stretch.belt_mass,
-                "bulk mass [kg/m]": r.stretch.bulk_mass,
-                "indentation [N]": r.indentation,
-                "idler rotation [N]": r.rotation,
-                "flexure [N]": r.flexure,
-                "idler tilt [N]": r.tilt,
-                "lift force [N]": r.lift,
-                "total [N]": r.total,
-                "equivalent f [-]": r.main / r.unit_main,
-            }
-            for r in results
-        ]
+def of_analysis(analysis: Analysis, studies: Studies | None = None) -> Contents:
+    """Every table of an analysis and of its studies, in the system of its conveyor's report."""
+    system = analysis.conveyor.report.units
+    studied, drawn = of_studies(studies, system)
+    parts = (
+        identity(analysis.conveyor, system),
+        results(analysis),
+        inputs(analysis.conveyor),
+        sections(analysis),
+        classical(analysis),
+        resistances(analysis),
+        breakdown(analysis),
+        rolls(analysis),
+        highest_rolls(analysis),
+        tensions(analysis),
+        profile(analysis),
+        section_ends(analysis),
+        tension_states(analysis),
+        drives(analysis),
+        take_up(analysis),
+        conditions(analysis),
+        start_stop(analysis),
+        belt_strength_table(analysis),
+        pulleys(analysis),
+        vertical_curves(analysis),
+        convergence(analysis),
+        *studied,
+        contact_solutions(analysis),
+        indentation(analysis),
+        rubber(analysis),
+        *compounds(analysis, system),
+        checked(analysis, studies, system),
+        remarks(analysis),
+        provenance(fingerprint(analysis.conveyor)),
     )
-    sets = [set_life(r.stretch, r.rolls[0].curve.contact.speed) for r in results]
-    lives = [life.hours if life is not None and life.whole else None for life in sets]
-    return _with_lives(table, "idler set L10 life [h]", lives)
+    kept = tuple(part for part in parts if not part.empty)
+    about = document(analysis.conveyor, "Belt conveyor calculation", system)
+    return Contents(about, kept, system, (*drawings(analysis, system), *drawn))
 
 
-def _with_lives(table: pd.DataFrame, name: str, lives: Sequence[float | None]) -> pd.DataFrame:
-    """Append a column of lives, if there is one."""
-    if any(life is not None for life in lives):
-        table[name] = np.array(lives, dtype=float)
-    return table
+def document(
+    conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()
+) -> Document:
+    """What a report of a conveyor is of."""
+    report = conveyor.report
+    names = ("project", "client", "number", "revision", "engineer")
+    said = {name: value for name in names if (value := getattr(report, name)) is not None}
+    own, paper = si(conveyor.belt.speed), report.sheet(system)
+    return Document(conveyor.name, kind, said, fingerprint(conveyor), paper, own, facts)
 
 
-def rolls(results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
-    table = pd.DataFrame(
-        [
-            {
-                "section": r.stretch.section,
-                "strand": r.stretch.strand,
-                "roll": roll.load.name,
-                "diameter [mm]": 2e3 * roll.curve.contact.radius,
-                "force [N]": roll.load.force,
-                "highest line load [N/m]": float(roll.peak.line_load),
-                "half width [mm]": 1e3 * float(roll.peak.half_width),
-                "eccentricity [mm]": 1e3 * float(roll.peak.eccentricity),
-                "penetration [mm]": 1e3 * float(roll.peak.penetration),
-                "penetration of cover [-]": float(roll.peak.penetration) / roll.curve.contact.cover_thickness,
-                "peak pressure [MPa]": 1e-6 * float(roll.peak.peak_pressure),
-                "transit frequency [Hz]": roll.curve.contact.speed / (2.0 * float(roll.peak.half_width)),
-                "indentation [N]": roll.resistance,
-                "error estimate [-]": roll.peak.error,
-                "energy error [-]": roll.peak.energy_error,
-                "rim drag [N]": drag,
-                "rotation [rpm]": 60.0
-                * roll.curve.contact.speed
-                / (2.0 * math.pi * roll.curve.contact.radius),
-            }
-            for r in results
-            for roll, drag in zip(r.rolls, r.stretch.drags, strict=True)
-        ]
+def identity(conveyor: Conveyor, system: System) -> Table:
+    """What the conveyor is, in figures and words; on the cover and at the top of the page."""
+    belt, material = conveyor.belt, conveyor.material
+    carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
+
+    def shown(value: Any, kind: str) -> str:
+        return unit(kind, system).brief(si(value))
+
+    def idlers(of: Any) -> str:
+        return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}, every {shown(of.spacing, 'length')}"
+
+    strength = "" if carcass.strength is None else f", {belt_strength(si(carcass.strength), system)}"
+    above = "rubber of the bottom cover" if top.compound is None else top.compound.name
+    rows = (
+        Figure("length", "length", conveyor.route.length),
+        Figure("lift", "length", conveyor.route.rise),
+        Figure("belt width", "size", si(belt.width)),
+        Figure("belt speed", "speed", si(belt.speed)),
+        Figure("mass flow", "mass flow", si(material.flow)),
+        Figure("temperature of the covers", "temperature", si(conveyor.ambient.belt)),
+        Figure("belt", "text", f"{carcass.kind}{strength}"),
+        Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
+        Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
+        Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
+        Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
+        Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
     )
-    lives = [
-        roll_life(r.stretch, place, roll.curve.contact.speed)
-        for r in results
-        for place, roll in enumerate(r.rolls)
-    ]
-    heavier = [None if life is None else life.heavier for life in lives]
-    table = _with_lives(table, "heavier bearing [N]", heavier)
-    return _with_lives(table, "roll L10 life [h]", [None if life is None else life.both for life in lives])
+    return figures("identity", "", "The conveyor", rows)
 
 
-def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFrame:
+def results(a: Analysis) -> Table:
+    """Figures of the whole conveyor."""
+    conveyor, found = a.conveyor, a.balance
+    forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
+    strength, width = conveyor.belt.carcass.strength, si(conveyor.belt.width)
+    even = not conveyor.duty  # a duty has its own year
+    share = forces.indentation / forces.main
+    error, energy_error = worst_error(a.stretches), worst_energy_error(a.stretches)
+    safety = None if strength is None else si(strength) * width / tensions_at.largest
+    year = power.energy_per_year * JOULE_PER_KWH if even and power.energy_per_year is not None else None
+    money, cost = f"{MONEY}{power.currency or '-'}", power.cost_per_year if even else None
+    rows = (
+        Figure("length", "length", conveyor.route.length),
+        Figure("lift", "length", conveyor.route.rise),
+        Figure("belt speed", "speed", si(conveyor.belt.speed)),
+        Figure("mass flow", "mass flow", si(conveyor.material.flow)),
+        Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
+        Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
+        Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
+        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total"),
+        Figure("indentation", "force", forces.indentation, "notebook", "forces_N.indentation", key="indentation_force"),
+        Figure("idler rotation", "force", forces.idler_rotation, "notebook", "forces_N.idler_rotation",
+               key="idler_rotation_force"),
+        Figure("flexure", "force", forces.flexure, "notebook", "forces_N.flexure", key="flexure_force"),
+        Figure("secondary", "force", forces.secondary, "notebook", "forces_N.secondary", key="secondary_force"),
+        Figure("special", "force", forces.special, "notebook", "forces_N.special", key="special_force"),
+        Figure("lift force", "force", forces.lift, "notebook", "forces_N.lift"),
+        Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
+        Figure("equivalent DIN f", "friction", found.friction_factor, "tile large cover notebook", "friction_factor",
+               key="equivalent_f"),
+        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook"),
+        Figure("slack side tension", "force", tensions_at.slack, "cover notebook"),
+        Figure("tight side tension at start", "force", tensions_at.tight_start, "cover"),
+        Figure("smallest tension", "force", tensions_at.smallest, "cover"),
+        Figure("belt safety at start", "ratio", safety, "cover"),
+        Figure("energy", "specific energy", power.energy_per_tonne_km, "tile large cover notebook",
+               key="specific_energy"),
+        Figure("energy per year", "energy", year, "cover"),
+        Figure("cost per year", money, cost, "cover"),
+        Figure("classical f", "friction", classic.friction_factor),
+        Figure("classical effective tension", "force", classic.total),
+        Figure("classical motor power", "power", classic.motor, "cover"),
+        Figure("largest error estimate of the contacts", "error", error, "cover", "error_estimate",
+               key="contact_error_estimate"),
+        Figure("largest energy error of the contacts", "error", energy_error, key="contact_energy_error"),
+    )  # fmt: skip
+    page = (OnPage("summary", "Figures of the whole conveyor"),)
+    table = figures("results", "Results", "Figures of the whole conveyor", rows, page=page, prefix="")
+    name = Column("name", "text", attrgetter("key"), page=None)
+    return replace(table, columns=(*table.columns, name))
+
+
+def inputs(conveyor: Conveyor) -> Table:
+    """Every field: as entered, in SI, and whether the spec, a library or a default gave it."""
+    columns = (
+        Column("field", "text", itemgetter(0)),
+        Column("as entered", "text", itemgetter(1)),
+        Column("SI value", "number", itemgetter(2)),
+        Column("SI unit", "text", itemgetter(3)),
+        Column("given by", "text", itemgetter(4)),
+    )
+    caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
+    page = (OnPage("inputs", caption),)
+    return Table("inputs", "Inputs", "Inputs as entered and in SI", columns, entered(conveyor), page)
+
+
+def sections(a: Analysis) -> Table:
+    """One row a stretch: geometry, masses, forces; both strands, in running direction."""
+    columns = (
+        Column("section", "text", attrgetter("stretch.section"), json="section"),
+        Column("strand", "text", attrgetter("stretch.strand"), json="strand"),
+        Column("length", "length", attrgetter("stretch.length"), "layout", json="length_m"),
+        Column("lift", "length", attrgetter("stretch.rise"), "layout", json="lift_m"),
+        Column("inclination", "angle", attrgetter("stretch.inclination"), page=None),
+        Column("idler spacing", "spacing", attrgetter("stretch.spacing"), "layout"),
+        Column("belt mass", "line mass", attrgetter("stretch.belt_mass"), "layout"),
+        Column("bulk mass", "line mass", attrgetter("stretch.bulk_mass"), "layout"),
+        Column("indentation", "force", attrgetter("indentation"), "forces", json="indentation_N", total=True),
+        Column("idler rotation", "force", attrgetter("rotation"), "forces", json="idler_rotation_N", total=True),
+        Column("flexure", "force", attrgetter("flexure"), "forces", json="flexure_N", total=True),
+        Column("idler tilt", "force", attrgetter("tilt"), "forces", json="tilt_N", total=True),
+        Column("lift force", "force", attrgetter("lift"), "forces", json="lift_N", total=True),
+        Column("total", "force", attrgetter("total"), "forces", json="total_N", total=True),
+        Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
+        Column("idler set L10 life", "life", _set_life, "layout", sparse=True),
+    )  # fmt: skip
+    page = (
+        OnPage("route", "Sections of both strands, in running direction", "layout"),
+        OnPage("route", "Forces of the sections", "forces"),
+    )
+    heading = "Forces of every section and strand"
+    return Table("sections", "Sections", heading, columns, a.stretches, page, foot="all sections")
+
+
+def _set_life(r: StretchResult) -> float | None:
+    """Of the bearings of a set [s], where all are given."""
+    life = set_life(r.stretch, r.rolls[0].curve.contact.speed)
+    return life.hours * _HOUR if life is not None and life.whole else None
+
+
+def resistances(a: Analysis) -> Table:
     """Every newton and the law it comes from; the rows add up to the effective tension."""
-    by_law = results[0].stretch.span_flexure is not None
+    by_law = a.stretches[0].stretch.span_flexure is not None
     flexure = "calculation.flexure, laws" if by_law else "share of the main resistance, flagged default"
     by_strand = [
         (
             f"{label}, {strand}",
             kind,
-            math.fsum(getattr(r, name) for r in results if r.stretch.strand == strand),
+            math.fsum(getattr(r, name) for r in a.stretches if r.stretch.strand == strand),
             source,
         )
         for label, name, kind, source in (
@@ -194,125 +257,674 @@ def resistances(results: tuple[StretchResult, ...], found: Balance) -> pd.DataFr
         )
         for strand in ("carry", "return")
     ]
-    singles = [(single.name, single.kind, single.force, single.source) for single in found.singles]
-    table = pd.DataFrame([*by_strand, *singles], columns=["resistance", "kind", "force [N]", "source"])
-    total = found.forces.total
-    table.insert(3, "share [-]", table["force [N]"] / total)
-    return table
+    total = a.balance.forces.total
+    columns = (
+        Column("resistance", "text", itemgetter(0)),
+        Column("kind", "text", itemgetter(1)),
+        Column("force", "force", itemgetter(2), total=True),
+        Column("share", "share", lambda row: _share(row[2], total), total=total != 0.0),
+        Column("source", "text", itemgetter(3)),
+    )
+    rows = (*by_strand, *((each.name, each.kind, each.force, each.source) for each in a.balance.singles))
+    heading = "Every force and the law it comes from"
+    page = (OnPage("resistances", heading),)
+    return Table("resistances", "Resistances", heading, columns, rows, page, foot="effective tension")
 
 
-def comparison(found: Balance) -> pd.DataFrame:
+def _share(part: float, whole: float) -> float:
+    """A share; of nothing not a number."""
+    return part / whole if whole else math.nan
+
+
+def breakdown(a: Analysis) -> Table:
+    """Sums of the forces by what they are, and their share."""
+    forces = a.balance.forces
+    columns = (
+        Column("resistance", "text", lambda name: name.replace("_", " ")),
+        Column("force", "force", lambda name: getattr(forces, name)),
+        Column("share of total", "share", lambda name: _share(getattr(forces, name), forces.total)),
+    )
+    heading = "Breakdown of the effective tension"
+    return Table("breakdown", "Resistances", heading, columns, tuple(asdict(forces)))
+
+
+def classical(a: Analysis) -> Table:
     """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
-    forces = found.forces
-    estimates = {"classical, given f": found.classical, "CEMA classic, given Ky": found.cema}
-    return pd.DataFrame(
-        {
-            "this calculation": [
-                found.friction_factor, forces.main, forces.secondary, forces.special, forces.lift, forces.total,
-                found.power.motor / 1e3,
-            ],
-        }
-        | {
-            name: [
-                made.friction_factor, made.main, made.secondary, made.special, made.lift, made.total,
-                made.motor / 1e3,
-            ]
-            for name, made in estimates.items()
-            if made is not None
-        },
-        index=[
-            "f [-]", "main [N]", "secondary [N]", "special [N]", "lift [N]", "effective tension [N]",
-            "motor power [kW]",
-        ],
+    found, forces = a.balance, a.balance.forces
+    estimates = [("classical, given f", found.classical), ("CEMA classic, given Ky", found.cema)]
+    others = [(name, made) for name, made in estimates if made is not None]
+
+    def row(label: str, kind: str, name: str, here: float) -> Figure:
+        return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
+
+    rows = (
+        row("f", "friction", "friction_factor", found.friction_factor),
+        row("main", "force", "main", forces.main),
+        row("secondary", "force", "secondary", forces.secondary),
+        row("special", "force", "special", forces.special),
+        row("lift", "force", "lift", forces.lift),
+        row("effective tension", "force", "total", forces.total),
+        row("motor power", "power", "motor", found.power.motor),
+    )
+    names = ["this calculation", *(name for name, _ in others)]
+    columns = (
+        Column("quantity", NAMED, attrgetter("label")),
+        *(Column(name, OF_ROW, _nth(i), key=f"estimate_{i}") for i, name in enumerate(names)),
+    )
+    heading = "Beside the classical estimate (ISO 5048 / DIN 22101, given f)"
+    note = f"classical secondary: {found.classical.secondary_by}; governing at the drive: {found.tensions.governed_by}"
+    page = (OnPage("resistances", "Beside the classical estimates"),)
+    return Table("classical", "Resistances", heading, columns, rows, page, note)
+
+
+def _nth(i: int) -> Getter:
+    return lambda figure: figure.value[i]
+
+
+def rolls(a: Analysis) -> Table:
+    """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
+    columns = (
+        Column("section", "text", lambda row: row[0].stretch.section),
+        Column("strand", "text", lambda row: row[0].stretch.strand),
+        Column("roll", "text", lambda row: row[1].load.name),
+        Column("diameter", "size", lambda row: 2.0 * row[1].curve.contact.radius, page=None),
+        Column("force", "force", lambda row: row[1].load.force),
+        Column("highest line load", "line force", lambda row: float(row[1].peak.line_load)),
+        Column("half width", "thickness", lambda row: float(row[1].peak.half_width)),
+        Column("eccentricity", "thickness", lambda row: float(row[1].peak.eccentricity), page=None),
+        Column("penetration", "thickness", lambda row: float(row[1].peak.penetration)),
+        Column("penetration of cover", "share",
+               lambda row: float(row[1].peak.penetration) / row[1].curve.contact.cover_thickness, page=None),
+        Column("peak pressure", "pressure", lambda row: float(row[1].peak.peak_pressure)),
+        Column("transit frequency", "passing",
+               lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
+        Column("indentation", "force", lambda row: row[1].resistance),
+        Column("error estimate", "error", lambda row: row[1].peak.error, page=None),
+        Column("energy error", "error", lambda row: row[1].peak.energy_error, page=None),
+        Column("rim drag", "force", lambda row: row[2]),
+        Column("rotation", "rotation",
+               lambda row: row[1].curve.contact.speed / (2.0 * math.pi * row[1].curve.contact.radius), page=None),
+        Column("heavier bearing", "force", lambda row: row[3] and row[3].heavier, page=None, sparse=True),
+        Column("roll L10 life", "life", lambda row: row[3] and row[3].both * _HOUR, sparse=True),
     )  # fmt: skip
+    rows = tuple(
+        (r, roll, drag, roll_life(r.stretch, place, roll.curve.contact.speed))
+        for r in a.stretches
+        for place, (roll, drag) in enumerate(zip(r.rolls, r.stretch.drags, strict=True))
+    )
+    return Table("rolls", "Rolls", "Rolls of a set, contact at the highest line load", columns, rows)
 
 
-def tensions(found: Balance) -> pd.DataFrame:
+def highest_rolls(a: Analysis) -> Table:
+    """The highest loaded roll of every section; on the page only."""
+    every = rolls(a)
+    by_stretch: dict[tuple[str, str], list[Any]] = {}
+    for row in every.rows:
+        by_stretch.setdefault((row[0].stretch.section, row[0].stretch.strand), []).append(row)
+    highest = tuple(max(rows, key=lambda row: float(row[1].peak.line_load)) for rows in by_stretch.values())
+    caption = "Roll of the highest line load of every section and strand"
+    page = (OnPage("rolls", caption),)
+    note = f"Relative error of the contacts: at most {worst_error(a.stretches):.0e}."
+    return Table("highest_rolls", "", caption, every.columns, highest, page, note)
+
+
+def tensions(a: Analysis) -> Table:
     """Tension round the loop in steady running, from the drive back to it."""
-    return pd.DataFrame(
-        [
-            {
-                "place": point.place,
-                "distance from drive [m]": point.distance,
-                "tension [N]": point.tension,
-                "least for sag [N]": point.least_for_sag,
-            }
-            for point in found.points
+    columns = (
+        Column("place", "text", attrgetter("place")),
+        Column("distance from drive", "length", attrgetter("distance")),
+        Column("tension", "force", attrgetter("tension")),
+        Column("least for sag", "force", attrgetter("least_for_sag")),
+    )
+    heading = "Tension round the loop, steady running, from the drive"
+    return Table("tensions", "Tensions", heading, columns, a.balance.points)
+
+
+def profile(a: Analysis) -> Table:
+    """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
+    sections = a.conveyor.route.sections
+    along = accumulate((si(section.length) for section in sections), initial=0.0)
+    rows = zip(("", *(section.name for section in sections)), along, boundaries(a.conveyor), strict=True)
+    columns = (
+        Column("behind section", "text", itemgetter(0)),
+        Column("along the belt", "length", itemgetter(1)),
+        Column("horizontal", "length", lambda row: row[2][0]),
+        Column("height", "length", lambda row: row[2][1]),
+    )
+    return Table("profile", "States", "Profile of the route", columns, tuple(rows))
+
+
+def boundaries(conveyor: Conveyor) -> list[tuple[float, float]]:
+    """Horizontal distance and height over the tail of every boundary of sections [m]."""
+    found = [(0.0, 0.0)]
+    for section in conveyor.route.sections:
+        across, up = found[-1]
+        level = math.sqrt(si(section.length) ** 2 - section.rise**2)
+        found.append((across + level, up + section.rise))
+    return found
+
+
+def section_ends(a: Analysis) -> Table:
+    """One row a stretch: steady running and the state of the highest tension; on the page only."""
+    settled = a.balance.settled
+    geometry = settled.loop.geometry
+    columns = [
+        Column("section", "text", lambda i: geometry.stretches[i].section),
+        Column("strand", "text", lambda i: geometry.stretches[i].strand),
+    ]
+    for state in {state.name: state for state in (settled.steady, settled.unsteady)}.values():
+        columns += [
+            Column(f"{state.name}, {end}", "force", _of(at))
+            for end, at in (("begins", state.starts), ("ends", state.ends))
         ]
+    columns.append(Column("least for sag", "force", lambda i: float(geometry.least[i])))
+    caption = "Tensions where the sections begin and end"
+    rows = tuple(range(len(geometry.stretches)))
+    return Table("section_ends", "", caption, tuple(columns), rows, (OnPage("tensions", caption),))
+
+
+def _of(values: Any) -> Getter:
+    return lambda i: float(values[i])
+
+
+def tension_states(a: Analysis) -> Table:
+    """Tension at both ends of every stretch in every state, in loop order from the head."""
+    settled = a.balance.settled
+    geometry = settled.loop.geometry
+    columns = [
+        Column("section", "text", lambda at: geometry.stretches[at[0]].section),
+        Column("strand", "text", lambda at: geometry.stretches[at[0]].strand),
+        Column("end", "text", lambda at: ("start", "end")[at[1]]),
+        Column("distance from head", "length", lambda at: float(geometry.way[at[0] + at[1]])),
+        Column("least for sag", "force", lambda at: float(geometry.least[at[0]])),
+        *(
+            Column(name, "force", _of_end(state))
+            for name, state in (settled.states | a.motions.states).items()
+        ),
+    ]
+    rows = tuple((i, end) for i in range(len(geometry.stretches)) for end in (0, 1))
+    return Table("tension_states", "States", "Tension in every state of motion", tuple(columns), rows)
+
+
+def _of_end(state: Any) -> Getter:
+    return lambda at: float((state.starts, state.ends)[at[1]][at[0]])
+
+
+def drives(a: Analysis) -> Table:
+    """One row a drive and state: force, power, tensions before and behind, grip used."""
+    data, states = a.balance.settled.loop.data, a.balance.settled.states
+    columns = (
+        Column("drive", "text", lambda row: row[0].name),
+        Column("state", "text", lambda row: row[1]),
+        Column("force", "force", lambda row: row[2].force),
+        Column("motor power at full speed", "power", lambda row: data.motor(row[2].force)),
+        Column("installed power", "power", lambda row: row[0].power),
+        Column("arriving", "force", lambda row: row[2].arriving),
+        Column("leaving", "force", lambda row: row[2].leaving),
+        Column("tension ratio", "ratio",
+               lambda row: math.inf if row[2].slack <= 0.0 else row[2].tight / row[2].slack),
+        Column("grip limit", "ratio", lambda row: math.exp(row[0].friction * row[0].wrap_angle)),
+    )  # fmt: skip
+    rows = tuple(
+        (drive, state.name, side)
+        for state in states.values()
+        for drive, side in zip(data.drives, state.drives, strict=True)
+    )
+    heading = "Drives in every state of motion"
+    return Table(
+        "drives", "Loop", heading, columns, rows, (OnPage("tensions", "Drives in every state"),), named=2
     )
 
 
-def indentation_curves(results: tuple[StretchResult, ...]) -> pd.DataFrame:
-    """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
-    seen: dict[int, Any] = {}
-    for r in results:
-        for roll in r.rolls:
-            seen.setdefault(id(roll.curve), (f"{r.stretch.strand}, {2e3 * roll.curve.contact.radius:.0f} mm, "
-                                             f"{r.stretch.spacing:g} m", roll.curve))  # fmt: skip
-    blocks = []
-    for label, curve in seen.values():
-        w = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
-        found = curve.at(w)
-        block = {
-            "contact": label,
-            "line load [N/m]": w,
-            "indentation [N/m]": found.resistance,
-            "friction [-]": found.resistance / w,
-            "half width [mm]": 1e3 * found.half_width,
-            "peak pressure [MPa]": 1e-6 * found.peak_pressure,
-        }
-        blocks.append(pd.DataFrame(block))
-    return pd.concat(blocks, ignore_index=True)
+def take_up(a: Analysis) -> Table:
+    """Setting of the take-up, what asks for it, its mass or pull."""
+    settled = a.balance.settled
+    data, geometry = settled.loop.data, settled.loop.geometry
+    means = 0.5 * (settled.steady.starts + settled.steady.ends)
+    mean = mean_tension(means.tolist(), lengths=geometry.length.tolist())
+    mass = None
+    if data.take_up.kind != "fixed":
+        mass = take_up_mass(max(settled.setting, 0.0), reeving=data.take_up.reeving, gravity=data.gravity)
+    rows = (
+        Figure("setting", "force", settled.setting, "cover"),
+        Figure("least setting", "force", settled.needed),
+        Figure("mean tension of the loop", "force", mean, key="mean_tension"),
+        Figure("mass of a gravity take-up", "mass", mass, key="mass"),
+        Figure("pull on the rope of a winch", "force", None if mass is None else mass * data.gravity, key="pull"),
+    )  # fmt: skip
+    note = f"kind: {data.take_up.kind}, governed by: {settled.condition_name(settled.governed_by)}"
+    page = (OnPage("tensions", "Take-up"),)
+    return figures("take_up", "Loop", "Take-up", rows, page=page, note=note, prefix="take_up_")
 
 
-def prony(compound: RubberCompound, temperature: float) -> pd.DataFrame:
-    """Terms of a compound's relaxation spectrum, at the reference and at `temperature` [K]."""
-    terms = compound.prony.terms
-    series = compound.series(temperature)
-    order = np.argsort([si(term.time) for term in terms])
-    return pd.DataFrame(
-        {
-            "modulus [MPa]": [1e-6 * si(terms[i].modulus) for i in order],
-            "time at reference [s]": [si(terms[i].time) for i in order],
-            "time at belt temperature [s]": series.times,
-        }
+def conditions(a: Analysis) -> Table:
+    """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
+    settled = a.balance.settled
+    columns = (
+        Column("condition", "text", itemgetter(0)),
+        Column("setting it asks for", "force", itemgetter(1)),
+        Column("margin", "force", lambda row: settled.setting - row[1]),
+    )
+    heading, rows = (
+        "What asks for the tension of the take-up",
+        sorted(settled.conditions.items(), key=lambda item: -item[1]),
+    )
+    return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
+
+
+def start_stop(a: Analysis) -> Table:
+    """Start, stop, brakes and the limits of the bulk."""
+    moving = a.motions
+    start, slip = moving.start, moving.slip
+    holder = "backstop" if moving.rolls_back else "brake"
+    rows = [
+        Figure("moving mass", "mass", moving.moving_mass),
+        Figure("rotating mass of the drives", "mass", moving.rotating_mass),
+        Figure("drive force at start", "force", start.force),
+        Figure("acceleration at start", "acceleration", start.acceleration),
+        Figure("time over the whole speed range", "duration", start.time),
+        Figure("motor torque at start over rated", "ratio", start.torque_factor),
+        Figure("force the motors give", "force", start.available),
+        Figure("resistance after standstill, at most", "force", start.breakaway),
+    ]  # fmt: skip
+    for label, stop in (
+        ("drives off", moving.coasting),
+        ("drives off, least friction", moving.coasting_least),
+        ("brakes on, least friction", moving.braked),
+    ):
+        if stop is not None:
+            rows += [
+                Figure(f"deceleration, {label}", "acceleration", stop.deceleration),
+                Figure(f"stopping time, {label}", "duration", stop.time),
+                Figure(f"stopping distance, {label}", "length", stop.distance),
+            ]  # fmt: skip
+    braking, starting = (None, None) if slip is None else (-slip.braking, slip.starting)
+    rows += [
+        Figure("brake for the deceleration wanted", "force", moving.brake_to_stop),
+        Figure(f"{holder} to hold", "force", moving.brake_to_hold),
+        Figure("hardest braking before the bulk slides", "acceleration", braking),
+        Figure("highest acceleration before the bulk slides", "acceleration", starting),
+    ]  # fmt: skip
+    page = (OnPage("start-stop", "Start, stop and the limits of the bulk"),)
+    return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
+
+
+def belt_strength_table(a: Analysis) -> Table:
+    """Strength of the belt; figures without which a row has no answer are left out with it."""
+    duty = a.belt_duty
+    rows = (
+        Figure("largest tension, steady", "force", duty.largest_steady),
+        Figure("largest tension, all states", "force", duty.largest),
+        Figure("safety, steady", "ratio", duty.safety_steady),
+        Figure("safety, all states", "ratio", duty.safety),
+        Figure("classic safety asked for", "ratio", duty.safety_needed),
+        Figure("strength the splice asks for", "strength", duty.strength_needed),
+        Figure("least diameter of drive pulleys", "size", duty.drive_diameter),
+    )  # fmt: skip
+    page = (OnPage("belt", "Strength of the belt"),)
+    return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
+
+
+def pulleys(a: Analysis) -> Table:
+    """One row a pulley: its diameter beside the least one."""
+    columns = (
+        Column("pulley", "text", attrgetter("name")),
+        Column("position", "text", attrgetter("position")),
+        Column("group", "text", attrgetter("group")),
+        Column("diameter", "size", attrgetter("diameter")),
+        Column("least", "size", attrgetter("least")),
+        Column("of the series", "size", attrgetter("next_size")),
+        Column("large enough", "verdict", attrgetter("large_enough")),
+    )
+    return Table(
+        "pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), (OnPage("belt", "Pulleys"),)
     )
 
 
-def moduli(compound: RubberCompound, temperature: float) -> pd.DataFrame:
-    """E', E'', tan δ of a compound at `temperature` [K] over frequency."""
-    frequency = np.logspace(*DECADES, (DECADES[1] - DECADES[0]) * PER_DECADE + 1)
-    series = compound.series(temperature)
-    omega = 2.0 * np.pi * frequency
-    return pd.DataFrame(
-        {
-            "frequency [Hz]": frequency,
-            "E' [MPa]": 1e-6 * series.storage(omega),
-            "E'' [MPa]": 1e-6 * series.loss(omega),
-            "tan delta [-]": series.tan_delta(omega),
-        }
+def vertical_curves(a: Analysis) -> Table:
+    """One row a vertical curve and strand: its radius beside the least ones."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("curve", "text", attrgetter("kind")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("lowest tension", "force", attrgetter("lowest")),
+        Column("highest tension", "force", attrgetter("highest")),
+        Column("least against lift-off", "length", attrgetter("lift_off")),
+        Column("least against overstress", "length", attrgetter("overstress")),
+        Column("least against slack strips", "length", attrgetter("buckling")),
     )
+    rows, page = tuple(a.belt_duty.curves), (OnPage("belt", "Vertical curves"),)
+    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
 
 
-def solver(results: tuple[StretchResult, ...]) -> pd.DataFrame:
+def convergence(a: Analysis) -> Table:
+    """How tensions and roll loads settled on the curves; empty without curves."""
+    found = a.convergence
+    rows = () if found is None else (
+        Figure("steps", "count", float(found.steps)),
+        Figure("last change over largest tension", "error", found.change),
+        Figure("ratio of changes", "ratio", found.ratio),
+        Figure("bound over largest tension", "error", found.bound),
+    )  # fmt: skip
+    heading = "How tensions and roll loads settled"
+    return figures("convergence", "Loop", heading, rows, page=(OnPage("belt", f"{heading} on the curves"),))
+
+
+def _contacts(a: Analysis) -> dict[Any, Any]:
+    """Every distinct load curve and the last stretch that runs on it."""
+    return {roll.curve: r for r in a.stretches for roll in r.rolls}
+
+
+def contact_solutions(a: Analysis) -> Table:
     """One row a distinct contact: its range of loads, what the curve cost, its errors."""
-    seen = {id(roll.curve): (r.stretch.strand, roll.curve) for r in results for roll in r.rolls}
-    return pd.DataFrame(
-        [
-            {
-                "strand": strand,
-                "roll [mm]": 2e3 * curve.contact.radius,
-                "spacing [m]": curve.contact.spacing,
-                "cover [mm]": 1e3 * curve.contact.cover_thickness,
-                "lowest load [N/m]": curve.lowest,
-                "highest load [N/m]": curve.highest,
-                "order": curve.stats.order,
-                "matrices": curve.stats.matrices,
-                "nodes": curve.stats.nodes,
-                "retardation terms": curve.stats.terms,
-                "error estimate [-]": curve.curve.error,
-                "energy error [-]": curve.curve.energy_error,
-            }
-            for strand, curve in seen.values()
-        ]
+    columns = (
+        Column("strand", "text", lambda row: row[1].stretch.strand),
+        Column("roll", "size", lambda row: 2.0 * row[0].contact.radius),
+        Column("spacing", "spacing", lambda row: row[0].contact.spacing),
+        Column("cover", "size", lambda row: row[0].contact.cover_thickness),
+        Column("lowest load", "line force", lambda row: row[0].lowest),
+        Column("highest load", "line force", lambda row: row[0].highest),
+        Column("order", "count", lambda row: row[0].stats.order),
+        Column("matrices", "count", lambda row: row[0].stats.matrices),
+        Column("nodes", "count", lambda row: row[0].stats.nodes),
+        Column("retardation terms", "count", lambda row: row[0].stats.terms),
+        Column("error estimate", "error", lambda row: row[0].curve.error),
+        Column("energy error", "error", lambda row: row[0].curve.energy_error),
     )
+    heading, caption = (
+        "Contacts, one a distinct roll, cover and spacing",
+        "Contact solutions, one a distinct roll, cover and spacing",
+    )
+    rows, page = tuple(_contacts(a).items()), (OnPage("provenance", caption),)
+    return Table("contact_solutions", "Indentation", heading, columns, rows, page)
+
+
+def indentation(a: Analysis) -> Table:
+    """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
+    seen: dict[Any, str] = {}
+    for r in a.stretches:
+        for roll in r.rolls:
+            label = f"{r.stretch.strand}, {2e3 * roll.curve.contact.radius:.0f} mm, {r.stretch.spacing:g} m"
+            seen.setdefault(roll.curve, label)
+    rows: list[tuple[Any, ...]] = []
+    for curve, label in seen.items():
+        loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
+        found = curve.at(loads)
+        columns = (loads, found.resistance, found.half_width, found.peak_pressure)
+        rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
+    declared = (
+        Column("contact", "text", itemgetter(0)),
+        Column("line load", "line force", itemgetter(1)),
+        Column("indentation", "line force", itemgetter(2)),
+        Column("friction", "friction", lambda row: row[2] / row[1]),
+        Column("half width", "thickness", itemgetter(3)),
+        Column("peak pressure", "pressure", itemgetter(4)),
+    )
+    heading = "Indentation against line load, one block a contact"
+    return Table("indentation", "Indentation", heading, declared, tuple(rows))
+
+
+def rubber(a: Analysis) -> Table:
+    """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
+    conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
+    rows = []
+    for strand, compound in _strands(conveyor).items():
+        strain = next(r.surface.strain for r in a.stretches if r.stretch.strand == strand)
+        band, data = excited_band(a.stretches, strand), compound.frequencies(at)
+        rows.append((strand, compound, band or (None, None), data or (None, None), strain))
+    columns = (
+        Column("strand", "text", itemgetter(0), json="strand"),
+        Column("compound", "text", lambda row: row[1].name, json="compound"),
+        Column("kind", "text", lambda row: row[1].kind),
+        Column("temperature", "temperature", lambda _: at, json="temperature_degC"),
+        *bands(lambda row: row[2], lambda row: row[3]),
+        Column("", "text", lambda row: list(row[2]), page=None, sheet=False, json="excited_Hz", key="excited"),
+        Column("", "text", lambda row: list(row[3]), page=None, sheet=False, json="data_Hz", key="data"),
+        Column("working strain", "share", lambda row: row[4] and row[4].strain, json="working_strain"),
+        Column("E' factor of strain", "factor",
+               lambda row: 1.0 if row[4] is None else row[4].storage_factor, json="storage_factor",
+               key="storage_factor"),
+        Column("E'' factor of strain", "factor",
+               lambda row: 1.0 if row[4] is None else row[4].loss_factor, json="loss_factor", key="loss_factor"),
+    )  # fmt: skip
+    page = (OnPage("rubber", "What the rolls ask of the rubber, and what its data hold"),)
+    return Table("rubber", "Rubber", "What the rolls ask of the rubber", columns, tuple(rows), page)
+
+
+def bands(excited: Getter, data: Getter) -> Iterator[Column]:
+    """What the rolls excite and what the data hold: numbers in workbook and files, bands in words on the page."""
+    for name, get in (("excited", excited), ("data", data)):
+        yield Column(f"{name} from", "frequency", _end(get, 0), page=None)
+        yield Column(f"{name} to", "frequency", _end(get, 1), page=None)
+    for name, get in (("excited band", excited), ("band of the data", data)):
+        yield Column(name, "frequency", _words(get), sheet=False)
+
+
+def _end(get: Getter, i: int) -> Getter:
+    return lambda row: get(row)[i]
+
+
+def _words(get: Getter) -> Getter:
+    def words(row: Any) -> str | None:
+        low, high = get(row)
+        return None if low is None or high is None else band_words((low, high)).removesuffix(" Hz")
+
+    return words
+
+
+def _strands(conveyor: Conveyor) -> dict[Any, RubberCompound]:
+    return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
+
+
+def compounds(a: Analysis, system: System) -> Iterator[Table]:
+    """What is known of the rubber of each strand, its relaxation spectrum, its moduli."""
+    at, seen = si(a.conveyor.ambient.belt), set()
+    for strand, compound in _strands(a.conveyor).items():
+        if compound.name not in seen:
+            seen.add(compound.name)
+            yield _known(compound, strand, system)
+        yield _prony(compound, strand, at)
+        yield _moduli(compound, strand, at)
+
+
+def _known(compound: RubberCompound, strand: str, system: System) -> Table:
+    """What is known of a compound, in words; what is not stated is said or left out."""
+    known, fit = compound.range, compound.fit
+    said = (
+        ("description", compound.description),
+        ("origin", compound.source.origin),
+        ("licence", compound.source.licence),
+        ("data", compound.source.data or "not stated"),
+        ("strain of the data", compound.strain or "not stated"),
+        ("Poisson's ratio", repr(compound.poisson_ratio)),
+        ("reference temperature", unit("temperature", system).brief(si(compound.reference_temperature))),
+        ("equilibrium modulus", text(compound.prony.equilibrium)),
+        ("Prony terms", str(len(compound.prony.terms))),
+        ("temperature shift", "none" if compound.shift is None else compound.shift.law),
+        ("range of frequency", "not stated" if known is None else " to ".join(map(text, known.frequency))),
+        ("range of temperature", "not stated" if known is None else " to ".join(map(text, known.temperature))),
+        ("fit", "" if fit is None else fit.method),
+        ("rms errors of E', E''", "" if fit is None or compound.kind != "measured" else
+         f"{text(fit.storage_rms)}, {text(fit.loss_rms)}"),
+        ("not known", "; ".join(compound.missing) or "nothing listed"),
+    )  # fmt: skip
+    columns = (Column("fact", "text", itemgetter(0)), Column("value", "text", itemgetter(1)))
+    rows = tuple(row for row in said if row[1])
+    page = (OnPage("rubber", f"What is known of {compound.name}"),)
+    return Table(f"known_{strand}", "", f"{compound.name} ({compound.kind})", columns, rows, page)
+
+
+def _prony(compound: RubberCompound, strand: str, at: float) -> Table:
+    """Terms of a compound's relaxation spectrum, at the reference and at a temperature [K]."""
+    terms = sorted(compound.prony.terms, key=lambda term: si(term.time))
+    columns = (
+        Column("modulus", "pressure", lambda row: si(row[0].modulus)),
+        Column("time at reference", "time", lambda row: si(row[0].time)),
+        Column("time at belt temperature", "time", lambda row: float(row[1])),
+    )
+    rows = tuple(zip(terms, compound.series(at).times, strict=True))
+    return Table(f"prony_{strand}", "Rubber", "Relaxation spectrum", columns, rows)
+
+
+def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
+    """E', E'', tan δ of a compound at a temperature [K] over frequency."""
+    frequency = np.logspace(*_DECADES, (_DECADES[1] - _DECADES[0]) * _PER_DECADE + 1)
+    series, omega = compound.series(at), 2.0 * np.pi * frequency
+    values = (frequency, series.storage(omega), series.loss(omega), series.tan_delta(omega))
+    columns = (
+        Column("frequency", "frequency", itemgetter(0)),
+        Column("E'", "pressure", itemgetter(1), key="storage"),
+        Column("E''", "pressure", itemgetter(2), key="loss"),
+        Column("tan delta", "friction", itemgetter(3)),
+    )
+    rows = tuple(zip(*(value.tolist() for value in values), strict=True))
+    return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows)
+
+
+def checked(a: Analysis, studies: Studies | None, system: System) -> Table:
+    """What was checked: what was found, what is asked for, pass or fail."""
+    columns = (
+        Column("check", "text", attrgetter("subject")),
+        Column("found", "text", attrgetter("found")),
+        Column("asked for", "text", attrgetter("asked")),
+        Column("verdict", "verdict", attrgetter("verdict")),
+    )
+    caption = (
+        "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
+    )
+    rows, page = checks(a, system, studies), (OnPage("checks", caption),)
+    return Table("checks", "Checks and notes", "Checks", columns, rows, page)
+
+
+class Remark(tuple[str, str]):
+    """A remark: its kind and its text."""
+
+    __slots__ = ()
+    kind = property(itemgetter(0))
+    text = property(itemgetter(1))
+
+
+def remarks(a: Analysis) -> Table:
+    """Warnings, assumptions, and the notes of the spec."""
+    columns = (
+        Column("kind", "text", attrgetter("kind")),
+        Column("text", "text", attrgetter("text")),
+    )
+    notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
+    said = {"warning": a.warnings, "assumption": a.assumptions, "note of the spec": notes}
+    rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
+    return Table("remarks", "Checks and notes", "Remarks", columns, rows)
+
+
+def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
+    """What made the figures; `spec` is the spec's SHA-256."""
+    facts = {
+        "spec SHA-256": spec,
+        "date": date.today().isoformat(),
+        "python": platform.python_version(),
+        **{name: version(name) for name in _VERSIONED},
+    }
+    columns = (
+        Column("made by", "text", itemgetter(0)),
+        Column("version", "text", itemgetter(1)),
+    )
+    page = (OnPage("provenance", "What made these figures"),)
+    return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
+
+
+def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
+    """The figures of the page, each above a table."""
+    conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
+    yield Drawing(
+        "breakdown",
+        "Resistances of this calculation; beside their sums the classical estimates with given friction.",
+        lambda: analysis_plots.resistance_breakdown(a.balance, system=system),
+        "classical",
+    )
+    yield Drawing(
+        "profile",
+        "Profile of the route from the tail: triangles are feeding points, rings are drives.",
+        lambda: loop_plots.route_profile(conveyor, boundaries(conveyor), system=system),
+        "sections",
+    )
+    yield Drawing(
+        "tensions",
+        "Tension round the loop in every state, from the head along the return strand and back.",
+        lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
+        "section_ends",
+    )
+    yield Drawing(
+        "pressure",
+        "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
+        lambda: analysis_plots.pressure_under_rolls(a.stretches, system=system),
+        "highest_rolls",
+    )
+    strands = _strands(conveyor)
+    worked = {compound.name: compound for compound in strands.values()}
+    for k, (name, compound) in enumerate(worked.items(), start=1):
+        on_it = tuple(strand for strand, other in strands.items() if other.name == name)
+        yield Drawing(
+            f"rubber-{k}",
+            f"Master curve of {name} at {unit('temperature', system).brief(at)}; "
+            f"shaded: the band in which the {' and '.join(on_it)} rolls lose nine tenths of their energy.",
+            partial(analysis_plots.rubber_at_work, compound, at, a.stretches, on_it, system=system),
+            f"known_{on_it[0]}",
+        )
+
+
+def plain(a: Analysis) -> dict[str, Any]:
+    """Plain numbers for JSON, SI or the unit in the key."""
+    found = a.balance
+    power, settled, even = found.power, found.settled, not a.conveyor.duty
+    data: dict[str, Any] = {
+        "name": a.conveyor.name,
+        "forces_N": {},
+        "power_kW": {},
+        "tensions_N": asdict(found.tensions),
+        "drives": [
+            {
+                "drive": side.name,
+                "force_N": side.force,
+                "motor_kW": settled.loop.data.motor(side.force) / 1e3,
+                "arriving_N": side.arriving,
+                "leaving_N": side.leaving,
+            }
+            for side in settled.steady.drives
+        ],
+        "take_up": {
+            "kind": settled.loop.data.take_up.kind,
+            "setting_N": settled.setting,
+            "least_setting_N": settled.needed,
+            "governed_by": settled.condition_name(settled.governed_by),
+        },
+        "energy": {
+            "kWh_per_tonne_km": power.energy_per_tonne_km,
+            "kWh_per_year": power.energy_per_year if even else None,
+            "cost_per_year": power.cost_per_year if even else None,
+            "currency": power.currency,
+        },
+        "classical": {**_estimate(found.classical), "secondary_by": found.classical.secondary_by},
+        "cema": None if found.cema is None else _estimate(found.cema),
+        "rubber": rubber(a).plain(),
+        "sections": sections(a).plain(),
+        "assumptions": list(a.assumptions),
+        "warnings": list(a.warnings),
+    }
+    return placed(data, results(a).rows)
+
+
+def _estimate(made: Any) -> dict[str, float]:
+    return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": made.motor / 1e3}
+
+
+def placed(data: dict[str, Any], rows: Iterable[Figure]) -> dict[str, Any]:
+    """Put figures into plain data where their paths say, in SI units of reports."""
+    for row in rows:
+        if row.json:
+            *path, last = row.json.split(".")
+            inside = data
+            for name in path:
+                inside = inside.setdefault(name, {})
+            inside[last] = row.unit("SI").shown(row.value)
+    return data

@@ -37,6 +37,19 @@ class Studies:
         held = [name for name in ("cases", "duty", "uncertainty") if getattr(self, name) is not None]
         return f"Studies({', '.join(held) or 'nothing asked for'})"
 
+    def _repr_html_(self) -> str:
+        """For notebooks: what there is, one after the other."""
+        held = (self.cases, self.duty, self.uncertainty)
+        return (
+            "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON, only of what there is; units in the keys."""
+        from conveyor.report.study_tables import plain
+
+        return plain(self)
+
 
 def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> Studies:
     """Calculate what the spec asks for.

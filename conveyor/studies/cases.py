@@ -157,6 +157,18 @@ class CaseStudy:
         """The cases against what is installed; the case that decides is named."""
         return tuple(_checks(self))
 
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a case, temperature and speed; units in the names."""
+        from conveyor.report.study_tables import cases
+
+        return cases(self).frame()
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_cases
+
+        return notebook_of_cases(self)
+
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor import shelf
+from conveyor.display import chosen
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, distinct, with_compound
@@ -25,6 +26,7 @@ from conveyor.units import Quantity, System, quantity
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.report.columns import Contents
     from conveyor.report.files import FileKind
     from conveyor.studies.drawing import ComparisonPlots
 
@@ -81,14 +83,20 @@ class Comparison:
         """One row a scene; units in the names."""
         from conveyor.report import comparing
 
-        return comparing.scenes(self)
+        return comparing.scenes(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row a compound and speed, the least mean power first; savings and payback against the base."""
         from conveyor.report import comparing
 
-        return comparing.ranking(self)
+        return comparing.ranking(self).frame()
+
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.comparing import of_comparison
+
+        return of_comparison(self, chosen(self.conveyor.report.units, system))
 
     def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the workbook.
@@ -106,9 +114,9 @@ class Comparison:
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.excel import write_comparison
+        from conveyor.report.excel import write
 
-        return write_comparison(self, Path(path), system=system)
+        return write(self.contents(system), Path(path))
 
     def to_tables(
         self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
@@ -129,9 +137,9 @@ class Comparison:
         InputError
             No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
         """
-        from conveyor.report.files import write_comparison
+        from conveyor.report.files import write
 
-        return write_comparison(self, Path(folder), system=system, kind=kind)
+        return write(self.contents(system), Path(folder), kind)
 
     def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page.
@@ -148,9 +156,9 @@ class Comparison:
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.html import write_comparison
+        from conveyor.report.html import write
 
-        return write_comparison(self, Path(path), system=system)
+        return write(self.contents(system), Path(path))
 
     @property
     def plots(self) -> ComparisonPlots:
@@ -161,9 +169,9 @@ class Comparison:
 
     def _repr_html_(self) -> str:
         """For notebooks: the ranking and what to know of it."""
-        from conveyor.report.representations import of_comparison
+        from conveyor.report import comparing
 
-        return of_comparison(self)
+        return comparing.notebook(self)
 
 
 def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:

@@ -9,12 +9,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from conveyor.display import chosen
 from conveyor.errors import InputError
 from conveyor.figures import celsius
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.report import analysis_plots, loop_plots, plots
-from conveyor.report.unit_systems import chosen
+from conveyor.report.tables import boundaries
 from conveyor.studies.compared import Coverage, Found, Grid, Scene, of_compound
 from conveyor.studies.variants import scaled
 from conveyor.units import Quantity, System, quantity, si
@@ -56,7 +57,8 @@ class AnalysisPlots:
 
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
-        return loop_plots.route_profile(self.analysis.conveyor, system=self._in(system))
+        conveyor = self.analysis.conveyor
+        return loop_plots.route_profile(conveyor, boundaries(conveyor), system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
@@ -134,7 +136,7 @@ class AnalysisPlots:
         return made if studies is None else made | dict(_of_studies(studies, self._in(system)))
 
     def _in(self, system: System | None) -> System:
-        return chosen(self.analysis.conveyor, system)
+        return chosen(self.analysis.conveyor.report.units, system)
 
 
 @dataclass(frozen=True)
@@ -191,4 +193,4 @@ class ComparisonPlots:
         return plots.compared_loss_tangents(self.comparison, temperature, system=self._in(system))
 
     def _in(self, system: System | None) -> System:
-        return chosen(self.comparison.conveyor, system)
+        return chosen(self.comparison.conveyor.report.units, system)

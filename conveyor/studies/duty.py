@@ -92,6 +92,25 @@ class DutyStudy:
     emission_source: str | None
     energy_per_tonne_km: float | None
 
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a bar; units in the names."""
+        from conveyor.report.study_tables import duty
+
+        return duty(self).frame()
+
+    @cached_property
+    def summary(self) -> pd.Series:
+        """Sums of the year; units in the names."""
+        from conveyor.report.study_tables import year
+
+        return year(self).series("year")
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_duty
+
+        return notebook_of_duty(self)
+
 
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None

@@ -95,6 +95,18 @@ class UncertaintyStudy:
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
 
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """The tornado: one row an input, the largest swing first; units in the names."""
+        from conveyor.report.study_tables import sensitivity
+
+        return sensitivity(self).frame()
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_uncertainty
+
+        return notebook_of_uncertainty(self)
+
 
 @dataclass(frozen=True)
 class _Variation:

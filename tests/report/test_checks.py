@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from operator import itemgetter
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 import conveyor
+from conveyor.display import unit
 from conveyor.report.checks import band_words, checks
-from conveyor.report.unit_systems import converted, converted_figure, converted_rows
+from conveyor.report.columns import Column, Figure, Table, figures
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 
@@ -155,41 +156,46 @@ def test_bands_in_words():
 
 
 def test_units_of_tables():
-    frame = pd.DataFrame(
-        {
-            "strand": ["carry"],
-            "force [N]": [4.4482216152605],
-            "at [degC]": [100.0],
-            "w [N/mm]": [1.0],
-            "f [Hz]": [5.0],
-            "ok": [True],
-        }
+    """Names, numbers, what stays: words, gaps, ratios, infinity."""
+    columns = tuple(
+        Column(label, kind, itemgetter(i))
+        for i, (label, kind) in enumerate(
+            (
+                ("strand", "text"),
+                ("force", "force"),
+                ("at", "temperature"),
+                ("w", "strength"),
+                ("f", "frequency"),
+            )
+        )
     )
-    assert converted(frame, "SI") is frame
-    shown = converted(frame, "US")
-    assert list(shown.columns) == ["strand", "force [lbf]", "at [degF]", "w [lbf/in]", "f [Hz]", "ok"]
-    assert shown.iloc[0].tolist() == ["carry", 1.0, 212.0, pytest.approx(5.710147163), 5.0, True]
-    rows = pd.DataFrame({"quantity": ["length [m]", "f [-]"], "value": [0.3048, float("inf")]})
-    shown = converted_rows(rows, "quantity", "US")
+    table = Table("t", "T", "T", columns, (("carry", 4.4482216152605, 373.15, 1000.0, 5.0),))
+    shown = table.frame("US")
+    assert list(shown.columns) == ["strand", "force [lbf]", "at [degF]", "w [lbf/in]", "f [Hz]"]
+    assert shown.iloc[0].tolist() == ["carry", 1.0, 212.0, pytest.approx(5.710147163), 5.0]
+    assert table.frame().iloc[0].tolist() == ["carry", 4.4482216152605, 100.0, 1.0, 5.0]
+    rows = figures("t", "T", "T", (Figure("length", "length", 0.3048), Figure("f", "ratio", float("inf"))))
+    shown = rows.frame("US")
     assert shown["quantity"].tolist() == ["length [ft]", "f [-]"]
     assert shown["value"].tolist() == [1.0, float("inf")]
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "there", "expected"),
+    ("kind", "value", "sign", "expected"),
     [
-        ("a [m/s²]", 0.3048, "a [ft/s²]", 1.0),
-        ("p [MPa]", 6.894757293168, "p [psi]", 1000.0),
-        ("v [m/s]", 0.00508, "v [fpm]", 1.0),
-        ("t [mm]", 25.4, "t [in]", 1.0),
-        ("m [kg/m]", 1.488163943570, "m [lb/ft]", 1.0),
-        ("Q [t/h]", 0.90718474, "Q [stph]", 1.0),
-        ("P [kW]", 0.74569987158, "P [hp]", 1.0),
+        ("acceleration", 0.3048, "ft/s²", 1.0),
+        ("pressure", 6.894757293168e6, "psi", 1000.0),
+        ("speed", 0.00508, "fpm", 1.0),
+        ("thickness", 0.0254, "in", 1.0),
+        ("line mass", 1.488163943570, "lb/ft", 1.0),
+        ("mass flow", 0.90718474 / 3.6, "stph", 1.0),
+        ("power", 745.69987158, "hp", 1.0),
     ],
 )
-def test_factors(name, value, there, expected):
+def test_factors(kind, value, sign, expected):
     """Exact by the international yard and pound; nine digits are printed here."""
-    assert converted_figure(name, [value], "US") == (there, [pytest.approx(expected, rel=1e-9)])
+    assert unit(kind, "US").label == sign
+    assert unit(kind, "US").shown(value) == pytest.approx(expected, rel=1e-9)
 
 
 def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):

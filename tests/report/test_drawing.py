@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor.display import unit
 from conveyor.errors import InputError
-from conveyor.report.axes import scale
 from conveyor.report.plots import save
 from conveyor.studies import studies
 from conveyor.units import KINDS, convert
@@ -136,18 +136,18 @@ def test_a_dollar_in_a_name_is_no_formula(figures, tmp_path):
 
 @pytest.mark.parametrize("kind", ["force", "power", "pressure", "thickness", "length", "speed", "line force"])
 def test_scales_agree_with_units(kind):
-    us, si = scale(kind, "US"), scale(kind)
+    us, si = (unit(kind, system, large=True) for system in ("US", "SI"))
     assert us(123.4) == pytest.approx(convert(123.4, kind, "US"))
-    assert us.unit == KINDS[kind].us
+    assert us.label == KINDS[kind].us
     # 123.4 in SI, written in the axis' own unit, is the same quantity
-    assert si(123.4) * {"kN": 1e3, "kW": 1e3, "MPa": 1e6, "mm": 1e-3}.get(si.unit, 1.0) == pytest.approx(
+    assert si(123.4) * {"kN": 1e3, "kW": 1e3, "MPa": 1e6, "mm": 1e-3}.get(si.label, 1.0) == pytest.approx(
         123.4
     )
 
 
 def test_temperatures_have_an_offset():
-    assert scale("temperature")([273.15, 293.15]) == pytest.approx([0.0, 20.0])
-    assert scale("temperature", "US")([273.15, 310.92777777777775]) == pytest.approx([32.0, 100.0])
+    assert unit("temperature")([273.15, 293.15]) == pytest.approx([0.0, 20.0])
+    assert unit("temperature", "US")([273.15, 310.92777777777775]) == pytest.approx([32.0, 100.0])
 
 
 def test_a_level_route_is_drawn_level():

@@ -15,7 +15,6 @@ from openpyxl.utils import get_column_letter
 
 import conveyor
 from conveyor.errors import InputError
-from conveyor.report import tables
 from conveyor.report.cells import LONGEST
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -96,7 +95,7 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book):
 
 def test_indentation_curves_of_the_chart_are_single_contacts(book, overland):
     """Each series covers the rows of one contact and all of them."""
-    frame = tables.indentation_curves(overland.stretches)
+    frame = overland.tables["indentation"].frame()
     read = openpyxl.load_workbook(book)
     sheet = read["Indentation"]
     header = int(read.defined_names["table_indentation"].attr_text.split("!")[1].split(":")[0].split("$")[2])
@@ -159,7 +158,7 @@ def test_totals_are_the_sums_of_their_columns(book, overland):
 def test_comparison_is_on_the_resistances_sheet(book, overland):
     sheet = openpyxl.load_workbook(book)["Resistances"]
     rows = {row[0]: row[1:3] for row in sheet.iter_rows(values_only=True)}
-    for name, ours, classical in tables.comparison(overland.balance).itertuples():
+    for name, ours, classical in overland.tables["classical"].frame().itertuples(index=False):
         if name != "lift [N]":  # both name a row of forces too
             assert rows[name] == pytest.approx((ours, classical), rel=DIGITS)
 

@@ -15,8 +15,9 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.report import files, places
-from conveyor.report.contents import Contents, of_analysis
-from conveyor.report.excel import _encoded, build
+from conveyor.report.excel import build
+from conveyor.report.excel import files as workbook_files
+from conveyor.report.tables import of_analysis
 from conveyor.studies.comparison import compare_compounds
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -31,19 +32,19 @@ def result():
 def test_every_table_has_its_file(result, tmp_path):
     written = result.to_tables(tmp_path)
     found = of_analysis(result)
-    assert [path.name for path in written] == [f"{part.key}.csv" for part in found.parts]
+    assert [path.name for path in written] == [f"{part.key}.csv" for part in found.tables]
     assert sorted(tmp_path.iterdir()) == sorted(written)
-    for part, path in zip(found.parts, written, strict=True):
+    for part, path in zip(found.tables, written, strict=True):
         read = pd.read_csv(path, encoding="utf-8-sig")
-        assert list(read.columns) == [str(name) for name in part.frame.columns]
-        assert len(read) == len(part.frame)
+        assert list(read.columns) == list(part.frame(found.system).columns)
+        assert len(read) == len(part.rows)
 
 
 def test_files_hold_the_figures(result, tmp_path):
     for system, unit in (("SI", "N"), ("US", "lbf")):
         result.to_tables(tmp_path, system=system)
         read = pd.read_csv(tmp_path / "resistances.csv", encoding="utf-8-sig")
-        expected = of_analysis(result.in_units(system))["resistances"].frame
+        expected = result.tables["resistances"].frame(system)
         assert read[f"force [{unit}]"].tolist() == pytest.approx(
             expected[f"force [{unit}]"].tolist(), rel=DIGITS
         )
@@ -89,10 +90,10 @@ def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path):
 def test_parquet_holds_the_tables(result, tmp_path):
     pytest.importorskip("pyarrow")
     written = result.to_tables(tmp_path, kind="parquet", system="US")
-    for part, path in zip(of_analysis(result.in_units("US")).parts, written, strict=True):
+    for part, path in zip(of_analysis(result.in_units("US")).tables, written, strict=True):
         read = pd.read_parquet(path)
-        assert list(read.columns) == [str(name) for name in part.frame.columns]
-        assert len(read) == len(part.frame)
+        assert list(read.columns) == list(part.frame("US").columns)
+        assert len(read) == len(part.rows)
 
 
 def test_refusals(result, tmp_path):
@@ -127,22 +128,20 @@ def test_nothing_half_written_stays(tmp_path, monkeypatch):
 
 def lengthened(found, key, rows):
     """Contents with one table repeated to so many rows."""
-    parts = []
-    for part in found.parts:
-        if part.key == key:
-            times = -(-rows // len(part.frame))
-            frame = pd.concat([part.frame] * times, ignore_index=True).iloc[:rows]
-            parts.append(replace(part, frame=frame))
-        else:
-            parts.append(part)
-    return Contents(tuple(parts), found.system)
+    parts = tuple(
+        replace(part, rows=(tuple(part.rows) * -(-rows // len(part.rows)))[:rows])
+        if part.key == key
+        else part
+        for part in found.parts
+    )
+    return replace(found, parts=parts)
 
 
 @pytest.mark.parametrize("key", ["rolls", "tensions", "sections", "indentation"])
 def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
     found = lengthened(of_analysis(result), key, places.MOST_ROWS + 1)
     path = tmp_path / "line.xlsx"
-    save(_encoded(path, found, build(found, result, path.stem)))
+    save(workbook_files(found, path))
     assert sorted(item.name for item in tmp_path.iterdir()) == ["line.xlsx", f"line_{key}.csv"]
     beside = pd.read_csv(tmp_path / f"line_{key}.csv", encoding="utf-8-sig")
     assert len(beside) == places.MOST_ROWS + 1
@@ -159,4 +158,4 @@ def test_ten_thousand_rows_stay_in_the_sheet(result, monkeypatch):
     monkeypatch.setattr(places, "MOST_ROWS", 40)  # the same border, quicker to write
     for rows, there in ((40, True), (41, False)):
         found = lengthened(of_analysis(result), "rolls", rows)
-        assert ("table_rolls" in build(found, result).defined_names) is there
+        assert ("table_rolls" in build(found).defined_names) is there

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
 from conveyor.report.checks import checks
-from conveyor.report.page import number
 from conveyor.report.page_style import COLOURS
 from conveyor.studies import studies
 from tests.report.reading import HOSTILE, Page
@@ -47,7 +47,7 @@ def result(line):
 
 @pytest.fixture(scope="module")
 def text(result, line):
-    return html.build(result, studies(line))
+    return html.build(result.contents(studies(line)))
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +68,7 @@ def comparison(line):
 
 @pytest.fixture(scope="module")
 def compared(comparison):
-    return html.build_comparison(comparison)
+    return html.build(comparison.contents())
 
 
 @pytest.fixture(scope="module", params=["analysis", "comparison"])
@@ -224,26 +224,26 @@ def test_verdicts_are_words(result, page, line):
 
 
 def test_numbers_are_those_of_the_analysis(result, page):
-    for name, value in result.summary.items():
-        assert number(str(name), float(value)) in page.prose
-    for _, row in result.sections.iterrows():
-        assert number("total [N]", row["total [N]"]) in page.prose
+    for figure in result.tables["results"].rows:
+        assert figure.unit("US").written(figure.value) in page.prose
+    for row in result.stretches:
+        assert unit("force", "US").written(row.total) in page.prose
     for remark in (*result.warnings, *result.assumptions):
         assert remark in page.prose
 
 
 def test_numbers_as_in_the_workbook():
-    assert number("tension [N]", -1234.56) == "-1,234.6"
-    assert number("tension [N]", -0.04) == "0.0"
-    assert number("radius [m]", float("inf")) == "∞"
-    assert number("share [-]", -0.1169) == "-11.7%"
-    assert number("motors", 2) == "2"
+    assert unit("force").written(-1234.56) == "-1,234.6"
+    assert unit("force").written(-0.04) == "0.0"
+    assert unit("length").written(float("inf")) == "∞"
+    assert unit("share").written(-0.1169) == "-11.7%"
+    assert unit("count").written(2) == "2"
 
 
 def test_parts_follow_what_was_studied(result, text):
     asked = {"load-cases", "duty", "uncertainty"}
     assert asked <= set(re.findall(r'<h2 id="([\w-]+)"', text))
-    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result))
+    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result.contents()))
     assert not asked & set(plain)
     needed = ["key-figures", "checks", "warnings", "resistances", "route", "tensions", "rolls", "rubber"]
     needed += ["start-stop", "belt", "assumptions", "inputs", "provenance"]
@@ -251,10 +251,8 @@ def test_parts_follow_what_was_studied(result, text):
 
 
 def test_us_units(result):
-    prose = Page(html.build(result, system="US")).prose
-    power = number(
-        "power [hp]", result.summary["motor power [kW]"] * 1e3 / 745.69987158227022
-    )  # 550 ft lbf/s
+    prose = Page(html.build(result.contents(system="US"))).prose
+    power = f"{result.summary['motor power [kW]'] * 1e3 / 745.69987158227022:,.1f}"  # 550 ft lbf/s
     assert f"{power}   hp" in prose or f"{power} hp" in re.sub(r"\s+", " ", prose)
     assert " [N] " not in prose.split("Inputs")[0]
     assert not re.findall(r"\[(?:kN|N|kW|MPa|m|m/s)\]", prose.split("Inputs")[0])
@@ -277,7 +275,7 @@ def hostile(line):
 
 
 def test_hostile_names_are_text(hostile):
-    made = html.build(hostile)
+    made = html.build(hostile.contents())
     found = Page(made)
     assert found.faults == []
     assert "script" not in {tag for tag, _ in found.tags}
@@ -337,7 +335,7 @@ def test_comparison_holds_the_ranking(comparison, compared, tmp_path):
     prose = Page(compared).prose
     for _, row in comparison.ranking.iterrows():
         assert row["compound"] in prose
-        assert number("power [kW]", row["mean motor power [kW]"]) in prose
+        assert f"{row['mean motor power [kW]']:,.1f}" in prose
     path = comparison.to_html(tmp_path / "c.html", system="US")
     assert "[hp]" in path.read_text(encoding="utf-8")
 

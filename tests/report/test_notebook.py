@@ -13,7 +13,6 @@ import conveyor
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
 from conveyor.markup import escaped
 from conveyor.models import LoadCase, RubberCompound
-from conveyor.report.page import number
 from conveyor.rubber import PronySeries, fit_prony
 from conveyor.studies import studies
 from tests.report.reading import HOSTILE, Page
@@ -71,7 +70,7 @@ def test_results_in_a_notebook(result, comparison):
     for shown in (result._repr_html_(), comparison._repr_html_()):
         assert Page(shown).faults == []
         assert len(shown.encode()) < LARGEST_OF_A_NOTEBOOK
-    assert number("motor power [kW]", result.summary["motor power [kW]"]) in result._repr_html_()
+    assert f"{result.summary['motor power [kW]']:,.1f}" in result._repr_html_()
     assert comparison.base in comparison._repr_html_()
 
 
@@ -113,12 +112,12 @@ def test_analysis_in_the_units_of_its_report(result):
 
 def test_studies_in_a_notebook(asked):
     cases = safe(asked.cases._repr_html_())
-    assert number("power [kW]", asked.cases.governing[0].value / 1e3) in cases
+    assert f"{asked.cases.governing[0].value / 1e3:,.1f}" in cases
     assert "<b>full</b>" in cases
     assert "without an answer" in cases  # 100 fpm do not carry the flow
-    assert number("net [MWh]", asked.duty.summary["net [MWh]"]) in safe(asked.duty._repr_html_())
+    assert f"{asked.duty.summary['net [MWh]']:,.1f}" in safe(asked.duty._repr_html_())
     shown = safe(asked.uncertainty._repr_html_())
-    assert number("power [kW]", asked.uncertainty.band[0] / 1e3) in shown
+    assert f"{asked.uncertainty.band[0] / 1e3:,.1f}" in shown
     assert "roll drag" in shown
 
 

@@ -6,7 +6,6 @@ import openpyxl
 import pytest
 
 import conveyor
-from conveyor.report import case_tables, loop_tables
 from conveyor.studies import Studies, studies
 
 
@@ -47,13 +46,13 @@ def test_sheets_follow_the_spec(book, result, tmp_path):
 
 def test_figures_are_the_tables(book, result, asked):
     motors = column(book["Load cases"], "Load cases", "motor power [kW]")
-    assert motors == pytest.approx(case_tables.cases(asked.cases)["motor power [kW]"].tolist())
+    assert motors == pytest.approx(asked.cases.table["motor power [kW]"].tolist())
     energy = column(book["Duty"], "Hours at load, temperature and speed", "energy [MWh]")
-    assert energy == pytest.approx(case_tables.duty(asked.duty)["energy [MWh]"].tolist())
+    assert energy == pytest.approx(asked.duty.table["energy [MWh]"].tolist())
     swings = column(book["Uncertainty"], "Which input matters", "swing [kW]")
     assert swings == sorted(swings, reverse=True)
     forces = column(book["Loop"], "Drives in every state of motion", "force [N]")
-    assert forces == pytest.approx(loop_tables.drives(result.balance)["force [N]"].tolist())
+    assert forces == pytest.approx(result.tables["drives"].frame()["force [N]"].tolist())
 
 
 def test_yes_and_no_are_words(book):

@@ -10,10 +10,10 @@ import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
+from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
 from conveyor.report.checks import checks
-from conveyor.report.formats import number_format
 from conveyor.studies.comparison import compare_compounds
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
@@ -68,14 +68,14 @@ def by_row(header):
 
 def converted(si_name, us_name, value):
     """Return an SI figure in the unit of the US name; the words of both names are the same."""
-    unit, other = (UNIT.search(name)[1] if UNIT.search(name) else "" for name in (si_name, us_name))
+    sign, other = (UNIT.search(name)[1] if UNIT.search(name) else "" for name in (si_name, us_name))
     assert UNIT.sub("", si_name) == UNIT.sub("", us_name)
-    if (unit, other) == ("degC", "degF"):
+    if (sign, other) == ("degC", "degF"):
         return 1.8 * value + 32.0
-    if unit == other:
-        assert unit in SAME or not unit, si_name
+    if sign == other:
+        assert sign in SAME or not sign, si_name
         return value
-    return value * FACTORS[unit, other]
+    return value * FACTORS[sign, other]
 
 
 def test_us_figures_are_the_si_figures_converted(pair):
@@ -108,10 +108,10 @@ def test_axes_carry_the_units_of_their_columns(pair):
     def words(title):
         return "".join(run.t for p in title.tx.rich.p for run in (p.r or ()))
 
-    for book, unit in zip(pair, ("[N]", "[lbf]"), strict=True):
+    for book, sign in zip(pair, ("[N]", "[lbf]"), strict=True):
         chart = book["Tensions"]._charts[0]
-        assert words(chart.y_axis.title) == f"tension {unit}"
-        assert words(book["Summary"]._charts[0].y_axis.title) == f"force {unit}"
+        assert words(chart.y_axis.title) == f"tension {sign}"
+        assert words(book["Summary"]._charts[0].y_axis.title) == f"force {sign}"
 
 
 def test_columns_of_numbers_hold_numbers_only(pair):
@@ -257,22 +257,21 @@ def test_unknown_systems_are_refused(brakes, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("column", "shown"),
+    ("kind", "system", "shown"),
     [
-        ("tension [lbf]", "#,##0.0"),
-        ("highest line load [lbf/in]", "#,##0.0000"),
-        ("mean motor power [hp]", "#,##0.0"),
-        ("diameter [in]", "#,##0.00"),
-        ("half width [in]", "0.0000"),
-        ("time at reference [s]", "0.00E+00"),
-        ("time over the whole speed range [s]", "#,##0.0"),
-        ("cost per year [USD]", "#,##0"),
-        ("share of total [-]", "0.0%"),
-        ("compound", "General"),
+        ("force", "US", "#,##0.0"),
+        ("line force", "US", "#,##0.0000"),
+        ("size", "US", "#,##0.00"),
+        ("thickness", "US", "0.0000"),
+        ("time", "SI", "0.00E+00"),
+        ("duration", "SI", "#,##0.0"),
+        ("money USD", "US", "#,##0"),
+        ("share", "SI", "0.0%"),
+        ("text", "SI", "General"),
     ],
 )
-def test_formats(column, shown):
-    assert number_format(column) == shown
+def test_formats(kind, system, shown):
+    assert unit(kind, system).pattern == shown
 
 
 def test_comparison_in_us_units(tmp_path):

@@ -98,7 +98,7 @@ def test_all_outputs_of_a_command_or_none(tmp_path: Path) -> None:
 
 def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Analysis) -> None:
     figure = plots.master_curve(shelf.compound("s100"))
-    book, page = tmp_path / "r.xlsx", html.build(result).encode()
+    book, page = tmp_path / "r.xlsx", html.build(result.contents()).encode()
     assert mark(excel.files(result, book)[book]) == "report workbook"
     assert mark(page) == "report page"
     for ending in (".png", ".svg", ".pdf"):
@@ -120,9 +120,9 @@ def test_the_same_figure_has_the_same_bytes() -> None:
 
 
 def test_pages_made_in_threads_are_those_made_in_turn(result: conveyor.Analysis) -> None:
-    expected = html.build(result)
+    expected = html.build(result.contents())
     made: list[str] = []
-    threads = [threading.Thread(target=lambda: made.append(html.build(result))) for _ in range(4)]
+    threads = [threading.Thread(target=lambda: made.append(html.build(result.contents()))) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

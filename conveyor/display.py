@@ -1,0 +1,235 @@
+"""How reports write a number: the unit and the digits of every kind of quantity in every system, and nothing else.
+
+Values come in SI units; energies per mass and distance in kWh/(t km), paybacks in years, money in its currency.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from conveyor.errors import InputError
+from conveyor.units import System, quantity, si
+
+SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
+MONEY: Final = "money "
+"""Before a currency's code: a kind of its own."""
+_HUGE: Final = 1e12
+_SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
+_SPELLED: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
+
+
+class _Kind(NamedTuple):
+    """A kind in one system: the unit that heads a column and digits as Python writes them; both on axes."""
+
+    unit: str | None
+    digits: str
+    large: tuple[str, str] | None = None
+
+
+_SAME: Final = {
+    "text": _Kind(None, ""), "number": _Kind(None, ""), "verdict": _Kind(None, ""), "count": _Kind(None, ",.0f"),
+    "ratio": _Kind("-", ".2f"), "share": _Kind("-", ".1%"), "factor": _Kind("-", ".3f"), "friction": _Kind("-", ".4f"),
+    "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
+    "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
+    "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
+    "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
+}  # fmt: skip
+"""Kinds that every system writes alike."""
+_KINDS: Final[dict[System, dict[str, _Kind]]] = {
+    "SI": {
+        **_SAME,
+        "length": _Kind("m", ",.1f"), "spacing": _Kind("m", ".2f"), "size": _Kind("mm", ",.1f"),
+        "thickness": _Kind("mm", ",.3f"), "speed": _Kind("m/s", ".2f"), "acceleration": _Kind("m/s²", ".3f"),
+        "force": _Kind("N", ",.1f", ("kN", ",.2f")), "line force": _Kind("N/m", ",.2f"),
+        "strength": _Kind("N/mm", ",.1f"), "pressure": _Kind("MPa", ",.3f"), "mass": _Kind("kg", ",.0f"),
+        "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
+        "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
+    },
+    "US": {
+        **_SAME,
+        "length": _Kind("ft", ",.1f"), "spacing": _Kind("ft", ".2f"), "size": _Kind("in", ",.2f"),
+        "thickness": _Kind("in", ".4f"), "speed": _Kind("fpm", ",.1f"), "acceleration": _Kind("ft/s²", ".2f"),
+        "force": _Kind("lbf", ",.1f", ("lbf", ",.0f")), "line force": _Kind("lbf/in", ",.4f"),
+        "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
+        "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
+        "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
+    },
+}  # fmt: skip
+_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "a": 1.0}
+"""Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A kind of quantity in a system.
+
+    Attributes
+    ----------
+    label : str or None
+        Its unit as headers write it; None where the kind has none.
+    digits : str
+        How Python formats its numbers; empty for six significant digits.
+    size, zero : float
+        What one of it is in SI, and where it is zero.
+    exact : bool
+        Whether numbers are shown with all their digits, not rounded where a conversion is.
+    """
+
+    label: str | None
+    digits: str
+    size: float = 1.0
+    zero: float = 0.0
+    exact: bool = field(default=True, repr=False)
+
+    def __call__(self, values: ArrayLike) -> Any:
+        """Values in this unit, of SI values; for axes."""
+        given = np.asarray(values, dtype=float) - self.zero
+        scaled = given * (1.0 / self.size) if self.size < 1.0 else given / self.size
+        return scaled if self.zero == 0.0 else np.round(scaled, _DECIMALS)
+
+    def shown(self, value: Any) -> Any:
+        """One value in this unit; words, gaps and whole numbers as they are."""
+        if isinstance(value, np.generic):
+            value = value.item()
+        if not isinstance(value, float) or not math.isfinite(value):
+            return value
+        scaled = (
+            (value - self.zero) * (1.0 / self.size) if self.size < 1.0 else (value - self.zero) / self.size
+        )
+        if self.zero != 0.0:
+            return round(scaled, _DECIMALS) + 0.0  # a difference of like figures; no -0
+        return scaled if self.exact else float(f"{scaled:.{_SIGNIFICANT}g}")
+
+    def written(self, value: Any) -> str:
+        """One SI value as text, without its unit.
+
+        Examples
+        --------
+        >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("error").written(8e-7)
+        ('84,147.6', '46.8%', '8.0E-07')
+        """
+        number = self.shown(value)
+        if isinstance(number, bool):
+            return "yes" if number else "NO"
+        if isinstance(number, str):
+            return number
+        if number is None or math.isnan(number):
+            return ""
+        if math.isinf(number):
+            return "∞" if number > 0.0 else "-∞"
+        return f"{number:,}" if isinstance(number, int) else unsigned(f"{number:{self.digits or ',.6g'}}")
+
+    def said(self, value: Any) -> str:
+        """One SI value as text with its unit, for sentences.
+
+        Examples
+        --------
+        >>> unit("force", large=True).said(168734.4), unit("force", "US", large=True).said(168734.4)
+        ('168.73 kN', '37,933 lbf')
+        """
+        return f"{self.written(value)} {self.sign}".rstrip()
+
+    def brief(self, value: float | str) -> str:
+        """One SI value to four digits with its unit, for sentences; words as they are.
+
+        Examples
+        --------
+        >>> unit("speed").brief(5.0), unit("speed", "US").brief(5.08), unit("mass flow").brief(2000.0 / 3.6)
+        ('5 m/s', '1000 fpm', '2000 t/h')
+        """
+        number = self.shown(value)
+        if isinstance(number, str):
+            return number
+        written = f"{number:.4g}"
+        if "e" in written and 1.0 <= abs(number) < _HUGE:
+            written = f"{number:.0f}"
+        return f"{written} {self.sign}".rstrip()
+
+    def beside(self, words: str) -> str:
+        """Words with the unit in brackets, for an axis.
+
+        Examples
+        --------
+        >>> unit("force", large=True).beside("tension"), unit("friction").beside("tan δ")
+        ('tension [kN]', 'tan δ [-]')
+        """
+        return f"{words} [{self.sign or self.label}]"
+
+    @property
+    def sign(self) -> str:
+        """The unit as pages and sentences write it: degrees with their sign, none for ratios."""
+        return "" if self.label is None else _SPELLED.get(self.label, self.label)
+
+    @property
+    def pattern(self) -> str:
+        """How a spreadsheet formats its numbers.
+
+        Examples
+        --------
+        >>> unit("force").pattern, unit("error").pattern, unit("share").pattern, unit("text").pattern
+        ('#,##0.0', '0.0E+00', '0.0%', 'General')
+        """
+        if not self.digits:
+            return "General"
+        decimals = int(self.digits.strip(",.f%E"))
+        whole = "#,##0" if self.digits.startswith(",") else "0"
+        ending = {"%": "%", "E": "E+00"}.get(self.digits[-1], "")
+        return whole + ("." + "0" * decimals if decimals else "") + ending
+
+
+@cache
+def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
+    """Return how a kind is written in a system; `large`: as axes and sentences do, kN where tables have N.
+
+    Examples
+    --------
+    >>> unit("power").shown(897500.0), unit("temperature", "US").shown(293.15), unit("money EUR").label
+    (897.5, 68.0, 'EUR')
+    """
+    if kind.startswith(MONEY):
+        return Unit(kind.removeprefix(MONEY), ",.0f")
+    found = _KINDS[system][kind]
+    label, digits = found.large if large and found.large else (found.unit, found.digits)
+    exact = system == "SI" or _KINDS["SI"][kind].unit == label
+    if label is None or label in _SIZES:
+        return Unit(label, digits, _SIZES.get(label or "-", 1.0))
+    if kind == "temperature":
+        one = si(quantity("1 K")) if label == "degC" else 5.0 / 9.0
+        return Unit(label, digits, one, si(quantity(f"0 {label}", kind)), exact)
+    return Unit(label, digits, si(quantity(f"1 {label}")), exact=exact)
+
+
+def headed(label: str, kind: str, system: System = "SI") -> str:
+    """Return the name of a column or figure: its label and its unit, as every table has it.
+
+    Examples
+    --------
+    >>> headed("motor power", "power", "US"), headed("strand", "text"), headed("share", "share")
+    ('motor power [hp]', 'strand', 'share [-]')
+    """
+    sign = unit(kind, system).label
+    return label if sign is None else f"{label} [{sign}]"
+
+
+def unsigned(number: str) -> str:
+    """Zero has no sign."""
+    return number.removeprefix("-") if not number.strip("-0.,%") else number
+
+
+def chosen(own: System, system: System | None) -> System:
+    """Return the system a report is written in: the one asked for, else the spec's own.
+
+    Raises
+    ------
+    InputError
+        Not one of the systems.
+    """
+    if system is not None and system not in SYSTEMS:
+        raise InputError(f'system = "{system}": SI or US, or none for that of the spec (report.units)')
+    return system or own

@@ -1,0 +1,360 @@
+"""Columns, figures and tables of reports: what a number is and where it appears; their names with units are made here.
+
+Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.display`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain
+from typing import Any, Final
+
+import pandas as pd
+
+from conveyor.display import Unit, headed, unit
+from conveyor.models.report import Paper
+from conveyor.units import System
+
+OF_ROW: Final = "of row"
+"""Kind of a column whose values have the kind of their row's figure."""
+CHECKS_AND_NOTES: Final = "Checks and notes"
+"""The workbook's last sheet."""
+NAMED: Final = "named"
+"""Kind of the column that names the figure of each row, with its unit."""
+
+
+def slug(words: str) -> str:
+    """Return words as a stable name.
+
+    Examples
+    --------
+    >>> slug("stopping time, drives off"), slug("E' factor")
+    ('stopping_time_drives_off', 'e_factor')
+    """
+    return "_".join("".join(c if c.isalnum() else " " for c in words.lower()).split())
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Attributes
+    ----------
+    label : str
+        Words without unit.
+    kind : str
+        Of quantity, `OF_ROW` or `NAMED`.
+    get : callable
+        Of a row an SI value, words, or None where it is not known.
+    page : str or None
+        Which of its table's places on the page it stands in: all without a name; None: in none.
+    sheet : bool
+        Whether it stands in workbook, files and data frames.
+    json : str
+        Key in `to_dict`; left out there without.
+    total : bool
+        Whether the line of totals has its sum.
+    sparse : bool
+        Whether it is left out where no row has a value.
+    key : str
+        A stable name; without it made of the label.
+    """
+
+    label: str
+    kind: str
+    get: Callable[[Any], Any]
+    page: str | None = ""
+    sheet: bool = True
+    json: str = ""
+    total: bool = False
+    sparse: bool = False
+    key: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "key", self.key or slug(self.label))
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure with a name of its own, a row of a table of figures.
+
+    Attributes
+    ----------
+    label, kind : str
+        Words without unit, kind of quantity.
+    value : float, str, tuple or None
+        SI; several where the table has several columns of values; None where it is not known.
+    on : str
+        Where it is shown beside its table, words of: tile (page), large, cover, notebook.
+    json : str
+        Path in `to_dict`, with points; left out there without.
+    key : str
+        Name that others link to it by; without it made of the label.
+    """
+
+    label: str
+    kind: str
+    value: Any
+    on: str = ""
+    json: str = ""
+    key: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "key", self.key or slug(self.label))
+
+    def unit(self, system: System) -> Unit:
+        """How it is written."""
+        return unit(self.kind, system)
+
+
+@dataclass(frozen=True)
+class OnPage:
+    """A table's place on the page: part, caption, and the name of its columns there where not all stand in it."""
+
+    part: str
+    caption: str
+    view: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of a report.
+
+    Attributes
+    ----------
+    key : str
+        Its name: of the range in the workbook (``table_<key>``) and of its file.
+    sheet : str
+        Sheet it stands on; without, it is neither in the workbook nor a file.
+    heading : str
+        Words above it.
+    columns : tuple of Column
+        What stands in it.
+    rows : sequence
+        What columns get their values of.
+    page : tuple of OnPage
+        Where it stands on the page.
+    note : str
+        What to know of it.
+    foot : str
+        Words beside the totals; none without.
+    named : int
+        Leading columns that name the row.
+    links : bool
+        Whether its rows are figures that others link to.
+    """
+
+    key: str
+    sheet: str
+    heading: str
+    columns: tuple[Column, ...]
+    rows: Sequence[Any]
+    page: tuple[OnPage, ...] = ()
+    note: str = ""
+    foot: str = ""
+    named: int = 1
+    links: bool = False
+
+    def __post_init__(self) -> None:
+        kept = tuple(
+            c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows)
+        )
+        object.__setattr__(self, "columns", kept)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it has no rows."""
+        return not self.rows
+
+    @cached_property
+    def by_row(self) -> bool:
+        """Whether its rows are figures of kinds of their own."""
+        return any(column.kind == NAMED for column in self.columns)
+
+    @property
+    def figures(self) -> bool:
+        """Whether it lists figures, each with one value."""
+        return self.by_row and [c.kind for c in self.columns if c.page is not None] == [NAMED, OF_ROW]
+
+    def on_sheet(self) -> Table:
+        """The table as workbook, files and data frames hold it."""
+        return replace(self, columns=tuple(column for column in self.columns if column.sheet))
+
+    def on_page(self, place: OnPage) -> Table:
+        """The table as it stands in a place on the page."""
+        views = {"", place.view}
+        return replace(self, columns=tuple(c for c in self.columns if c.page is not None and c.page in views))
+
+    def only(self, *keys: str) -> Table:
+        """The table with these columns."""
+        return replace(self, columns=tuple(column for column in self.columns if column.key in keys))
+
+    def index(self, key: str) -> int:
+        """Place of a column, from 0."""
+        return [column.key for column in self.columns].index(key)
+
+    def name(self, column: Column, system: System) -> str:
+        """Name of a column with its unit."""
+        return column.label if column.kind in {OF_ROW, NAMED} else headed(column.label, column.kind, system)
+
+    def unit(self, column: Column, row: Any, system: System) -> Unit:
+        """How a cell is written."""
+        return unit(
+            row.kind if column.kind == OF_ROW else "text" if column.kind == NAMED else column.kind, system
+        )
+
+    def cells(self, column: Column, system: System) -> list[Any]:
+        """Values of a column in a system: numbers, words, None."""
+        if column.kind == NAMED:
+            return [headed(row.label, row.kind, system) for row in self.rows]
+        if column.kind == OF_ROW:
+            return [unit(row.kind, system).shown(column.get(row)) for row in self.rows]
+        written = unit(column.kind, system)
+        return [written.shown(column.get(row)) for row in self.rows]
+
+    def totals(self) -> tuple[Any, ...]:
+        """The line of totals, SI: words in the first column, sums where columns have them."""
+        sums = (
+            sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:]
+        )
+        return (self.foot, *sums)
+
+    def frame(self, system: System = "SI") -> pd.DataFrame:
+        """The table as a data frame, units in the names of its columns or rows."""
+        shown = [column for column in self.columns if column.sheet]
+        return pd.DataFrame({self.name(column, system): self.cells(column, system) for column in shown})
+
+    def series(self, name: str, system: System = "SI") -> pd.Series:
+        """Figures as a series, units in its index."""
+        names = [headed(row.label, row.kind, system) for row in self.rows]
+        return pd.Series(dict(zip(names, self.cells(self.columns[1], system), strict=True)), name=name)
+
+    def records(self) -> list[dict[str, Any]]:
+        """Rows as plain SI data under the names of the columns; figures beside their units."""
+        cells: dict[str, list[Any]] = {}
+        for column in self.columns:
+            if column.sheet:
+                named = column.kind == NAMED
+                cells[self.name(column, "SI")] = (
+                    [row.label for row in self.rows] if named else self.cells(column, "SI")
+                )
+            if column.kind == OF_ROW:
+                cells["unit"] = [row.unit("SI").label for row in self.rows]
+        return [{name: _known(values[i]) for name, values in cells.items()} for i in range(len(self.rows))]
+
+    def plain(self) -> list[dict[str, Any]]:
+        """Rows as plain SI data under the keys of `to_dict`."""
+        known = [(column.json, self.cells(column, "SI")) for column in self.columns if column.json]
+        return [{name: cells[i] for name, cells in known} for i in range(len(self.rows))]
+
+
+def _known(value: Any) -> Any:
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
+def figures(
+    key: str, sheet: str, heading: str, rows: Iterable[Figure], *, prefix: str | None = None, **more: Any
+) -> Table:
+    """Return a table of figures with one value each, those left out that are not known.
+
+    Others link to them where there is a prefix of their names.
+    """
+    columns = (
+        Column("quantity", NAMED, lambda row: row.label),
+        Column("value", OF_ROW, lambda row: row.value),
+    )
+    known = tuple(replace(row, key=f"{prefix or ''}{row.key}") for row in rows if row.value is not None)
+    return Table(key, sheet, heading, columns, known, links=prefix is not None, **more)
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure of the page: its name, its caption, what draws it, the table it stands above."""
+
+    name: str
+    caption: str
+    draw: Callable[[], Any]
+    above: str
+
+
+@dataclass(frozen=True)
+class Document:
+    """What a report is of.
+
+    Attributes
+    ----------
+    title, kind : str
+        Name of the conveyor, and what the report is.
+    said : mapping
+        What the spec says of the document: project, client, number, revision, engineer.
+    fingerprint : str
+        The spec's SHA-256.
+    paper : str
+        To print on.
+    own_speed : float
+        Of its belt [m/s].
+    facts : tuple of (str, str)
+        What stands below the title.
+    """
+
+    title: str
+    kind: str
+    said: dict[str, str]
+    fingerprint: str
+    paper: Paper
+    own_speed: float
+    facts: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def documented(self) -> str:
+        """What the spec says of the document, in one line."""
+        return ", ".join(f"{name}: {value}" for name, value in self.said.items())
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a report holds: its tables in their order, none of them empty, its drawings, the system they are in."""
+
+    document: Document
+    parts: tuple[Table, ...]
+    system: System
+    drawings: tuple[Drawing, ...] = ()
+
+    @cached_property
+    def by_key(self) -> dict[str, Table]:
+        """Tables by name."""
+        return {part.key: part for part in self.parts}
+
+    def __getitem__(self, key: str) -> Table:
+        return self.by_key[key]
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.by_key
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """Tables of the workbook, as it and files hold them."""
+        return tuple(part.on_sheet() for part in self.parts if part.sheet)
+
+    def of(self, sheet: str) -> tuple[str, ...]:
+        """Names of the tables of one sheet."""
+        return tuple(part.key for part in self.parts if part.sheet == sheet)
+
+    @property
+    def sheets(self) -> tuple[str, ...]:
+        """Sheets that hold a table, in order."""
+        return tuple(dict.fromkeys(part.sheet for part in self.parts if part.sheet))
+
+    def lines(self, kind: str) -> tuple[str, ...]:
+        """Remarks of a kind."""
+        return (
+            tuple(row.text for row in self["remarks"].rows if row.kind == kind) if "remarks" in self else ()
+        )
+
+    def marked(self, where: str) -> list[Figure]:
+        """Figures of all tables that are shown in a place, in their order."""
+        rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
+        return [row for row in rows if where in row.on.split()]

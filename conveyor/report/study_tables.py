@@ -1,0 +1,288 @@
+"""Every table of what a spec asks for beyond one analysis: its load cases, its year, its ranges; each declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from operator import attrgetter, itemgetter
+from typing import TYPE_CHECKING, Any
+
+from conveyor.display import MONEY
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.markup import Html, element, joined
+from conveyor.report import analysis_plots
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
+from conveyor.report.representations import folded, of_figures, of_table
+from conveyor.units import System
+
+if TYPE_CHECKING:
+    from conveyor.studies import Studies
+    from conveyor.studies.cases import CaseStudy
+    from conveyor.studies.duty import DutyStudy
+    from conveyor.studies.uncertainty import UncertaintyStudy
+
+_CASES, _DUTY, _UNCERTAINTY = "load-cases", "duty", "uncertainty"
+_TENSIONS = (
+    "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
+    "largest_roll_load", "governed_by", "at_roll",
+)  # fmt: skip
+_AT = (
+    Column("temperature", "temperature", attrgetter("temperature")),
+    Column("belt speed", "speed", attrgetter("speed"), key="speed"),
+)
+
+
+def of_studies(studies: Studies | None, system: System) -> tuple[list[Table], list[Drawing]]:
+    """Tables and drawings of what was studied."""
+    if studies is None:
+        return [], []
+    tables: list[Table] = []
+    drawn: list[Drawing] = []
+    if studies.cases is not None:
+        tables += _of_cases(studies.cases)
+        drawn += _case_drawings(studies.cases, system)
+    if studies.duty is not None:
+        tables += [year(studies.duty), duty(studies.duty)]
+    if studies.uncertainty is not None:
+        study = studies.uncertainty
+        tables += [band(study), sensitivity(study)]
+        caption = "Change of the motor power at both ends of every input's range."
+        draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
+        drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
+    return tables, drawn
+
+
+def _of_cases(study: CaseStudy) -> Iterator[Table]:
+    yield governing(study)
+    every = cases(study)
+    kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
+    page = (OnPage(_CASES, "Load cases"),)
+    yield replace(every.only(*kept), page=page)
+    tensions = every.only("case", "temperature", "speed", *_TENSIONS)
+    order = ("case", "temperature", "speed", *_TENSIONS)
+    columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
+    heading = "Tensions and roll loads of the cases"
+    yield replace(
+        tensions, key="case_tensions", heading=heading, columns=columns, page=(OnPage(_CASES, heading),)
+    )
+    if study.results:
+        yield motors(study)
+    yield refused(study)
+
+
+def cases(study: CaseStudy) -> Table:
+    """One row a case, speed and temperature."""
+    low, high = study.friction_band
+    columns = (
+        Column("case", "text", attrgetter("case")),
+        Column("loading", "text", attrgetter("loading"), page=None),
+        *_AT,
+        Column("mass flow", "mass flow", attrgetter("flow")),
+        Column("indentation", "force", attrgetter("indentation")),
+        Column("main resistance", "force", attrgetter("main"), page=None),
+        Column("effective tension", "force", attrgetter("effective")),
+        Column("motor power", "power", attrgetter("motor")),
+        Column(f"motor power, {low:g} x friction", "power", attrgetter("motor_low"), page=None),
+        Column(f"motor power, {high:g} x friction", "power", attrgetter("motor_high"), page=None),
+        Column("equivalent DIN f", "friction", attrgetter("friction_factor"), page=None),
+        Column("tight side tension", "force", attrgetter("tight"), page=None),
+        Column("slack side tension", "force", attrgetter("slack"), page=None),
+        Column("largest tension", "force", attrgetter("largest")),
+        Column("smallest tension", "force", attrgetter("smallest")),
+        Column("take-up tension asked for", "force", attrgetter("take_up")),
+        Column("governed by", "text", attrgetter("governed_by"), page=None),
+        Column("largest roll load", "force", attrgetter("largest_roll"), page=None),
+        Column("at roll", "text", attrgetter("largest_roll_at"), page=None),
+        Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), page=None),
+        Column("error estimate", "error", attrgetter("error"), page=None),
+    )  # fmt: skip
+    return Table("load_cases", "Load cases", "Load cases", columns, study.results)
+
+
+def governing(study: CaseStudy) -> Table:
+    """One row a figure: its value and the case that decides it."""
+    low, high = study.friction_band
+    columns = (
+        Column("figure", NAMED, attrgetter("label")),
+        Column("value", OF_ROW, lambda row: row.value.value),
+        Column("case", "text", lambda row: row.value.result.case),
+        *(replace(column, get=_of_result(column.get)) for column in _AT),
+    )
+    rows = tuple(
+        Figure(row.figure, row.kind, row, key=f"governing_{slug(row.figure)}") for row in study.governing
+    )
+    note = f"friction between {low:g} and {high:g} of the computed one, to the safe side"
+    page, heading = (OnPage(_CASES, "Governing cases"),), "Governing cases"
+    return Table("governing_cases", "Load cases", heading, columns, rows, page, note, links=True)
+
+
+def _of_result(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda row: get(row.value.result)
+
+
+def refused(study: CaseStudy) -> Table:
+    """Cases without an answer, and why."""
+    columns = (
+        Column("case", "text", attrgetter("case")),
+        *_AT,
+        Column("reason", "text", attrgetter("reason")),
+    )
+    heading = "Cases without an answer"
+    return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))
+
+
+def motors(study: CaseStudy) -> Table:
+    """One row a drive pulley: what it needs, and motors of the series."""
+    columns = (
+        Column("drive", "text", attrgetter("drive")),
+        Column("needed at the shaft", "power", attrgetter("needed")),
+        Column("reserve", "ratio", attrgetter("reserve")),
+        Column("motors", "count", attrgetter("count")),
+        Column("rated each", "power", attrgetter("rated")),
+        Column("installed", "power", lambda row: row.count * row.rated),
+        Column("governing case", "text", attrgetter("case")),
+    )
+    heading, page = "Motors of the series", (OnPage(_CASES, "Motors of the series"),)
+    return Table("motors", "Load cases", heading, columns, study.motors(), page)
+
+
+def _case_drawings(study: CaseStudy, system: System) -> Iterator[Drawing]:
+    if len({result.temperature for result in study.results}) > 1:
+        yield Drawing(
+            "case-temperature",
+            "Motor power of the load cases over temperature.",
+            lambda: analysis_plots.case_power_against_temperature(study, system=system),
+            "load_cases",
+        )
+    if len({result.speed for result in study.results}) > 1:
+        yield Drawing(
+            "case-speed",
+            "Motor power of the load cases over belt speed.",
+            lambda: analysis_plots.case_power_against_speed(study, system=system),
+            "load_cases",
+        )
+
+
+def duty(study: DutyStudy) -> Table:
+    """One row a bar of the year's histogram."""
+    columns = (
+        Column("hours", "life", lambda row: 3600.0 * row.hours),
+        Column("load share", "share", attrgetter("share")),
+        *_AT,
+        Column("mass flow", "mass flow", attrgetter("flow")),
+        Column("effective tension", "force", attrgetter("effective")),
+        Column("motor power", "power", attrgetter("shaft")),
+        Column("mains power", "power", attrgetter("mains")),
+        Column("energy", "energy", lambda row: row.energy * JOULE_PER_KWH),
+        Column("conveyed", "conveyed", attrgetter("mass")),
+    )
+    heading = "Hours at load, temperature and speed"
+    return Table("duty", "Duty", heading, columns, study.rows, (OnPage(_DUTY, heading),))
+
+
+def year(study: DutyStudy) -> Table:
+    """Sums of the year; those that need a price or a factor only where it is given."""
+    sums = study.year
+    rows = (
+        Figure("in operation", "life", sums.time),
+        Figure("conveyed", "conveyed", sums.mass),
+        Figure("drawn", "energy", sums.drawn_kwh * JOULE_PER_KWH),
+        Figure("fed back", "energy", sums.fed_back_kwh * JOULE_PER_KWH),
+        Figure("net", "energy", sums.net_kwh * JOULE_PER_KWH),
+        Figure("energy", "specific energy", study.energy_per_tonne_km),
+        Figure("cost", f"{MONEY}{study.currency or '-'}", study.cost),
+        Figure("carbon dioxide", "conveyed", study.emission),
+    )
+    note = f"Carbon dioxide: {study.emission_source}." if study.emission_source else ""
+    return figures(
+        "duty_year", "Duty", "The year", rows, page=(OnPage(_DUTY, "The year"),), note=note, prefix="year_"
+    )
+
+
+def sensitivity(study: UncertaintyStudy) -> Table:
+    """One row an input, the one that matters most first."""
+    columns = (
+        Column("input", "text", lambda row: row[0].name),
+        Column("low", "text", lambda row: row[0].low),
+        Column("as given", "text", lambda row: row[0].given),
+        Column("high", "text", lambda row: row[0].high),
+        Column("motor power at low", "power", lambda row: row[0].motor_low, page=None),
+        Column("motor power at high", "power", lambda row: row[0].motor_high, page=None),
+        Column("change at low", "power", lambda row: row[0].motor_low - study.motor),
+        Column("change at high", "power", lambda row: row[0].motor_high - study.motor),
+        Column("swing", "power", lambda row: row[0].swing, page=None),
+        Column("share of variance", "share", itemgetter(1)),
+    )
+    rows, heading = tuple(zip(study.effects, study.shares, strict=True)), "Which input matters"
+    page, note = (OnPage(_UNCERTAINTY, heading),), "; ".join(study.notes)
+    return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
+
+
+def band(study: UncertaintyStudy) -> Table:
+    """The power with its bands, one row a way to combine the inputs."""
+    columns = (
+        Column("combined by", "text", itemgetter(0)),
+        Column("motor power, low", "power", lambda row: row[1][0]),
+        Column("motor power", "power", lambda _: study.motor),
+        Column("motor power, high", "power", lambda row: row[1][1]),
+    )
+    rows = (("root of squares", study.band), ("Latin hypercube, first order", study.sampled))
+    page = (OnPage(_UNCERTAINTY, "Motor power with the band that holds nine tenths"),)
+    return Table("power_band", "Uncertainty", "Motor power with its band", columns, rows, page)
+
+
+def plain(studies: Studies) -> dict[str, Any]:
+    """Plain numbers for JSON, only of what there is; units in the keys."""
+    found: dict[str, Any] = {}
+    study = studies.cases
+    if study is not None:
+        found["load_cases"] = {
+            "conveyor": study.conveyor.name,
+            "friction_band": list(study.friction_band),
+            "cases": cases(study).records(),
+            "governing": governing(study).records(),
+            "motors": motors(study).records() if study.results else [],
+            "refused": refused(study).records(),
+        }
+    if studies.duty is not None:
+        found["duty"] = {
+            "conveyor": studies.duty.conveyor.name,
+            "year": year(studies.duty).series("").to_dict(),
+            "emission_source": studies.duty.emission_source,
+            "duty": duty(studies.duty).records(),
+        }
+    if studies.uncertainty is not None:
+        found["uncertainty"] = {
+            "conveyor": studies.uncertainty.conveyor.name,
+            "band": band(studies.uncertainty).records(),
+            "tornado": sensitivity(studies.uncertainty).records(),
+            "notes": list(studies.uncertainty.notes),
+        }
+    return found
+
+
+def notebook_of_cases(study: CaseStudy) -> Html:
+    """The cases that govern, and those without an answer."""
+    refusals = [f"{row.case}: {row.reason}" for row in study.refused]
+    caption = f"{study.conveyor.name}: load cases that govern"
+    shown = of_table(governing(study), caption, study.conveyor.report.units)
+    return joined([shown, folded("without an answer", refusals)])
+
+
+def notebook_of_duty(study: DutyStudy) -> Html:
+    """Sums of the year, the bars folded away."""
+    system = study.conveyor.report.units
+    bars = element("details", element("summary", "bars"), of_table(duty(study), "", system))
+    return joined([of_figures(year(study), f"{study.conveyor.name}: the year", system), bars])
+
+
+def notebook_of_uncertainty(study: UncertaintyStudy) -> Html:
+    """Bands of the motor power, and which input matters."""
+    system = study.conveyor.report.units
+    return joined(
+        [
+            of_table(band(study), f"{study.conveyor.name}: motor power", system),
+            of_table(sensitivity(study), "which input matters", system),
+            folded("notes", study.notes),
+        ]
+    )
