@@ -9,6 +9,7 @@ again until both agree.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -16,10 +17,10 @@ from typing import TypeAlias, TypeVar
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
-from conveyor.line.contacts import Contacts, solve_contacts
+from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import Cover, Covers, compounds_by_strand, covers_of, rubbers, softened_covers
 from conveyor.line.line import Line
-from conveyor.line.stretches import Pressing, Strand
+from conveyor.line.stretches import Pressing, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses
@@ -63,6 +64,37 @@ class Variant:
 
 
 @dataclass(frozen=True, eq=False)
+class StretchResult:
+    """A section of one strand: its rolls on their cover, and every force along it [N].
+
+    Attributes
+    ----------
+    stretch : Stretch
+        Geometry, masses, loads.
+    cover : Cover
+        What its rolls run on.
+    rolls : tuple of RollResult
+        Of one set, left to right.
+    forces : mapping
+        By their key, as in `Balance.along`.
+    main, unit_main : float
+        Main resistance, and that which DIN 22101 gives for f = 1.
+    """
+
+    stretch: Stretch
+    cover: Cover
+    rolls: tuple[RollResult, ...]
+    forces: Mapping[str, float]
+    main: float
+    unit_main: float
+
+    @property
+    def total(self) -> float:
+        """All forces along the stretch [N]."""
+        return math.fsum(self.forces.values())
+
+
+@dataclass(frozen=True, eq=False)
 class Calculation:
     """Everything calculated for one conveyor, SI.
 
@@ -76,6 +108,8 @@ class Calculation:
         Every roll on its load curve.
     balance : Balance
         Forces, tensions, power.
+    fixed : WithoutRubber
+        Forces that no rubber changes.
     convergence : Convergence or None
         How tensions and roll loads settled on vertical curves; None without curves.
     """
@@ -84,12 +118,29 @@ class Calculation:
     temperature: float
     contacts: Contacts
     balance: Balance
+    fixed: WithoutRubber
     convergence: Convergence | None = None
 
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
         return self.contacts.line
+
+    @cached_property
+    def stretches(self) -> tuple[StretchResult, ...]:
+        """Every section of both strands: carry strand from the tail, return strand from the head."""
+        along = {force.key: force for force in self.balance.along}
+        columns = [force.newtons.tolist() for force in along.values() if not isinstance(force.newtons, float)]
+        main = [key for key, force in along.items() if force.kind == "main"]
+        found = []
+        for stretch, rolls, unit_main, *newtons in zip(
+            self.line.stretches, self.contacts.rolls, self.fixed.unit_main.tolist(), *columns, strict=True
+        ):
+            forces = dict(zip(along, newtons, strict=True))
+            total = math.fsum(forces[key] for key in main)
+            cover = self.contacts.covers[stretch.strand]
+            found.append(StretchResult(stretch, cover, rolls, forces, total, unit_main))
+        return tuple(found)
 
     @cached_property
     def motions(self) -> Motions:
@@ -205,13 +256,13 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) 
     along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:
-        return Calculation(variant.conveyor, variant.covers_at, contacts, found)
+        return Calculation(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
     steady, judged = found.settled.steady, None
     if step.before is not None:
         before = step.before.settled.steady
         judged = converged(step.convergence, before, steady, loaded.line, found.tensions.largest)
         if judged.settled(loaded.line.rtol):
-            return Calculation(variant.conveyor, variant.covers_at, contacts, found, judged)
+            return Calculation(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed, judged)
     return _Step(pressing_masses(loaded.line, steady), found, judged)
 
 
