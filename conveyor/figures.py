@@ -9,6 +9,8 @@ from conveyor.units import System, display
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
+RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Digits of an exponent."""
 _WHOLE = re.compile(r"^-?\d{4,}")
 
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from conveyor.line.stretches import Strand
     from conveyor.loop.balance import Balance, Classical
     from conveyor.models import RubberCompound
-    from conveyor.studies.cases import CaseResult, CaseStudy
-    from conveyor.studies.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.uncertainty import CalculatedRanges
 
 _PARTS = ("indentation", "idler_rotation", "flexure")
 _SUMS = ("main", "secondary", "special", "lift", "total")
@@ -170,7 +170,7 @@ def rubber_at_work(
 
 
 def case_power_against_temperature(
-    study: CaseStudy, speed: float | None = None, *, system: System = "SI"
+    study: CalculatedCases, speed: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], the conveyor's highest without.
 
@@ -186,7 +186,7 @@ def case_power_against_temperature(
 
 
 def case_power_against_speed(
-    study: CaseStudy, temperature: float | None = None, *, system: System = "SI"
+    study: CalculatedCases, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Motor power [kW, hp] of every load case over belt speed at one temperature [K], the one of most speeds without.
 
@@ -202,7 +202,7 @@ def case_power_against_speed(
     return figure
 
 
-def _at(study: CaseStudy, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
+def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
     values = [getattr(result, name) for result in study.results]
     if not values:
         raise InputError("no load case has an answer: nothing to draw")
@@ -231,12 +231,12 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     return figure
 
 
-def _shaded(study: CaseStudy) -> str:
+def _shaded(study: CalculatedCases) -> str:
     low, high = study.friction_band
     return f"shaded: friction {low:g} to {high:g} of the computed one"
 
 
-def tornado(study: UncertaintyStudy, *, system: System = "SI") -> Figure:
+def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
     effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
     figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))

@@ -12,17 +12,17 @@ from conveyor.report.verdicts import Check, verdict
 from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.studies.cases import CaseResult, CaseStudy, Governing
+    from conveyor.studies.cases import CalculatedCases, CaseResult, Governing
 
 _CASES = "load cases"
 
 
-def case_checks(study: CaseStudy, system: System) -> Iterator[Check]:
+def case_checks(study: CalculatedCases, system: System) -> Iterator[Check]:
     """Check the load cases: answers, motors, take-up, slack belt, safety; the case that decides is named.
 
     Parameters
     ----------
-    study : CaseStudy
+    study : CalculatedCases
         Load cases with their results, at least one; friction between the ends of its band, to the safe side.
     system : {"SI", "US"}
         Units of what was found and asked for.
@@ -65,7 +65,7 @@ def _motors(deciding: dict[str, Governing], system: System) -> Iterator[Check]:
             yield Check(subject, found, asked, verdict(holds=abs(needed) <= drive.power))
 
 
-def _take_up(study: CaseStudy, most: Governing, system: System) -> Iterator[Check]:
+def _take_up(study: CalculatedCases, most: Governing, system: System) -> Iterator[Check]:
     held = most.result.balance.settled.loop.data.take_up.tension
     subject = f"{_CASES}: tension of the take-up ({_at(most.result, system)})"
     asked = f"at least {figure(most.value, 'force', system)}"
@@ -75,7 +75,7 @@ def _take_up(study: CaseStudy, most: Governing, system: System) -> Iterator[Chec
         yield Check(subject, "set anew in each case", asked, "not checked")
 
 
-def _belt(study: CaseStudy, system: System) -> Iterator[Check]:
+def _belt(study: CalculatedCases, system: System) -> Iterator[Check]:
     duties = [(belt_duty(study.conveyor, result.balance), result) for result in study.results]
     known = [(duty.safety_steady, duty, result) for duty, result in duties if duty.safety_steady is not None]
     if not known:

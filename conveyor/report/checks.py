@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from conveyor.figures import belt_strength, figure
+from conveyor.figures import RAISED, belt_strength, figure
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.walk import excited_band
 from conveyor.loop.starting import every_state
@@ -18,24 +18,25 @@ from conveyor.report.verdicts import Check, verdict
 from conveyor.units import System, is_quantity, si
 
 if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
+    from conveyor.calculation import Calculation
     from conveyor.line.stretches import Strand
     from conveyor.loop.belt_duty import BeltDuty, CurveCheck
     from conveyor.loop.starting import Motions
-    from conveyor.studies import Studies
+    from conveyor.studies import CalculatedStudies
 
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 
-def checks(analysis: Analysis, system: System = "SI", studies: Studies | None = None) -> tuple[Check, ...]:
+def checks(
+    analysis: Calculation, system: System = "SI", studies: CalculatedStudies | None = None
+) -> tuple[Check, ...]:
     """Check an analysis: drives, take-up, belt, pulleys, curves, start and stop, rolls, rubber; its load cases.
 
     Parameters
     ----------
-    analysis : Analysis
+    analysis : Calculation
         What to check.
-    studies : Studies, optional
+    studies : CalculatedStudies, optional
         Whose load cases are checked, too.
     system : {"SI", "US"}
         Units of what was found and asked for.
@@ -91,7 +92,7 @@ def _filling(conveyor: Conveyor, system: System) -> Iterator[Check]:
         )
 
 
-def _drives(analysis: Analysis, system: System) -> Iterator[Check]:
+def _drives(analysis: Calculation, system: System) -> Iterator[Check]:
     data = analysis.balance.settled.loop.data
     for drive, side in zip(data.drives, analysis.balance.settled.steady.drives, strict=True):
         power = data.motor(side.force)
@@ -106,7 +107,7 @@ def _drives(analysis: Analysis, system: System) -> Iterator[Check]:
             )
 
 
-def _take_up(analysis: Analysis, system: System) -> Iterator[Check]:
+def _take_up(analysis: Calculation, system: System) -> Iterator[Check]:
     settled = analysis.balance.settled
     found = figure(settled.setting, "force", system)
     governing, short = settled.condition_name(settled.governed_by), settled.short
@@ -242,7 +243,7 @@ def _bulk(moving: Motions, system: System) -> Iterator[Check]:
     )
 
 
-def _rolls(analysis: Analysis) -> Iterator[Check]:
+def _rolls(analysis: Calculation) -> Iterator[Check]:
     strands: tuple[Strand, ...] = ("carry", "return")
     for strand in strands:
         results = [r for r in analysis.stretches if r.stretch.strand == strand]
@@ -263,7 +264,7 @@ def _rolls(analysis: Analysis) -> Iterator[Check]:
                 yield Check(subject, found, "bearings of some rolls not given", "not checked")
 
 
-def _rubber(analysis: Analysis, system: System) -> Iterator[Check]:
+def _rubber(analysis: Calculation, system: System) -> Iterator[Check]:
     conveyor = analysis.conveyor
     at = si(conveyor.ambient.belt)
     strands: tuple[Strand, ...] = ("carry", "return")

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.studies.compared import Coverage, Scene
-    from conveyor.studies.comparison import Comparison
+    from conveyor.studies.comparison import CalculatedComparison
 
 _NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
 _one_at_a_time = Lock()
@@ -300,7 +300,7 @@ def loss_tangents(
 
 
 def compared_loss_tangents(
-    comparison: Comparison, temperature: float | None = None, *, system: System = "SI"
+    comparison: CalculatedComparison, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 

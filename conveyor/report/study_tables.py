@@ -16,10 +16,10 @@ from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.studies import Studies
-    from conveyor.studies.cases import CaseStudy
-    from conveyor.studies.duty import DutyStudy
-    from conveyor.studies.uncertainty import UncertaintyStudy
+    from conveyor.studies import CalculatedStudies
+    from conveyor.studies.cases import CalculatedCases
+    from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.uncertainty import CalculatedRanges
 
 _CASES, _DUTY, _UNCERTAINTY = "load-cases", "duty", "uncertainty"
 _TENSIONS = (
@@ -32,7 +32,7 @@ _AT = (
 )
 
 
-def of_studies(studies: Studies | None, system: System) -> tuple[list[Table], list[Drawing]]:
+def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
     """Tables and drawings of what was studied."""
     if studies is None:
         return [], []
@@ -52,7 +52,7 @@ def of_studies(studies: Studies | None, system: System) -> tuple[list[Table], li
     return tables, drawn
 
 
-def _of_cases(study: CaseStudy) -> Iterator[Table]:
+def _of_cases(study: CalculatedCases) -> Iterator[Table]:
     yield governing(study)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
@@ -70,7 +70,7 @@ def _of_cases(study: CaseStudy) -> Iterator[Table]:
     yield refused(study)
 
 
-def cases(study: CaseStudy) -> Table:
+def cases(study: CalculatedCases) -> Table:
     """One row a case, speed and temperature."""
     low, high = study.friction_band
     columns = (
@@ -99,7 +99,7 @@ def cases(study: CaseStudy) -> Table:
     return Table("load_cases", "Load cases", "Load cases", columns, study.results)
 
 
-def governing(study: CaseStudy) -> Table:
+def governing(study: CalculatedCases) -> Table:
     """One row a figure: its value and the case that decides it."""
     low, high = study.friction_band
     columns = (
@@ -120,7 +120,7 @@ def _of_result(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda row: get(row.value.result)
 
 
-def refused(study: CaseStudy) -> Table:
+def refused(study: CalculatedCases) -> Table:
     """Cases without an answer, and why."""
     columns = (
         Column("case", "text", attrgetter("case")),
@@ -131,7 +131,7 @@ def refused(study: CaseStudy) -> Table:
     return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))
 
 
-def motors(study: CaseStudy) -> Table:
+def motors(study: CalculatedCases) -> Table:
     """One row a drive pulley: what it needs, and motors of the series."""
     columns = (
         Column("drive", "text", attrgetter("drive")),
@@ -146,7 +146,7 @@ def motors(study: CaseStudy) -> Table:
     return Table("motors", "Load cases", heading, columns, study.motors(), page)
 
 
-def _case_drawings(study: CaseStudy, system: System) -> Iterator[Drawing]:
+def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
     if len({result.temperature for result in study.results}) > 1:
         yield Drawing(
             "case-temperature",
@@ -163,7 +163,7 @@ def _case_drawings(study: CaseStudy, system: System) -> Iterator[Drawing]:
         )
 
 
-def duty(study: DutyStudy) -> Table:
+def duty(study: CalculatedYear) -> Table:
     """One row a bar of the year's histogram."""
     columns = (
         Column("hours", "life", lambda row: 3600.0 * row.hours),
@@ -180,7 +180,7 @@ def duty(study: DutyStudy) -> Table:
     return Table("duty", "Duty", heading, columns, study.rows, (OnPage(_DUTY, heading),))
 
 
-def year(study: DutyStudy) -> Table:
+def year(study: CalculatedYear) -> Table:
     """Sums of the year; those that need a price or a factor only where it is given."""
     sums = study.year
     rows = (
@@ -199,7 +199,7 @@ def year(study: DutyStudy) -> Table:
     )
 
 
-def sensitivity(study: UncertaintyStudy) -> Table:
+def sensitivity(study: CalculatedRanges) -> Table:
     """One row an input, the one that matters most first."""
     columns = (
         Column("input", "text", lambda row: row[0].name),
@@ -218,7 +218,7 @@ def sensitivity(study: UncertaintyStudy) -> Table:
     return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
 
 
-def band(study: UncertaintyStudy) -> Table:
+def band(study: CalculatedRanges) -> Table:
     """The power with its bands, one row a way to combine the inputs."""
     columns = (
         Column("combined by", "text", itemgetter(0)),
@@ -231,7 +231,7 @@ def band(study: UncertaintyStudy) -> Table:
     return Table("power_band", "Uncertainty", "Motor power with its band", columns, rows, page)
 
 
-def plain(studies: Studies) -> dict[str, Any]:
+def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
     found: dict[str, Any] = {}
     study = studies.cases
@@ -261,7 +261,7 @@ def plain(studies: Studies) -> dict[str, Any]:
     return found
 
 
-def notebook_of_cases(study: CaseStudy) -> Html:
+def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
     caption = f"{study.conveyor.name}: load cases that govern"
@@ -269,14 +269,14 @@ def notebook_of_cases(study: CaseStudy) -> Html:
     return joined([shown, folded("without an answer", refusals)])
 
 
-def notebook_of_duty(study: DutyStudy) -> Html:
+def notebook_of_duty(study: CalculatedYear) -> Html:
     """Sums of the year, the bars folded away."""
     system = study.conveyor.report.units
     bars = element("details", element("summary", "bars"), of_table(duty(study), "", system))
     return joined([of_figures(year(study), f"{study.conveyor.name}: the year", system), bars])
 
 
-def notebook_of_uncertainty(study: UncertaintyStudy) -> Html:
+def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
     """Bands of the motor power, and which input matters."""
     system = study.conveyor.report.units
     return joined(

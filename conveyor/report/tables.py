@@ -46,8 +46,8 @@ from conveyor.spec import fingerprint
 from conveyor.units import System, si, text
 
 if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
+    from conveyor.calculation import Calculation
+    from conveyor.studies import CalculatedStudies
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -56,7 +56,7 @@ _HOUR: Final = 3600.0
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def of_analysis(analysis: Analysis, studies: Studies | None = None) -> Contents:
+def of_analysis(analysis: Calculation, studies: CalculatedStudies | None = None) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system = analysis.conveyor.report.units
     studied, drawn = of_studies(studies, system)
@@ -137,7 +137,7 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: Analysis) -> Table:
+def results(a: Calculation) -> Table:
     """Figures of the whole conveyor."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
@@ -203,7 +203,7 @@ def inputs(conveyor: Conveyor) -> Table:
     return Table("inputs", "Inputs", "Inputs as entered and in SI", columns, entered(conveyor), page)
 
 
-def sections(a: Analysis) -> Table:
+def sections(a: Calculation) -> Table:
     """One row a stretch: geometry, masses, forces; both strands, in running direction."""
     columns = (
         Column("section", "text", attrgetter("stretch.section"), json="section"),
@@ -237,7 +237,7 @@ def _set_life(r: StretchResult) -> float | None:
     return life.hours * _HOUR if life is not None and life.whole else None
 
 
-def resistances(a: Analysis) -> Table:
+def resistances(a: Calculation) -> Table:
     """Every newton and the law it comes from; the rows add up to the effective tension."""
     by_law = a.stretches[0].stretch.span_flexure is not None
     flexure = "calculation.flexure, laws" if by_law else "share of the main resistance, flagged default"
@@ -276,7 +276,7 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole else math.nan
 
 
-def breakdown(a: Analysis) -> Table:
+def breakdown(a: Calculation) -> Table:
     """Sums of the forces by what they are, and their share."""
     forces = a.balance.forces
     columns = (
@@ -288,7 +288,7 @@ def breakdown(a: Analysis) -> Table:
     return Table("breakdown", "Resistances", heading, columns, tuple(asdict(forces)))
 
 
-def classical(a: Analysis) -> Table:
+def classical(a: Calculation) -> Table:
     """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
     found, forces = a.balance, a.balance.forces
     estimates = [("classical, given f", found.classical), ("CEMA classic, given Ky", found.cema)]
@@ -321,7 +321,7 @@ def _nth(i: int) -> Getter:
     return lambda figure: figure.value[i]
 
 
-def rolls(a: Analysis) -> Table:
+def rolls(a: Calculation) -> Table:
     """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
     columns = (
         Column("section", "text", lambda row: row[0].stretch.section),
@@ -355,7 +355,7 @@ def rolls(a: Analysis) -> Table:
     return Table("rolls", "Rolls", "Rolls of a set, contact at the highest line load", columns, rows)
 
 
-def highest_rolls(a: Analysis) -> Table:
+def highest_rolls(a: Calculation) -> Table:
     """The highest loaded roll of every section; on the page only."""
     every = rolls(a)
     by_stretch: dict[tuple[str, str], list[Any]] = {}
@@ -368,7 +368,7 @@ def highest_rolls(a: Analysis) -> Table:
     return Table("highest_rolls", "", caption, every.columns, highest, page, note)
 
 
-def tensions(a: Analysis) -> Table:
+def tensions(a: Calculation) -> Table:
     """Tension round the loop in steady running, from the drive back to it."""
     columns = (
         Column("place", "text", attrgetter("place")),
@@ -380,7 +380,7 @@ def tensions(a: Analysis) -> Table:
     return Table("tensions", "Tensions", heading, columns, a.balance.points)
 
 
-def profile(a: Analysis) -> Table:
+def profile(a: Calculation) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
     sections = a.conveyor.route.sections
     along = accumulate((si(section.length) for section in sections), initial=0.0)
@@ -404,7 +404,7 @@ def boundaries(conveyor: Conveyor) -> list[tuple[float, float]]:
     return found
 
 
-def section_ends(a: Analysis) -> Table:
+def section_ends(a: Calculation) -> Table:
     """One row a stretch: steady running and the state of the highest tension; on the page only."""
     settled = a.balance.settled
     geometry = settled.loop.geometry
@@ -427,7 +427,7 @@ def _of(values: Any) -> Getter:
     return lambda i: float(values[i])
 
 
-def tension_states(a: Analysis) -> Table:
+def tension_states(a: Calculation) -> Table:
     """Tension at both ends of every stretch in every state, in loop order from the head."""
     settled = a.balance.settled
     geometry = settled.loop.geometry
@@ -450,7 +450,7 @@ def _of_end(state: Any) -> Getter:
     return lambda at: float((state.starts, state.ends)[at[1]][at[0]])
 
 
-def drives(a: Analysis) -> Table:
+def drives(a: Calculation) -> Table:
     """One row a drive and state: force, power, tensions before and behind, grip used."""
     data, states = a.balance.settled.loop.data, a.balance.settled.states
     columns = (
@@ -476,7 +476,7 @@ def drives(a: Analysis) -> Table:
     )
 
 
-def take_up(a: Analysis) -> Table:
+def take_up(a: Calculation) -> Table:
     """Setting of the take-up, what asks for it, its mass or pull."""
     settled = a.balance.settled
     data, geometry = settled.loop.data, settled.loop.geometry
@@ -497,7 +497,7 @@ def take_up(a: Analysis) -> Table:
     return figures("take_up", "Loop", "Take-up", rows, page=page, note=note, prefix="take_up_")
 
 
-def conditions(a: Analysis) -> Table:
+def conditions(a: Calculation) -> Table:
     """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
     settled = a.balance.settled
     columns = (
@@ -512,7 +512,7 @@ def conditions(a: Analysis) -> Table:
     return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
 
 
-def start_stop(a: Analysis) -> Table:
+def start_stop(a: Calculation) -> Table:
     """Start, stop, brakes and the limits of the bulk."""
     moving = a.motions
     start, slip = moving.start, moving.slip
@@ -549,7 +549,7 @@ def start_stop(a: Analysis) -> Table:
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
 
 
-def belt_strength_table(a: Analysis) -> Table:
+def belt_strength_table(a: Calculation) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
@@ -565,7 +565,7 @@ def belt_strength_table(a: Analysis) -> Table:
     return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
 
 
-def pulleys(a: Analysis) -> Table:
+def pulleys(a: Calculation) -> Table:
     """One row a pulley: its diameter beside the least one."""
     columns = (
         Column("pulley", "text", attrgetter("name")),
@@ -581,7 +581,7 @@ def pulleys(a: Analysis) -> Table:
     )
 
 
-def vertical_curves(a: Analysis) -> Table:
+def vertical_curves(a: Calculation) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones."""
     columns = (
         Column("section", "text", attrgetter("section")),
@@ -598,7 +598,7 @@ def vertical_curves(a: Analysis) -> Table:
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
 
 
-def convergence(a: Analysis) -> Table:
+def convergence(a: Calculation) -> Table:
     """How tensions and roll loads settled on the curves; empty without curves."""
     found = a.convergence
     rows = () if found is None else (
@@ -611,12 +611,12 @@ def convergence(a: Analysis) -> Table:
     return figures("convergence", "Loop", heading, rows, page=(OnPage("belt", f"{heading} on the curves"),))
 
 
-def _contacts(a: Analysis) -> dict[Any, Any]:
+def _contacts(a: Calculation) -> dict[Any, Any]:
     """Every distinct load curve and the last stretch that runs on it."""
     return {roll.curve: r for r in a.stretches for roll in r.rolls}
 
 
-def contact_solutions(a: Analysis) -> Table:
+def contact_solutions(a: Calculation) -> Table:
     """One row a distinct contact: its range of loads, what the curve cost, its errors."""
     columns = (
         Column("strand", "text", lambda row: row[1].stretch.strand),
@@ -640,7 +640,7 @@ def contact_solutions(a: Analysis) -> Table:
     return Table("contact_solutions", "Indentation", heading, columns, rows, page)
 
 
-def indentation(a: Analysis) -> Table:
+def indentation(a: Calculation) -> Table:
     """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
     seen: dict[Any, str] = {}
     for r in a.stretches:
@@ -665,7 +665,7 @@ def indentation(a: Analysis) -> Table:
     return Table("indentation", "Indentation", heading, declared, tuple(rows))
 
 
-def rubber(a: Analysis) -> Table:
+def rubber(a: Calculation) -> Table:
     """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
     conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
     rows = []
@@ -717,7 +717,7 @@ def _strands(conveyor: Conveyor) -> dict[Any, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def compounds(a: Analysis, system: System) -> Iterator[Table]:
+def compounds(a: Calculation, system: System) -> Iterator[Table]:
     """What is known of the rubber of each strand, its relaxation spectrum, its moduli."""
     at, seen = si(a.conveyor.ambient.belt), set()
     for strand, compound in _strands(a.conveyor).items():
@@ -782,7 +782,7 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
     return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows)
 
 
-def checked(a: Analysis, studies: Studies | None, system: System) -> Table:
+def checked(a: Calculation, studies: CalculatedStudies | None, system: System) -> Table:
     """What was checked: what was found, what is asked for, pass or fail."""
     columns = (
         Column("check", "text", attrgetter("subject")),
@@ -805,7 +805,7 @@ class Remark(tuple[str, str]):
     text = property(itemgetter(1))
 
 
-def remarks(a: Analysis) -> Table:
+def remarks(a: Calculation) -> Table:
     """Warnings, assumptions, and the notes of the spec."""
     columns = (
         Column("kind", "text", attrgetter("kind")),
@@ -833,7 +833,7 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
+def drawings(a: Calculation, system: System) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
     conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
     yield Drawing(
@@ -873,7 +873,7 @@ def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
         )
 
 
-def plain(a: Analysis) -> dict[str, Any]:
+def plain(a: Calculation) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key."""
     found = a.balance
     power, settled, even = found.power, found.settled, not a.conveyor.duty

@@ -24,8 +24,6 @@ from conveyor.studies.variants import with_case, with_temperature
 from conveyor.units import display, si
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from conveyor.loop.balance import Balance
 
 MOTOR_RESERVE: Final = 1.1
@@ -136,7 +134,7 @@ class MotorChoice:
 
 
 @dataclass(frozen=True, eq=False)
-class CaseStudy:
+class CalculatedCases:
     """All load cases of a conveyor.
 
     Attributes
@@ -162,18 +160,6 @@ class CaseStudy:
         """For every figure of the design the case that decides it."""
         return governing(self.results)
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a case, temperature and speed; units in the names."""
-        from conveyor.report.study_tables import cases
-
-        return cases(self).frame()
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_cases
-
-        return notebook_of_cases(self)
-
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
 
@@ -197,7 +183,7 @@ def analyse_cases(
     friction_band: tuple[float, float] | None = None,
     rtol: float | None = None,
     progress: Progress | None = None,
-) -> CaseStudy:
+) -> CalculatedCases:
     """Calculate load cases, all contacts side by side.
 
     Parameters
@@ -216,7 +202,7 @@ def analyse_cases(
 
     Returns
     -------
-    CaseStudy
+    CalculatedCases
         One result a case, speed and temperature; governing cases; motors.
 
     Raises
@@ -248,7 +234,7 @@ def analyse_cases(
         else:
             at = si(variant.ambient.belt), si(variant.belt.speed)
             refused.append(CaseRefusal(case.name, *at, str(done)))
-    return CaseStudy(conveyor, chosen, band, tuple(results), tuple(refused))
+    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused))
 
 
 def _variants(

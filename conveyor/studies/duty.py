@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
@@ -16,9 +14,6 @@ from conveyor.studies.cases import mains_power, shaft_power
 from conveyor.studies.scenes import Progress, Scene, runs
 from conveyor.studies.variants import with_case, with_temperature
 from conveyor.units import quantity, si, text
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -67,7 +62,7 @@ class DutyRow:
 
 
 @dataclass(frozen=True, eq=False)
-class DutyStudy:
+class CalculatedYear:
     """A year of a conveyor.
 
     Attributes
@@ -99,29 +94,10 @@ class DutyStudy:
     emission_source: str | None
     energy_per_tonne_km: float | None
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a bar; units in the names."""
-        from conveyor.report.study_tables import duty
-
-        return duty(self).frame()
-
-    @cached_property
-    def summary(self) -> pd.Series:
-        """Sums of the year; units in the names."""
-        from conveyor.report.study_tables import year
-
-        return year(self).series("year")
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_duty
-
-        return notebook_of_duty(self)
-
 
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
-) -> DutyStudy:
+) -> CalculatedYear:
     """Calculate every bar of a conveyor's duty and sum up the year.
 
     Parameters
@@ -135,7 +111,7 @@ def analyse_duty(
 
     Returns
     -------
-    DutyStudy
+    CalculatedYear
         Bars, energy, cost, carbon dioxide.
 
     Raises
@@ -165,7 +141,7 @@ def analyse_duty(
     year = duty_sums([row.step for row in rows])
     price = operation.price
     factor, saved = operation.emission, operation.feed_in_emission
-    return DutyStudy(
+    return CalculatedYear(
         conveyor=conveyor,
         rows=tuple(rows),
         year=year,

@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Final
+from functools import partial
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +27,6 @@ from conveyor.studies.cases import shaft_power
 from conveyor.studies.scenes import NoAnswer, Progress, Scene, runs
 from conveyor.studies.variants import scaled, with_temperature
 from conveyor.units import Quantity, display, from_si, si, text
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Array = NDArray[np.float64]
 
@@ -69,7 +66,7 @@ class Effect:
 
 
 @dataclass(frozen=True, eq=False)
-class UncertaintyStudy:
+class CalculatedRanges:
     """The power with its band, and which input matters.
 
     Attributes
@@ -100,18 +97,6 @@ class UncertaintyStudy:
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """The tornado: one row an input, the largest swing first; units in the names."""
-        from conveyor.report.study_tables import sensitivity
-
-        return sensitivity(self).frame()
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_uncertainty
-
-        return notebook_of_uncertainty(self)
-
 
 @dataclass(frozen=True)
 class _Variation:
@@ -134,7 +119,7 @@ def study(
     samples: int = SAMPLES,
     seed: int = 0,
     progress: Progress | None = None,
-) -> UncertaintyStudy:
+) -> CalculatedRanges:
     """Calculate a conveyor at both ends of every uncertain input.
 
     Parameters
@@ -154,7 +139,7 @@ def study(
 
     Returns
     -------
-    UncertaintyStudy
+    CalculatedRanges
         Tornado and bands.
 
     Raises
@@ -190,7 +175,7 @@ def study(
         low, high = _ends(mine) if variation.replicas else (mine[0], mine[1])
         effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
     effects.sort(key=lambda effect: -effect.swing)
-    return UncertaintyStudy(
+    return CalculatedRanges(
         conveyor=conveyor,
         motor=motor,
         effects=tuple(effects),

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor.analysis import CaseStudy, Studies, analyse_cases
 from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.report import study_tables
-from conveyor.studies import Studies
-from conveyor.studies.cases import CaseStudy, analyse_cases, mains_power, shaft_power
+from conveyor.studies.cases import mains_power, shaft_power
 from conveyor.studies.scenes import Scene, runs
 from conveyor.studies.variants import with_case, with_temperature
 from conveyor.units import quantity, si

@@ -11,11 +11,11 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.analysis import analyse_duty, compare_compounds
 from conveyor.errors import InputError
 from conveyor.models import RubberCompound
 from conveyor.report import comparing, plots
-from conveyor.studies.comparison import RTOL, compare_compounds, with_compound
-from conveyor.studies.duty import analyse_duty
+from conveyor.studies.comparison import RTOL, with_compound
 from conveyor.units import quantity, si
 
 SPEC = "examples/specs/overland.yaml"

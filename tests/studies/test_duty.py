@@ -8,12 +8,11 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.analysis import Studies, analyse_duty
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
 from conveyor.report import comparing
-from conveyor.studies import Studies
-from conveyor.studies.duty import analyse_duty
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

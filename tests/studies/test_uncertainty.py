@@ -12,11 +12,12 @@ from scipy.special import ndtri
 
 import conveyor
 from conveyor import shelf
+from conveyor.analysis import Studies
+from conveyor.analysis import study_ranges as study
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.report import study_tables
-from conveyor.studies import Studies
-from conveyor.studies.uncertainty import COVERED, SAMPLES, Effect, hypercube_band, root_of_squares, study
+from conveyor.studies.uncertainty import COVERED, SAMPLES, Effect, hypercube_band, root_of_squares
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -23,9 +23,9 @@ from conveyor.units import Quantity, System, quantity, si
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
+    from conveyor.calculation import Calculation
+    from conveyor.studies import CalculatedStudies
+    from conveyor.studies.comparison import CalculatedComparison
 
 _WARMER: Final = tuple(range(-40, 41, 5))  # than the spec's belt [K]
 _FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # than the spec's belt, times
@@ -44,7 +44,7 @@ class AnalysisPlots:
     >>> result.plots.tensions(system="US").savefig("tensions.png")  # doctest: +SKIP
     """
 
-    analysis: Analysis
+    analysis: Calculation
 
     def resistances(self, *, system: System | None = None) -> Figure:
         """Every kind of resistance, the classical estimates beside their sums."""
@@ -120,7 +120,9 @@ class AnalysisPlots:
         found = _varied(conveyor, [conveyor.ambient.belt], given)
         return plots.power_against_speed(found, system=self._in(system))
 
-    def every(self, studies: Studies | None = None, *, system: System | None = None) -> dict[str, Figure]:
+    def every(
+        self, studies: CalculatedStudies | None = None, *, system: System | None = None
+    ) -> dict[str, Figure]:
         """All of these by name, and those of the studies where they are given."""
         conveyor = self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
@@ -160,7 +162,7 @@ def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quant
     return _Alone(conveyor, (compound,), tuple(found.scenes), tuple(found.coverage))
 
 
-def _of_studies(studies: Studies, system: System) -> Iterator[tuple[str, Figure]]:
+def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
     cases = studies.cases
     if cases is not None and len({result.temperature for result in cases.results}) > 1:
         yield "cases-temperature", analysis_plots.case_power_against_temperature(cases, system=system)
@@ -174,7 +176,7 @@ def _of_studies(studies: Studies, system: System) -> Iterator[tuple[str, Figure]
 class ComparisonPlots:
     """Figures of a comparison; `system` is SI or US, that of the spec's report without it."""
 
-    comparison: Comparison
+    comparison: CalculatedComparison
 
     def power_against_temperature(
         self, speed: float | None = None, *, system: System | None = None
