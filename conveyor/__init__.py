@@ -12,34 +12,41 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from conveyor.analysis import Analysis, analyse
+    from conveyor.analysis import (
+        Analysis,
+        CaseStudy,
+        Comparison,
+        DutyStudy,
+        analyse,
+        analyse_cases,
+        analyse_duty,
+        compare,
+        compare_compounds,
+    )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
-    from conveyor.studies.cases import CaseStudy, analyse_cases
-    from conveyor.studies.comparison import Comparison, compare, compare_compounds
-    from conveyor.studies.duty import DutyStudy, analyse_duty
 
     __version__: str
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
-    "CaseStudy": "conveyor.studies.cases",
-    "Comparison": "conveyor.studies.comparison",
+    "CaseStudy": "conveyor.analysis",
+    "Comparison": "conveyor.analysis",
     "Conveyor": "conveyor.models",
     "ConveyorError": "conveyor.errors",
-    "DutyStudy": "conveyor.studies.duty",
+    "DutyStudy": "conveyor.analysis",
     "InputError": "conveyor.errors",
     "NoSolutionError": "conveyor.errors",
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
     "analyse": "conveyor.analysis",
-    "analyse_cases": "conveyor.studies.cases",
-    "analyse_duty": "conveyor.studies.duty",
-    "compare": "conveyor.studies.comparison",
-    "compare_compounds": "conveyor.studies.comparison",
+    "analyse_cases": "conveyor.analysis",
+    "analyse_duty": "conveyor.analysis",
+    "compare": "conveyor.analysis",
+    "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
 }
 
@@ -69,10 +76,9 @@ __all__ = [
 _MODULES = {
     **{
         name: f"conveyor.{name}"
-        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")
+        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "uncertainty", "units")
     },
     "libraries": "conveyor.files.libraries",
-    "uncertainty": "conveyor.studies.uncertainty",
 }
 
 

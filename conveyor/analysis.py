@@ -1,90 +1,78 @@
-"""From a conveyor to its forces, tensions and power: the whole calculation in one call."""
+"""Results for people: tables, reports, figures and notebooks of all that is calculated; nothing below imports this.
+
+The functions calculate as those of `conveyor.calculation` and `conveyor.studies` do, and return what they do with
+these faces.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
+from conveyor import studies as study
+from conveyor.checks import Check, checks
 from conveyor.display import chosen
-from conveyor.errors import InputError
-from conveyor.line.walk import StretchResult, worst_error
-from conveyor.loop.balance import Balance
-from conveyor.loop.belt_duty import BeltDuty, belt_duty
-from conveyor.loop.curved import Convergence, run
-from conveyor.loop.starting import Motions, motions
-from conveyor.models import Conveyor
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.pipeline import Calculation, calculate
 from conveyor.remarks import assumptions, warnings
+from conveyor.studies import cases as case_study
+from conveyor.studies import comparison as compound_study
+from conveyor.studies import duty as duty_study
+from conveyor.studies import uncertainty as range_study
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from conveyor.drawing import AnalysisPlots, ComparisonPlots
     from conveyor.report.columns import Contents, Table
     from conveyor.report.files import FileKind
-    from conveyor.studies import Studies
-    from conveyor.studies.drawing import AnalysisPlots
     from conveyor.units import System
 
-
-def analyse(conveyor: Conveyor) -> Analysis:
-    """Calculate a conveyor.
-
-    Parameters
-    ----------
-    conveyor : Conveyor
-        From `conveyor.load` or built in Python.
-
-    Returns
-    -------
-    Analysis
-        Forces, tensions, power, per section and per roll, with assumptions and warnings.
-
-    Raises
-    ------
-    InputError
-        Something else than a Conveyor.
-    NoSolutionError
-        A roll's contact has no answer, or the tensions do not settle.
-    RangeError
-        A compound is not known at the belt's temperature.
-    """
-    if not isinstance(conveyor, Conveyor):
-        raise InputError(
-            f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
-        )
-    done = run(conveyor)
-    stretches, found = done.stretches, done.balance
-    remarks = warnings(conveyor, stretches, found)
-    return Analysis(conveyor, stretches, found, assumptions(conveyor), remarks, done.convergence)
+Given = ParamSpec("Given")
+Face = TypeVar("Face")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Analysis:
-    """Everything calculated for one conveyor.
+class Analysis(Calculation):
+    """Everything calculated for one conveyor, with tables, reports and figures.
 
-    Attributes
-    ----------
-    conveyor : Conveyor
-        What was calculated.
-    stretches : tuple of StretchResult
-        Forces of every section of both strands, SI.
-    balance : Balance
-        Forces, tensions, power of the whole, SI.
-    assumptions, warnings : tuple of str
-        What every figure rests on, and where that is strained.
-    convergence : Convergence or None
-        How tensions and roll loads settled on vertical curves; None without curves.
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.analyse(conveyor.load("examples/specs/overland.yaml")).in_units("US").conveyor.report.units
+    'US'
     """
 
-    conveyor: Conveyor
-    stretches: tuple[StretchResult, ...]
-    balance: Balance
-    assumptions: tuple[str, ...]
-    warnings: tuple[str, ...]
-    convergence: Convergence | None = None
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Every criterion, and how it stands."""
+        return checks(self)
 
-    def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What every figure rests on."""
+        return assumptions(self.conveyor)
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """Where an assumption is strained or a criterion is not met, in the units of the spec's report."""
+        return tuple(said.text(self.conveyor.report.units) for said in warnings(self, self.checks))
+
+    def in_units(self, system: System | None) -> Self:
+        """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
+
+        Tables (`summary`, `sections` …) stay SI; `to_tables(system=)` and the reports convert them.
+        """
+        if system is None or system == self.conveyor.report.units:
+            return self
+        report = self.conveyor.report.replace(units=system)
+        return replace(self, conveyor=self.conveyor.replace(report=report))
+
+    def contents(
+        self, studies: study.CalculatedStudies | None = None, *, system: System | None = None
+    ) -> Contents:
         """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
         from conveyor.report.tables import of_analysis
 
@@ -120,38 +108,6 @@ class Analysis:
         """One row a strand: compound, excited band against its data, working strain; units in the names."""
         return self.tables["rubber"].frame()
 
-    @cached_property
-    def motions(self) -> Motions:
-        """Start, coasting, braking, holding; limits of the bulk."""
-        return motions(self.conveyor, self.stretches, self.balance)
-
-    @cached_property
-    def belt_duty(self) -> BeltDuty:
-        """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
-        return belt_duty(self.conveyor, self.balance)
-
-    def in_units(self, system: System | None) -> Analysis:
-        """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
-
-        Tables (`summary`, `sections` …) stay SI; `to_tables(system=)` and the reports convert them.
-
-        Examples
-        --------
-        >>> import conveyor
-        >>> result = conveyor.analyse(conveyor.load("examples/specs/overland.yaml"))
-        >>> result.in_units("US").conveyor.report.units
-        'US'
-        """
-        if system is None or system == self.conveyor.report.units:
-            return self
-        conveyor = self.conveyor.replace(report=self.conveyor.report.replace(units=system))
-        return replace(self, conveyor=conveyor, warnings=warnings(conveyor, self.stretches, self.balance))
-
-    @property
-    def error_estimate(self) -> float:
-        """Largest relative error estimate of any roll's indentation [-]."""
-        return worst_error(self.stretches)
-
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, SI or the unit in the key."""
         from conveyor.report.tables import plain
@@ -159,7 +115,11 @@ class Analysis:
         return plain(self)
 
     def to_excel(
-        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
+        self,
+        path: str | Path,
+        studies: study.CalculatedStudies | None = None,
+        *,
+        system: System | None = None,
     ) -> Path:
         """Write the workbook, with the sheets of `conveyor.studies` where they are given.
 
@@ -185,7 +145,7 @@ class Analysis:
     def to_tables(
         self,
         folder: str | Path,
-        studies: Studies | None = None,
+        studies: study.CalculatedStudies | None = None,
         *,
         system: System | None = None,
         kind: FileKind = "csv",
@@ -213,7 +173,11 @@ class Analysis:
         return write(self.contents(studies, system=system), Path(folder), kind)
 
     def to_html(
-        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
+        self,
+        path: str | Path,
+        studies: study.CalculatedStudies | None = None,
+        *,
+        system: System | None = None,
     ) -> Path:
         """Write the HTML report, one static page, with the parts of `conveyor.studies` where they are given.
 
@@ -238,7 +202,7 @@ class Analysis:
     @property
     def plots(self) -> AnalysisPlots:
         """Figures: resistances, tensions, profile, pressure, rubber, power over temperature and speed."""
-        from conveyor.studies.drawing import AnalysisPlots
+        from conveyor.drawing import AnalysisPlots
 
         return AnalysisPlots(self)
 
@@ -254,3 +218,185 @@ class Analysis:
         from conveyor.report import representations
 
         return representations.of_analysis(self.contents())
+
+
+class CaseStudy(case_study.CalculatedCases):
+    """Load cases of a conveyor, with their table."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a case, temperature and speed; units in the names."""
+        from conveyor.report.study_tables import cases
+
+        return cases(self).frame()
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_cases
+
+        return notebook_of_cases(self)
+
+
+class DutyStudy(duty_study.CalculatedYear):
+    """A year of a conveyor, with its tables."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a bar; units in the names."""
+        from conveyor.report.study_tables import duty
+
+        return duty(self).frame()
+
+    @cached_property
+    def summary(self) -> pd.Series:
+        """Sums of the year; units in the names."""
+        from conveyor.report.study_tables import year
+
+        return year(self).series("year")
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_duty
+
+        return notebook_of_duty(self)
+
+
+class UncertaintyStudy(range_study.CalculatedRanges):
+    """The power with its band, with the table of what matters."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """The tornado: one row an input, the largest swing first; units in the names."""
+        from conveyor.report.study_tables import sensitivity
+
+        return sensitivity(self).frame()
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_uncertainty
+
+        return notebook_of_uncertainty(self)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Studies(study.CalculatedStudies):
+    """Studies of one conveyor, each with its tables; None where the spec has nothing to study."""
+
+    cases: CaseStudy | None = None
+    duty: DutyStudy | None = None
+    uncertainty: UncertaintyStudy | None = None
+
+    def __repr__(self) -> str:
+        held = [name for name in ("cases", "duty", "uncertainty") if getattr(self, name) is not None]
+        return f"Studies({', '.join(held) or 'nothing asked for'})"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: what there is, one after the other."""
+        held = (self.cases, self.duty, self.uncertainty)
+        return (
+            "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON, only of what there is; units in the keys."""
+        from conveyor.report.study_tables import plain
+
+        return plain(self)
+
+
+class Comparison(compound_study.CalculatedComparison):
+    """Compounds on one conveyor, with tables, reports and figures."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a scene; units in the names."""
+        from conveyor.report import comparing
+
+        return comparing.scenes(self).frame()
+
+    @cached_property
+    def ranking(self) -> pd.DataFrame:
+        """One row a compound and speed, the least mean power first; savings and payback against the base."""
+        from conveyor.report import comparing
+
+        return comparing.ranking(self).frame()
+
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.comparing import of_comparison
+
+        return of_comparison(self, chosen(self.conveyor.report.units, system))
+
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the workbook; as `Analysis.to_excel`."""
+        from conveyor.report.excel import write
+
+        return write(self.contents(system), Path(path))
+
+    def to_tables(
+        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
+    ) -> tuple[Path, ...]:
+        """Write every table as a file of its own; as `Analysis.to_tables`."""
+        from conveyor.report.files import write
+
+        return write(self.contents(system), Path(folder), kind)
+
+    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the HTML report; as `Analysis.to_html`."""
+        from conveyor.report.html import write
+
+        return write(self.contents(system), Path(path))
+
+    @property
+    def plots(self) -> ComparisonPlots:
+        """Figures: power over temperature and speed, loss tangents."""
+        from conveyor.drawing import ComparisonPlots
+
+        return ComparisonPlots(self)
+
+    def _repr_html_(self) -> str:
+        """For notebooks: the ranking and what to know of it."""
+        from conveyor.report import comparing
+
+        return comparing.notebook(self)
+
+
+def _faced(plain: Any, face: Callable[..., Face]) -> Face:
+    """Results with their face."""
+    return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
+
+
+def _facing(work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
+    """A function whose results have their face."""
+
+    @wraps(work)
+    def faced(*given: Given.args, **named: Given.kwargs) -> Face:
+        return _faced(work(*given, **named), face)
+
+    return faced
+
+
+analyse = _facing(calculate, Analysis)
+analyse_cases = _facing(case_study.analyse_cases, CaseStudy)
+analyse_duty = _facing(duty_study.analyse_duty, DutyStudy)
+study_ranges = _facing(range_study.study, UncertaintyStudy)
+compare_compounds = _facing(compound_study.compare_compounds, Comparison)
+
+
+def studies(conveyor: Conveyor, *, progress: study.Progress | None = None) -> Studies:
+    """Calculate what the spec asks for; as `conveyor.studies.studies`."""
+    found = study.studies(conveyor, progress=progress)
+    return Studies(
+        cases=None if found.cases is None else _faced(found.cases, CaseStudy),
+        duty=None if found.duty is None else _faced(found.duty, DutyStudy),
+        uncertainty=None if found.uncertainty is None else _faced(found.uncertainty, UncertaintyStudy),
+    )
+
+
+def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
+    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+    >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
+    """
+    return compare_compounds(conveyor, compounds, **options).table

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
-from conveyor.units import System, quantity, si
+from conveyor.figures import belt_strength
+from conveyor.units import Quantity, System, quantity, si
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 MONEY: Final = "money "
@@ -151,6 +152,10 @@ class Unit:
             written = f"{number:.0f}"
         return f"{written} {self.sign}".rstrip()
 
+    def converted(self, value: Quantity) -> str:
+        """A quantity as a spec gives it, in this unit, for sentences."""
+        return self.brief(si(value))
+
     def beside(self, words: str) -> str:
         """Words with the unit in brackets, for an axis.
 
@@ -233,3 +238,8 @@ def chosen(own: System, system: System | None) -> System:
     if system is not None and system not in SYSTEMS:
         raise InputError(f'system = "{system}": SI or US, or none for that of the spec (report.units)')
     return system or own
+
+
+def strength_of(value: Quantity, system: System) -> str:
+    """Write a belt's strength per width as belts are named."""
+    return belt_strength(si(value), system)

@@ -10,6 +10,8 @@ from conveyor.units import System, display
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
+RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Digits of an exponent."""
 _WHOLE = re.compile(r"^-?\d{4,}")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]

@@ -10,8 +10,9 @@ import sys
 from pathlib import Path
 
 import conveyor
+from conveyor import fitting
 from conveyor.compound_file import Request, fit_file
-from conveyor.report import fitting, plots
+from conveyor.report import plots
 
 ROOT = Path(__file__).resolve().parent.parent
 NAMES = ["standard-cover", "low-rolling-resistance-cover", "s100"]

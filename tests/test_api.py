@@ -14,8 +14,8 @@ import pytest
 import conveyor
 from conveyor.compound_file import Request, fit_file
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
+from conveyor.fitting import lines
 from conveyor.laboratory.answered import read_answered
-from conveyor.report.fitting import lines
 from conveyor.rubber import PronySeries
 
 ROOT = Path(__file__).parent.parent

@@ -17,10 +17,10 @@ from ruamel.yaml import YAML
 
 import conveyor
 import conveyor.spec
+from conveyor.analysis import studies
 from conveyor.cli import main
 from conveyor.reference import anchor
 from conveyor.starter.write import values
-from conveyor.studies import studies
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "materials" / "README.md"]

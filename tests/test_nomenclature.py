@@ -12,11 +12,11 @@ import pandas as pd
 import pytest
 
 import conveyor
+from conveyor.analysis import Studies, studies
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
 from conveyor.report.comparing import of_comparison, plain
 from conveyor.report.tables import of_analysis
 from conveyor.spec import from_data
-from conveyor.studies import Studies, studies
 
 ROOT = Path(__file__).parent.parent
 SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")

@@ -35,8 +35,8 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks
 
 if TYPE_CHECKING:
+    from conveyor.analysis import Comparison
     from conveyor.report.columns import Contents
-    from conveyor.studies.comparison import Comparison
     from conveyor.units import System
 
 
@@ -127,7 +127,7 @@ def compare(
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     import conveyor
-    from conveyor.studies.comparison import compare_compounds
+    from conveyor.analysis import compare_compounds
 
     line = conveyor.load(spec, shelves=shelf or ())
     system: System = line.report.units if units is None else units.value

@@ -31,9 +31,8 @@ from conveyor.cli.outputs import Outputs
 from conveyor.files import marks
 
 if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
+    from conveyor.analysis import Analysis, Studies
     from conveyor.report.columns import Contents
-    from conveyor.studies import Studies
     from conveyor.units import System
 
 
@@ -74,8 +73,8 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
+    from conveyor.analysis import studies
     from conveyor.report.tables import of_analysis
-    from conveyor.studies import studies
 
     line = conveyor.load(spec, shelves=shelf or ())
     system: System = line.report.units if units is None else units.value

@@ -113,7 +113,7 @@ def fit(
         said = str(error)
         files = [str(file) for file in (data, shift, strain) if file is not None]
         raise InputError(said if said.startswith((*files, "--")) else f"{data}: {said}") from None
-    from conveyor.report import fitting
+    from conveyor import fitting
 
     lines = fitting.lines(found)
     if plot is not None:

@@ -79,7 +79,8 @@ class Contacts:
         force = np.zeros(len(self.line.stretches))
         for kind, drags in zip(self.line.kinds, self.drags, strict=True):
             np.add.at(force, [i for i, _ in kind.rolls], drags)
-        return force * np.array([stretch.sets for stretch in self.line.stretches])
+        sets = np.array([stretch.sets for stretch in self.line.stretches])
+        return np.asarray(force * sets)
 
     @cached_property
     def rolls(self) -> tuple[tuple[RollResult, ...], ...]:

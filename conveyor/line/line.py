@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
+from conveyor.laws.belt import Condition
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS
 from conveyor.line.places import Places, Spot
@@ -39,8 +40,8 @@ class BeltBody:
     strength: float | None
     stiffness: float | None
     splice_strength: float | None
-    splice_making: str
-    duty: str
+    splice_making: Condition
+    duty: Condition
 
     @property
     def steel_cord(self) -> bool:

@@ -152,9 +152,10 @@ def _classic_safety(line: Line) -> float:
 
 def _drive_diameter(line: Line) -> float | None:
     belt = line.belt
-    if belt.carcass not in PULLEY_FACTOR:
-        return None
-    return least_pulley_diameter(belt.carcass_thickness, carcass=belt.carcass)
+    for carcass in PULLEY_FACTOR:
+        if belt.carcass == carcass:
+            return least_pulley_diameter(belt.carcass_thickness, carcass=carcass)
+    return None
 
 
 def _pulleys(line: Line) -> Iterator[PulleyCheck]:

@@ -71,7 +71,7 @@ class RubberCompound(Model):
     def _lawful(self) -> Self:
         """Let the rubber laws refuse what they cannot take."""
         checks: dict[str, Callable[[], object]] = {
-            "prony": self._reference_series,
+            "prony": lambda: self.series_at_reference,
             "shift": self.shift_law,
             "strain_dependence": self.amplitude_factors,
         }
@@ -84,7 +84,14 @@ class RubberCompound(Model):
         refuse("RubberCompound", problems)
         return self
 
-    def _reference_series(self) -> PronySeries:
+    @property
+    def reference(self) -> float:
+        """Reference temperature [K]."""
+        return si(self.reference_temperature)
+
+    @property
+    def series_at_reference(self) -> PronySeries:
+        """Terms at the reference temperature [Pa, s]."""
         from conveyor.rubber import PronySeries
 
         terms = self.prony.terms
@@ -149,7 +156,7 @@ class RubberCompound(Model):
         RangeError
             The temperature is outside the compound's stated range or its shift law, or it has no law.
         """
-        return self._at(temperature, (self._reference_series(),))[0]
+        return self._at(temperature, (self.series_at_reference,))[0]
 
     def replicas(self, temperature: float) -> tuple[PronySeries, ...]:
         """Return the replicas of the fit at a temperature, alternatives to `series`.

@@ -92,6 +92,16 @@ class ConveyorParts(Model):
         return si(self.ambient.belt)
 
     @property
+    def belt_width(self) -> float:
+        """Of the belt [m]."""
+        return si(self.belt.width)
+
+    @property
+    def mass_flow(self) -> float:
+        """Of the bulk where the belt is fully fed [kg/s]."""
+        return si(self.material.flow)
+
+    @property
     def belt_speed(self) -> float:
         """Of the belt [m/s]."""
         return si(self.belt.speed)

@@ -13,7 +13,7 @@ from conveyor.contact import solve
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
-from conveyor.line.walk import RollResult, StretchResult, excited_band
+from conveyor.line.contacts import Contacts, RollResult
 from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
 from conveyor.units import System
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.line.stretches import Strand
-    from conveyor.loop.balance import Balance, Classical
+    from conveyor.loop.balance import Balance
+    from conveyor.loop.estimates import Classical
     from conveyor.models import RubberCompound
-    from conveyor.studies.cases import CaseResult, CaseStudy
-    from conveyor.studies.uncertainty import UncertaintyStudy
+    from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.uncertainty import CalculatedRanges
 
-_PARTS = ("indentation", "idler_rotation", "flexure")
 _SUMS = ("main", "secondary", "special", "lift", "total")
 _BAR = 0.8  # of the distance of two rows
 _HATCH = ("", "////", "\\\\\\\\")
@@ -46,11 +46,15 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     ]
     if found.cema is not None:
         estimates.append(("CEMA classic, given Ky", found.cema))
-    names = [*_PARTS, *_SUMS]
+    parts = [name for name in found.forces.parts if name not in _SUMS]
+    names = [*parts, *_SUMS]
     width = _BAR / (1 + len(estimates))
-    forces = force([getattr(found.forces, name) for name in names])
+    sums_here = found.forces
+    forces = force(
+        [*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)]
+    )
     columns = [("this calculation", list(range(len(names))), forces)]
-    sums = list(range(len(_PARTS), len(names)))
+    sums = list(range(len(parts), len(names)))
     columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
     for k, (label, rows, values) in enumerate(columns):
         at = [row + (width * k if row in sums else 0.0) for row in rows]
@@ -69,7 +73,7 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
         [row + (middle if row in sums else 0.0) for row in range(len(names))],
         [_worded(name) for name in names],
     )
-    axis.axhline(len(_PARTS) - 0.5, color="0.75", linewidth=0.8)
+    axis.axhline(len(parts) - 0.5, color="0.75", linewidth=0.8)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.margins(x=0.12)
@@ -85,13 +89,14 @@ def _worded(name: str) -> str:
     return words.get(name, name.replace("_", " "))
 
 
-def governing_roll(results: tuple[StretchResult, ...], strand: Strand) -> tuple[StretchResult, RollResult]:
-    """Roll of the highest line load on a strand, and where it is."""
-    found = [(r, roll) for r in results if r.stretch.strand == strand for roll in r.rolls]
-    return max(found, key=lambda pair: pair[1].load.peak_line_load)
+def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:
+    """Roll of the highest line load on a strand."""
+    pairs = zip(contacts.line.stretches, contacts.rolls, strict=True)
+    found = [roll for stretch, rolls in pairs if stretch.strand == strand for roll in rolls]
+    return max(found, key=lambda roll: roll.load.peak_line_load)
 
 
-def pressure_under_rolls(results: tuple[StretchResult, ...], *, system: System = "SI") -> Figure:
+def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure:
     """Contact pressure under the highest line load of each strand, over the distance from the roll's axis.
 
     In MPa over mm, or psi over inches.
@@ -108,7 +113,7 @@ def pressure_under_rolls(results: tuple[StretchResult, ...], *, system: System =
     stress, way, line = (unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
     strands: tuple[Strand, ...] = ("carry", "return")
     for k, strand in enumerate(strands):
-        _, roll = governing_roll(results, strand)
+        roll = governing_roll(contacts, strand)
         contact, load = roll.curve.contact, roll.load.peak_line_load
         problem = to_problem(contact, load)
         solution = solve(problem, _PRESSURE_RTOL)
@@ -144,7 +149,7 @@ def _figures(value: float) -> str:
 def rubber_at_work(
     compound: RubberCompound,
     temperature: float,
-    results: tuple[StretchResult, ...],
+    contacts: Contacts,
     strands: tuple[Strand, ...],
     *,
     system: System = "SI",
@@ -152,7 +157,7 @@ def rubber_at_work(
     """Master curve of a compound at a temperature [K], with the band each strand's rolls excite [Hz] shaded."""
     figure = master_curve(compound, temperature, system=system)
     for k, strand in enumerate(strands):
-        band = excited_band(results, strand)
+        band = contacts.excited_band(strand)
         if band is None:
             continue
         for axis in figure.axes:
@@ -170,7 +175,7 @@ def rubber_at_work(
 
 
 def case_power_against_temperature(
-    study: CaseStudy, speed: float | None = None, *, system: System = "SI"
+    study: CalculatedCases, speed: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], the conveyor's highest without.
 
@@ -186,7 +191,7 @@ def case_power_against_temperature(
 
 
 def case_power_against_speed(
-    study: CaseStudy, temperature: float | None = None, *, system: System = "SI"
+    study: CalculatedCases, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Motor power [kW, hp] of every load case over belt speed at one temperature [K], the one of most speeds without.
 
@@ -202,7 +207,7 @@ def case_power_against_speed(
     return figure
 
 
-def _at(study: CaseStudy, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
+def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
     values = [getattr(result, name) for result in study.results]
     if not values:
         raise InputError("no load case has an answer: nothing to draw")
@@ -217,13 +222,20 @@ def _at(study: CaseStudy, name: str, value: float | None, unit: str) -> tuple[fl
 def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
-    names = [result.case for result in found]
+    names = [result.case.name for result in found]
     lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
     for k, case in enumerate(lines or dict.fromkeys(names)):
-        rows = sorted((r for r in found if r.case == case), key=lambda r: float(getattr(r, over)))
+        rows = sorted((r for r in found if r.case.name == case), key=lambda r: float(getattr(r, over)))
         at = along([getattr(r, over) for r in rows])
-        axis.plot(at, power([r.motor for r in rows]), color=colour(k), marker="o", markersize=4, label=case)
-        low, high = (power([getattr(r, f"motor_{end}") for r in rows]) for end in ("low", "high"))
+        axis.plot(
+            at,
+            power([r.found.balance.power.motor for r in rows]),
+            color=colour(k),
+            marker="o",
+            markersize=4,
+            label=case,
+        )
+        low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
@@ -231,12 +243,12 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     return figure
 
 
-def _shaded(study: CaseStudy) -> str:
+def _shaded(study: CalculatedCases) -> str:
     low, high = study.friction_band
     return f"shaded: friction {low:g} to {high:g} of the computed one"
 
 
-def tornado(study: UncertaintyStudy, *, system: System = "SI") -> Figure:
+def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
     effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
     figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))

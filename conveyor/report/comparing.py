@@ -19,10 +19,10 @@ from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.representations import folded, of_table
 from conveyor.report.tables import Remark, bands, document, provenance
 from conveyor.spec import fingerprint
-from conveyor.units import System, si
+from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.studies.comparison import Comparison, Scene
+    from conveyor.studies.comparison import CalculatedComparison, ComparedScene
 
 _COSTS = ("energy_per_year", "cost_per_year", "saving_per_year", "extra_cost_of_the_belt", "payback")
 _COMPOUND = Column("compound", "text", attrgetter("compound"))
@@ -30,7 +30,7 @@ _TEMPERATURE = Column("temperature", "temperature", attrgetter("temperature"))
 _SPEED = Column("belt speed", "speed", attrgetter("speed"), key="speed")
 
 
-def of_comparison(comparison: Comparison, system: System) -> Contents:
+def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
     """Every table of a comparison in a unit system."""
     ranked, every = ranking(comparison), scenes(comparison)
     parts = (
@@ -64,12 +64,12 @@ def _span(values: list[float], kind: str, system: System) -> str:
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
-def _money(comparison: Comparison) -> str:
+def _money(comparison: CalculatedComparison) -> str:
     operation = comparison.conveyor.operation
     return MONEY + ("-" if operation is None or operation.price is None else operation.price.currency)
 
 
-def scenes(comparison: Comparison) -> Table:
+def scenes(comparison: CalculatedComparison) -> Table:
     """One row a scene, in the order compound, speed, temperature."""
     columns = (
         _COMPOUND,
@@ -147,7 +147,7 @@ class Ranked:
         return None if self.extra is None or saved is None or saved <= 0.0 else self.extra / saved
 
 
-def ranking(comparison: Comparison) -> Table:
+def ranking(comparison: CalculatedComparison) -> Table:
     """One row a compound and speed, the least mean power of each speed first.
 
     Means are over the temperatures that every compound has an answer for at that speed, each of the same weight; the
@@ -187,8 +187,8 @@ def costs(ranked: Table) -> Table:
     return Table("costs", "Ranking", heading, columns, rows, (OnPage("ranking", heading),))
 
 
-def _ranked(comparison: Comparison, speed: float) -> list[Ranked]:
-    by_compound: dict[str, dict[float, Scene]] = {}
+def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
+    by_compound: dict[str, dict[float, ComparedScene]] = {}
     for scene in comparison.scenes:
         if scene.speed == speed:
             by_compound.setdefault(scene.compound, {})[scene.temperature] = scene
@@ -200,11 +200,11 @@ def _ranked(comparison: Comparison, speed: float) -> list[Ranked]:
 
 
 def _row(
-    comparison: Comparison,
+    comparison: CalculatedComparison,
     key: tuple[str, float],
-    found: dict[float, Scene],
-    at: list[Scene],
-    base: list[Scene],
+    found: dict[float, ComparedScene],
+    at: list[ComparedScene],
+    base: list[ComparedScene],
 ) -> Ranked:
     name, speed = key
     energy, cost = _year(comparison, name, speed, at)
@@ -228,12 +228,12 @@ def _row(
 
 
 def _year(
-    comparison: Comparison, name: str, speed: float, at: list[Scene]
+    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]
 ) -> tuple[float | None, float | None]:
     """Energy [kWh] and cost of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
     if not comparison.conveyor.duty:
         return _mean([s.energy_per_year for s in at]), _mean([s.cost_per_year for s in at])
-    study = comparison.years.get(name) if speed == si(comparison.conveyor.belt.speed) else None
+    study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
     return (None, None) if study is None else (study.year.net_kwh, study.cost)
 
 
@@ -243,7 +243,7 @@ def _mean(values: list[float] | list[float | None]) -> float | None:
     return math.fsum(known) / len(known) if known and len(known) == len(values) else None
 
 
-def coverage(comparison: Comparison) -> Table:
+def coverage(comparison: CalculatedComparison) -> Table:
     """What the rolls ask of each compound at each temperature, and what its data hold."""
     columns = (
         _COMPOUND,
@@ -257,14 +257,14 @@ def coverage(comparison: Comparison) -> Table:
     return Table("coverage", "Coverage", heading, columns, comparison.coverage, page, note)
 
 
-def refused(comparison: Comparison) -> Table:
+def refused(comparison: CalculatedComparison) -> Table:
     """Scenes without an answer, and why."""
     columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", attrgetter("reason")))
     heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
     return Table("refused", "Coverage", heading, columns, rows, (OnPage("refused", heading),))
 
 
-def powers(comparison: Comparison, system: System) -> Iterator[Table]:
+def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
     """Motor power over temperature, one column a compound, a table a speed in rising order.
 
     Only temperatures that every compound has an answer for: a gap in one column would break its line.
@@ -292,7 +292,7 @@ def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
     return lambda temperature: powers[name, temperature]
 
 
-def compounds(comparison: Comparison) -> Table:
+def compounds(comparison: CalculatedComparison) -> Table:
     """What is known of each compound."""
     columns = (
         Column("compound", "text", attrgetter("name")),
@@ -305,14 +305,14 @@ def compounds(comparison: Comparison) -> Table:
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 
 
-def remarks_table(comparison: Comparison) -> Table:
+def remarks_table(comparison: CalculatedComparison) -> Table:
     """What to know of a comparison."""
     columns = (Column("remark", "text", attrgetter("text")),)
     rows = tuple(Remark(("warning", line)) for line in remarks(comparison))
     return Table("remarks", "Notes", "Remarks", columns, rows)
 
 
-def drawings(comparison: Comparison, system: System) -> Iterator[Drawing]:
+def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawing]:
     """The figures of the page."""
     if not comparison.scenes:
         return
@@ -343,7 +343,7 @@ def drawings(comparison: Comparison, system: System) -> Iterator[Drawing]:
     )
 
 
-def remarks(comparison: Comparison) -> tuple[str, ...]:
+def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     """What to know of a comparison before believing it."""
     lines = []
     for compound in comparison.compounds:
@@ -383,11 +383,11 @@ def remarks(comparison: Comparison) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def turned(comparison: Comparison) -> list[str]:
+def turned(comparison: CalculatedComparison) -> list[str]:
     """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
-        at: dict[float, list[Scene]] = {}
+        at: dict[float, list[ComparedScene]] = {}
         for scene in sorted(comparison.scenes, key=lambda s: (s.temperature, s.motor)):
             if scene.speed == speed:
                 at.setdefault(scene.temperature, []).append(scene)
@@ -413,7 +413,7 @@ def _listed(values: list[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)
 
 
-def plain(comparison: Comparison) -> dict[str, Any]:
+def plain(comparison: CalculatedComparison) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
         "conveyor": comparison.conveyor.name,
@@ -427,7 +427,7 @@ def plain(comparison: Comparison) -> dict[str, Any]:
     }
 
 
-def notebook(comparison: Comparison) -> Html:
+def notebook(comparison: CalculatedComparison) -> Html:
     """The ranking, and what to know of it."""
     shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
     return joined([shown, folded("what to know", remarks(comparison))])

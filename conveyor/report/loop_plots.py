@@ -62,17 +62,17 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
     figure, (axis,) = stacked(1, _HEIGHT)
     settled = found.settled
-    geometry = settled.loop.geometry
+    shape = found.line.loop
     force, length = unit("force", system, large=True), unit("length", system, large=True)
-    way = length(np.repeat(geometry.way, 2)[1:-1])
+    way = length(np.repeat(shape.way, 2)[1:-1])
     states = settled.states | ({} if moving is None else moving.states)
     for k, state in enumerate(states.values()):
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
         axis.plot(x, force(y), color=colour(k), label=state.name)
-    axis.plot(way, force(np.repeat(geometry.least, 2)), color="0.6", linestyle=":", label="least for sag")
-    tail = float(length(geometry.way[len(geometry.length) // 2]))
+    axis.plot(way, force(np.repeat(shape.least, 2)), color="0.6", linestyle=":", label="least for sag")
+    tail = float(length(shape.way[len(shape.length) // 2]))
     axis.axvline(tail, color="0.8", zorder=0)
     axis.annotate(
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"

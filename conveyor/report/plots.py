@@ -16,7 +16,7 @@ from conveyor.display import unit
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks, saving
 from conveyor.printable import printable
-from conveyor.units import System, si
+from conveyor.units import System
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.legend import Legend
 
     from conveyor.models import Conveyor, RubberCompound
-    from conveyor.studies.compared import Coverage, Scene
-    from conveyor.studies.comparison import Comparison
+    from conveyor.studies.compared import ComparedScene, Coverage
+    from conveyor.studies.comparison import CalculatedComparison
 
 _NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
 _one_at_a_time = Lock()
@@ -148,7 +148,7 @@ class Scenes(Protocol):
         """One curve each."""
 
     @property
-    def scenes(self) -> tuple[Scene, ...]:
+    def scenes(self) -> tuple[ComparedScene, ...]:
         """What was answered."""
 
     @property
@@ -158,7 +158,7 @@ class Scenes(Protocol):
 
 def drawn_speed(comparison: Scenes) -> float:
     """Speed that power over temperature is drawn at: of those with an answer the next to the spec's [m/s]."""
-    spec = si(comparison.conveyor.belt.speed)
+    spec = comparison.conveyor.belt_speed
     return min(
         sorted({s.speed for s in comparison.scenes}), key=lambda given: abs(given - spec), default=spec
     )
@@ -166,7 +166,7 @@ def drawn_speed(comparison: Scenes) -> float:
 
 def drawn_temperature(comparison: Scenes) -> float | None:
     """Temperature that power over speed is drawn at: of those every compound answers the next to the spec's [K]."""
-    spec = si(comparison.conveyor.ambient.belt)
+    spec = comparison.conveyor.temperature
     answered = [
         {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
     ]
@@ -300,7 +300,7 @@ def loss_tangents(
 
 
 def compared_loss_tangents(
-    comparison: Comparison, temperature: float | None = None, *, system: System = "SI"
+    comparison: CalculatedComparison, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 
@@ -318,7 +318,7 @@ def compared_loss_tangents(
     common = set.intersection(*at)
     if not common:
         raise NoSolutionError("no temperature that every compound has an answer for")
-    own = si(comparison.conveyor.ambient.belt) if temperature is None else temperature
+    own = comparison.conveyor.temperature if temperature is None else temperature
     chosen = min(common, key=lambda t: abs(t - own))
     rows = [row.excited for row in comparison.coverage if row.temperature == chosen]
     band = min(low for low, _ in rows), max(high for _, high in rows)
@@ -333,7 +333,7 @@ def master_curve(
     """E', E'' and tan δ of one compound at a temperature [K], its reference temperature without."""
     figure, (above, below) = stacked(2, 7.0)
     modulus, warmth = unit("pressure", system, large=True), unit("temperature", system, large=True)
-    at = si(compound.reference_temperature) if temperature is None else temperature
+    at = compound.reference if temperature is None else temperature
     series, data = compound.series(at), compound.frequencies(at)
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)

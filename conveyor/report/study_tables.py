@@ -16,10 +16,10 @@ from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
 
 if TYPE_CHECKING:
-    from conveyor.studies import Studies
-    from conveyor.studies.cases import CaseStudy
-    from conveyor.studies.duty import DutyStudy
-    from conveyor.studies.uncertainty import UncertaintyStudy
+    from conveyor.studies import CalculatedStudies
+    from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.uncertainty import CalculatedRanges
 
 _CASES, _DUTY, _UNCERTAINTY = "load-cases", "duty", "uncertainty"
 _TENSIONS = (
@@ -32,7 +32,7 @@ _AT = (
 )
 
 
-def of_studies(studies: Studies | None, system: System) -> tuple[list[Table], list[Drawing]]:
+def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
     """Tables and drawings of what was studied."""
     if studies is None:
         return [], []
@@ -52,7 +52,7 @@ def of_studies(studies: Studies | None, system: System) -> tuple[list[Table], li
     return tables, drawn
 
 
-def _of_cases(study: CaseStudy) -> Iterator[Table]:
+def _of_cases(study: CalculatedCases) -> Iterator[Table]:
     yield governing(study)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
@@ -70,42 +70,47 @@ def _of_cases(study: CaseStudy) -> Iterator[Table]:
     yield refused(study)
 
 
-def cases(study: CaseStudy) -> Table:
+def cases(study: CalculatedCases) -> Table:
     """One row a case, speed and temperature."""
     low, high = study.friction_band
     columns = (
-        Column("case", "text", attrgetter("case")),
-        Column("loading", "text", attrgetter("loading"), page=None),
+        Column("case", "text", attrgetter("case.name")),
+        Column("loading", "text", attrgetter("case.loading"), page=None),
         *_AT,
-        Column("mass flow", "mass flow", attrgetter("flow")),
-        Column("indentation", "force", attrgetter("indentation")),
-        Column("main resistance", "force", attrgetter("main"), page=None),
-        Column("effective tension", "force", attrgetter("effective")),
-        Column("motor power", "power", attrgetter("motor")),
-        Column(f"motor power, {low:g} x friction", "power", attrgetter("motor_low"), page=None),
-        Column(f"motor power, {high:g} x friction", "power", attrgetter("motor_high"), page=None),
-        Column("equivalent DIN f", "friction", attrgetter("friction_factor"), page=None),
-        Column("tight side tension", "force", attrgetter("tight"), page=None),
-        Column("slack side tension", "force", attrgetter("slack"), page=None),
-        Column("largest tension", "force", attrgetter("largest")),
-        Column("smallest tension", "force", attrgetter("smallest")),
-        Column("take-up tension asked for", "force", attrgetter("take_up")),
-        Column("governed by", "text", attrgetter("governed_by"), page=None),
-        Column("largest roll load", "force", attrgetter("largest_roll"), page=None),
-        Column("at roll", "text", attrgetter("largest_roll_at"), page=None),
+        Column("mass flow", "mass flow", attrgetter("found.line.flow")),
+        Column("indentation", "force", attrgetter("found.balance.forces.indentation")),
+        Column("main resistance", "force", attrgetter("found.balance.forces.main"), page=None),
+        Column("effective tension", "force", attrgetter("found.balance.forces.total")),
+        Column("motor power", "power", attrgetter("found.balance.power.motor")),
+        Column(f"motor power, {low:g} x friction", "power", lambda row: row.motors[0], page=None),
+        Column(f"motor power, {high:g} x friction", "power", lambda row: row.motors[1], page=None),
+        Column("equivalent DIN f", "friction", attrgetter("found.balance.friction_factor"), page=None),
+        Column("tight side tension", "force", attrgetter("found.balance.tensions.tight"), page=None),
+        Column("slack side tension", "force", attrgetter("found.balance.tensions.slack"), page=None),
+        Column("largest tension", "force", attrgetter("found.balance.tensions.largest")),
+        Column("smallest tension", "force", attrgetter("found.balance.tensions.smallest")),
+        Column("take-up tension asked for", "force", attrgetter("found.balance.settled.needed")),
+        Column("governed by", "text", _governing, page=None),
+        Column("largest roll load", "force", lambda row: row.heaviest_roll[0], page=None),
+        Column("at roll", "text", lambda row: row.heaviest_roll[1], page=None),
         Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), page=None),
-        Column("error estimate", "error", attrgetter("error"), page=None),
+        Column("error estimate", "error", attrgetter("found.error_estimate"), page=None),
     )  # fmt: skip
     return Table("load_cases", "Load cases", "Load cases", columns, study.results)
 
 
-def governing(study: CaseStudy) -> Table:
+def _governing(result: CaseResult) -> str:
+    settled = result.found.balance.settled
+    return settled.condition_name(settled.governed_by)
+
+
+def governing(study: CalculatedCases) -> Table:
     """One row a figure: its value and the case that decides it."""
     low, high = study.friction_band
     columns = (
         Column("figure", NAMED, attrgetter("label")),
         Column("value", OF_ROW, lambda row: row.value.value),
-        Column("case", "text", lambda row: row.value.result.case),
+        Column("case", "text", lambda row: row.value.result.case.name),
         *(replace(column, get=_of_result(column.get)) for column in _AT),
     )
     rows = tuple(
@@ -120,7 +125,7 @@ def _of_result(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda row: get(row.value.result)
 
 
-def refused(study: CaseStudy) -> Table:
+def refused(study: CalculatedCases) -> Table:
     """Cases without an answer, and why."""
     columns = (
         Column("case", "text", attrgetter("case")),
@@ -131,7 +136,7 @@ def refused(study: CaseStudy) -> Table:
     return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))
 
 
-def motors(study: CaseStudy) -> Table:
+def motors(study: CalculatedCases) -> Table:
     """One row a drive pulley: what it needs, and motors of the series."""
     columns = (
         Column("drive", "text", attrgetter("drive")),
@@ -146,7 +151,7 @@ def motors(study: CaseStudy) -> Table:
     return Table("motors", "Load cases", heading, columns, study.motors(), page)
 
 
-def _case_drawings(study: CaseStudy, system: System) -> Iterator[Drawing]:
+def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
     if len({result.temperature for result in study.results}) > 1:
         yield Drawing(
             "case-temperature",
@@ -163,13 +168,13 @@ def _case_drawings(study: CaseStudy, system: System) -> Iterator[Drawing]:
         )
 
 
-def duty(study: DutyStudy) -> Table:
+def duty(study: CalculatedYear) -> Table:
     """One row a bar of the year's histogram."""
     columns = (
         Column("hours", "life", lambda row: 3600.0 * row.hours),
         Column("load share", "share", attrgetter("share")),
         *_AT,
-        Column("mass flow", "mass flow", attrgetter("flow")),
+        Column("mass flow", "mass flow", attrgetter("found.line.flow")),
         Column("effective tension", "force", attrgetter("effective")),
         Column("motor power", "power", attrgetter("shaft")),
         Column("mains power", "power", attrgetter("mains")),
@@ -180,7 +185,7 @@ def duty(study: DutyStudy) -> Table:
     return Table("duty", "Duty", heading, columns, study.rows, (OnPage(_DUTY, heading),))
 
 
-def year(study: DutyStudy) -> Table:
+def year(study: CalculatedYear) -> Table:
     """Sums of the year; those that need a price or a factor only where it is given."""
     sums = study.year
     rows = (
@@ -199,7 +204,7 @@ def year(study: DutyStudy) -> Table:
     )
 
 
-def sensitivity(study: UncertaintyStudy) -> Table:
+def sensitivity(study: CalculatedRanges) -> Table:
     """One row an input, the one that matters most first."""
     columns = (
         Column("input", "text", lambda row: row[0].name),
@@ -218,7 +223,7 @@ def sensitivity(study: UncertaintyStudy) -> Table:
     return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
 
 
-def band(study: UncertaintyStudy) -> Table:
+def band(study: CalculatedRanges) -> Table:
     """The power with its bands, one row a way to combine the inputs."""
     columns = (
         Column("combined by", "text", itemgetter(0)),
@@ -231,7 +236,7 @@ def band(study: UncertaintyStudy) -> Table:
     return Table("power_band", "Uncertainty", "Motor power with its band", columns, rows, page)
 
 
-def plain(studies: Studies) -> dict[str, Any]:
+def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
     found: dict[str, Any] = {}
     study = studies.cases
@@ -261,7 +266,7 @@ def plain(studies: Studies) -> dict[str, Any]:
     return found
 
 
-def notebook_of_cases(study: CaseStudy) -> Html:
+def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
     caption = f"{study.conveyor.name}: load cases that govern"
@@ -269,14 +274,14 @@ def notebook_of_cases(study: CaseStudy) -> Html:
     return joined([shown, folded("without an answer", refusals)])
 
 
-def notebook_of_duty(study: DutyStudy) -> Html:
+def notebook_of_duty(study: CalculatedYear) -> Html:
     """Sums of the year, the bars folded away."""
     system = study.conveyor.report.units
     bars = element("details", element("summary", "bars"), of_table(duty(study), "", system))
     return joined([of_figures(year(study), f"{study.conveyor.name}: the year", system), bars])
 
 
-def notebook_of_uncertainty(study: UncertaintyStudy) -> Html:
+def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
     """Bands of the motor power, and which input matters."""
     system = study.conveyor.report.units
     return joined(

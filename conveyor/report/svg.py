@@ -8,9 +8,9 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
+from conveyor.figures import RAISED
 from conveyor.markup import Html, element
 from conveyor.printable import printable
-from conveyor.report.checks import RAISED
 from conveyor.report.plots import colour, drawing
 
 if TYPE_CHECKING:

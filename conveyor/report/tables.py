@@ -15,19 +15,24 @@ from functools import partial
 from importlib.metadata import version
 from itertools import accumulate
 from operator import attrgetter, itemgetter
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
-from conveyor.display import MONEY, unit
-from conveyor.figures import belt_strength
+from conveyor.checks import Check, checks
+from conveyor.display import MONEY, strength_of, unit
+from conveyor.figures import band_words
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.take_up import mean_tension, take_up_mass
+from conveyor.line.covers import compounds_by_strand
+from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
-from conveyor.line.walk import StretchResult, excited_band, worst_energy_error, worst_error
+from conveyor.loop.balance import Balance
+from conveyor.loop.estimates import Classical
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.pipeline import Calculation, StretchResult
+from conveyor.remarks import assumptions, warnings
 from conveyor.report import analysis_plots, loop_plots
-from conveyor.report.checks import band_words, checks
 from conveyor.report.columns import (
     NAMED,
     OF_ROW,
@@ -43,11 +48,8 @@ from conveyor.report.columns import (
 from conveyor.report.inputs import inputs as entered
 from conveyor.report.study_tables import of_studies
 from conveyor.spec import fingerprint
-from conveyor.units import System, si, text
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
+from conveyor.studies import CalculatedStudies
+from conveyor.units import Quantity, System, text
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -56,9 +58,10 @@ _HOUR: Final = 3600.0
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def of_analysis(analysis: Analysis, studies: Studies | None = None) -> Contents:
+def of_analysis(analysis: Calculation, studies: CalculatedStudies | None = None) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
-    system = analysis.conveyor.report.units
+    system, found = analysis.conveyor.report.units, checks(analysis)
+    of_cases = () if studies is None or studies.cases is None else studies.cases.checks
     studied, drawn = of_studies(studies, system)
     parts = (
         identity(analysis.conveyor, system),
@@ -87,8 +90,8 @@ def of_analysis(analysis: Analysis, studies: Studies | None = None) -> Contents:
         indentation(analysis),
         rubber(analysis),
         *compounds(analysis, system),
-        checked(analysis, studies, system),
-        remarks(analysis),
+        checked((*found, *of_cases), system),
+        remarks(analysis, found, system),
         provenance(fingerprint(analysis.conveyor)),
     )
     kept = tuple(part for part in parts if not part.empty)
@@ -103,7 +106,7 @@ def document(
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
-    own, paper = si(conveyor.belt.speed), report.sheet(system)
+    own, paper = conveyor.belt_speed, report.sheet(system)
     return Document(conveyor.name, kind, said, fingerprint(conveyor), paper, own, facts)
 
 
@@ -112,21 +115,21 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     belt, material = conveyor.belt, conveyor.material
     carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
 
-    def shown(value: Any, kind: str) -> str:
-        return unit(kind, system).brief(si(value))
+    def shown(value: Quantity, kind: str) -> str:
+        return unit(kind, system).converted(value)
 
     def idlers(of: Any) -> str:
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}, every {shown(of.spacing, 'length')}"
 
-    strength = "" if carcass.strength is None else f", {belt_strength(si(carcass.strength), system)}"
+    strength = "" if carcass.strength is None else f", {strength_of(carcass.strength, system)}"
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     rows = (
         Figure("length", "length", conveyor.route.length),
         Figure("lift", "length", conveyor.route.rise),
-        Figure("belt width", "size", si(belt.width)),
-        Figure("belt speed", "speed", si(belt.speed)),
-        Figure("mass flow", "mass flow", si(material.flow)),
-        Figure("temperature of the covers", "temperature", si(conveyor.ambient.belt)),
+        Figure("belt width", "size", conveyor.belt_width),
+        Figure("belt speed", "speed", conveyor.belt_speed),
+        Figure("mass flow", "mass flow", conveyor.mass_flow),
+        Figure("temperature of the covers", "temperature", conveyor.temperature),
         Figure("belt", "text", f"{carcass.kind}{strength}"),
         Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
@@ -137,33 +140,32 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: Analysis) -> Table:
+def results(a: Calculation) -> Table:
     """Figures of the whole conveyor."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
-    strength, width = conveyor.belt.carcass.strength, si(conveyor.belt.width)
     even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
-    error, energy_error = worst_error(a.stretches), worst_energy_error(a.stretches)
-    safety = None if strength is None else si(strength) * width / tensions_at.largest
-    year = power.energy_per_year * JOULE_PER_KWH if even and power.energy_per_year is not None else None
-    money, cost = f"{MONEY}{power.currency or '-'}", power.cost_per_year if even else None
+    error, energy_error = a.contacts.error, a.contacts.energy_error
+    safety, of_year = a.belt_duty.safety, a.year if even else None
+    energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
+    money = f"{MONEY}{(a.year and a.year.currency) or '-'}"
     rows = (
         Figure("length", "length", conveyor.route.length),
         Figure("lift", "length", conveyor.route.rise),
-        Figure("belt speed", "speed", si(conveyor.belt.speed)),
-        Figure("mass flow", "mass flow", si(conveyor.material.flow)),
+        Figure("belt speed", "speed", a.line.speed),
+        Figure("mass flow", "mass flow", a.line.flow),
         Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
         Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
         Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total"),
-        Figure("indentation", "force", forces.indentation, "notebook", "forces_N.indentation", key="indentation_force"),
-        Figure("idler rotation", "force", forces.idler_rotation, "notebook", "forces_N.idler_rotation",
-               key="idler_rotation_force"),
-        Figure("flexure", "force", forces.flexure, "notebook", "forces_N.flexure", key="flexure_force"),
-        Figure("secondary", "force", forces.secondary, "notebook", "forces_N.secondary", key="secondary_force"),
-        Figure("special", "force", forces.special, "notebook", "forces_N.special", key="special_force"),
-        Figure("lift force", "force", forces.lift, "notebook", "forces_N.lift"),
+        *(
+            Figure(
+                "lift force" if name == "lift" else name.replace("_", " "), "force", newtons, "notebook",
+                f"forces_N.{name}", key=f"{name}_force",
+            )
+            for name, newtons in forces.parts.items()
+        ),
         Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
         Figure("equivalent DIN f", "friction", found.friction_factor, "tile large cover notebook", "friction_factor",
                key="equivalent_f"),
@@ -174,11 +176,11 @@ def results(a: Analysis) -> Table:
         Figure("belt safety at start", "ratio", safety, "cover"),
         Figure("energy", "specific energy", power.energy_per_tonne_km, "tile large cover notebook",
                key="specific_energy"),
-        Figure("energy per year", "energy", year, "cover"),
+        Figure("energy per year", "energy", energy, "cover"),
         Figure("cost per year", money, cost, "cover"),
         Figure("classical f", "friction", classic.friction_factor),
         Figure("classical effective tension", "force", classic.total),
-        Figure("classical motor power", "power", classic.motor, "cover"),
+        Figure("classical motor power", "power", found.frame.motor(classic.total), "cover"),
         Figure("largest error estimate of the contacts", "error", error, "cover", "error_estimate",
                key="contact_error_estimate"),
         Figure("largest energy error of the contacts", "error", energy_error, key="contact_energy_error"),
@@ -203,7 +205,7 @@ def inputs(conveyor: Conveyor) -> Table:
     return Table("inputs", "Inputs", "Inputs as entered and in SI", columns, entered(conveyor), page)
 
 
-def sections(a: Analysis) -> Table:
+def sections(a: Calculation) -> Table:
     """One row a stretch: geometry, masses, forces; both strands, in running direction."""
     columns = (
         Column("section", "text", attrgetter("stretch.section"), json="section"),
@@ -214,11 +216,11 @@ def sections(a: Analysis) -> Table:
         Column("idler spacing", "spacing", attrgetter("stretch.spacing"), "layout"),
         Column("belt mass", "line mass", attrgetter("stretch.belt_mass"), "layout"),
         Column("bulk mass", "line mass", attrgetter("stretch.bulk_mass"), "layout"),
-        Column("indentation", "force", attrgetter("indentation"), "forces", json="indentation_N", total=True),
-        Column("idler rotation", "force", attrgetter("rotation"), "forces", json="idler_rotation_N", total=True),
-        Column("flexure", "force", attrgetter("flexure"), "forces", json="flexure_N", total=True),
-        Column("idler tilt", "force", attrgetter("tilt"), "forces", json="tilt_N", total=True),
-        Column("lift force", "force", attrgetter("lift"), "forces", json="lift_N", total=True),
+        *(
+            Column(force.short or force.name, "force", _force_of(force.key), "forces", json=f"{force.key}_N",
+                   total=True)
+            for force in a.balance.along
+        ),
         Column("total", "force", attrgetter("total"), "forces", json="total_N", total=True),
         Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
         Column("idler set L10 life", "life", _set_life, "layout", sparse=True),
@@ -231,31 +233,22 @@ def sections(a: Analysis) -> Table:
     return Table("sections", "Sections", heading, columns, a.stretches, page, foot="all sections")
 
 
+def _force_of(key: str) -> Getter:
+    return lambda row: row.forces[key]
+
+
 def _set_life(r: StretchResult) -> float | None:
     """Of the bearings of a set [s], where all are given."""
     life = set_life(r.stretch, r.rolls[0].curve.contact.speed)
     return life.hours * _HOUR if life is not None and life.whole else None
 
 
-def resistances(a: Analysis) -> Table:
+def resistances(a: Calculation) -> Table:
     """Every newton and the law it comes from; the rows add up to the effective tension."""
-    by_law = a.stretches[0].stretch.span_flexure is not None
-    flexure = "calculation.flexure, laws" if by_law else "share of the main resistance, flagged default"
     by_strand = [
-        (
-            f"{label}, {strand}",
-            kind,
-            math.fsum(getattr(r, name) for r in a.stretches if r.stretch.strand == strand),
-            source,
-        )
-        for label, name, kind, source in (
-            ("indentation", "indentation", "main", "viscoelastic contact of every roll (docs/method.md)"),
-            ("idler rotation", "rotation", "main", "roll drag x number of rolls"),
-            ("flexure of belt and bulk", "flexure", "main", flexure),
-            ("idler tilt", "tilt", "special", "ISO 5048, F_e"),
-            ("lift", "lift", "lift", "ISO 5048, F_St"),
-        )
-        for strand in ("carry", "return")
+        (f"{force.name}, {strand}", force.kind, newtons, force.source)
+        for force in a.balance.along
+        for strand, newtons in force.by_strand().items()
     ]
     total = a.balance.forces.total
     columns = (
@@ -265,7 +258,7 @@ def resistances(a: Analysis) -> Table:
         Column("share", "share", lambda row: _share(row[2], total), total=total != 0.0),
         Column("source", "text", itemgetter(3)),
     )
-    rows = (*by_strand, *((each.name, each.kind, each.force, each.source) for each in a.balance.singles))
+    rows = (*by_strand, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
     heading = "Every force and the law it comes from"
     page = (OnPage("resistances", heading),)
     return Table("resistances", "Resistances", heading, columns, rows, page, foot="effective tension")
@@ -276,19 +269,19 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole else math.nan
 
 
-def breakdown(a: Analysis) -> Table:
+def breakdown(a: Calculation) -> Table:
     """Sums of the forces by what they are, and their share."""
     forces = a.balance.forces
     columns = (
         Column("resistance", "text", lambda name: name.replace("_", " ")),
-        Column("force", "force", lambda name: getattr(forces, name)),
-        Column("share of total", "share", lambda name: _share(getattr(forces, name), forces.total)),
+        Column("force", "force", lambda name: forces.parts[name]),
+        Column("share of total", "share", lambda name: _share(forces.parts[name], forces.total)),
     )
     heading = "Breakdown of the effective tension"
-    return Table("breakdown", "Resistances", heading, columns, tuple(asdict(forces)))
+    return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts))
 
 
-def classical(a: Analysis) -> Table:
+def classical(a: Calculation) -> Table:
     """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
     found, forces = a.balance, a.balance.forces
     estimates = [("classical, given f", found.classical), ("CEMA classic, given Ky", found.cema)]
@@ -297,6 +290,8 @@ def classical(a: Analysis) -> Table:
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
+    powers = (found.power.motor, *(found.frame.motor(made.total) for _, made in others))
+
     rows = (
         row("f", "friction", "friction_factor", found.friction_factor),
         row("main", "force", "main", forces.main),
@@ -304,7 +299,7 @@ def classical(a: Analysis) -> Table:
         row("special", "force", "special", forces.special),
         row("lift", "force", "lift", forces.lift),
         row("effective tension", "force", "total", forces.total),
-        row("motor power", "power", "motor", found.power.motor),
+        Figure("motor power", "power", powers, key="motor"),
     )
     names = ["this calculation", *(name for name, _ in others)]
     columns = (
@@ -321,7 +316,7 @@ def _nth(i: int) -> Getter:
     return lambda figure: figure.value[i]
 
 
-def rolls(a: Analysis) -> Table:
+def rolls(a: Calculation) -> Table:
     """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
     columns = (
         Column("section", "text", lambda row: row[0].stretch.section),
@@ -355,7 +350,7 @@ def rolls(a: Analysis) -> Table:
     return Table("rolls", "Rolls", "Rolls of a set, contact at the highest line load", columns, rows)
 
 
-def highest_rolls(a: Analysis) -> Table:
+def highest_rolls(a: Calculation) -> Table:
     """The highest loaded roll of every section; on the page only."""
     every = rolls(a)
     by_stretch: dict[tuple[str, str], list[Any]] = {}
@@ -364,11 +359,11 @@ def highest_rolls(a: Analysis) -> Table:
     highest = tuple(max(rows, key=lambda row: float(row[1].peak.line_load)) for rows in by_stretch.values())
     caption = "Roll of the highest line load of every section and strand"
     page = (OnPage("rolls", caption),)
-    note = f"Relative error of the contacts: at most {worst_error(a.stretches):.0e}."
+    note = f"Relative error of the contacts: at most {a.error_estimate:.0e}."
     return Table("highest_rolls", "", caption, every.columns, highest, page, note)
 
 
-def tensions(a: Analysis) -> Table:
+def tensions(a: Calculation) -> Table:
     """Tension round the loop in steady running, from the drive back to it."""
     columns = (
         Column("place", "text", attrgetter("place")),
@@ -380,11 +375,11 @@ def tensions(a: Analysis) -> Table:
     return Table("tensions", "Tensions", heading, columns, a.balance.points)
 
 
-def profile(a: Analysis) -> Table:
+def profile(a: Calculation) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
-    sections = a.conveyor.route.sections
-    along = accumulate((si(section.length) for section in sections), initial=0.0)
-    rows = zip(("", *(section.name for section in sections)), along, boundaries(a.conveyor), strict=True)
+    sections = a.line.sections
+    along = accumulate((section.length for section in sections), initial=0.0)
+    rows = zip(("", *(section.name for section in sections)), along, boundaries(a.line), strict=True)
     columns = (
         Column("behind section", "text", itemgetter(0)),
         Column("along the belt", "length", itemgetter(1)),
@@ -394,32 +389,31 @@ def profile(a: Analysis) -> Table:
     return Table("profile", "States", "Profile of the route", columns, tuple(rows))
 
 
-def boundaries(conveyor: Conveyor) -> list[tuple[float, float]]:
+def boundaries(line: Line) -> list[tuple[float, float]]:
     """Horizontal distance and height over the tail of every boundary of sections [m]."""
     found = [(0.0, 0.0)]
-    for section in conveyor.route.sections:
+    for section in line.sections:
         across, up = found[-1]
-        level = math.sqrt(si(section.length) ** 2 - section.rise**2)
+        level = math.sqrt(section.length**2 - section.rise**2)
         found.append((across + level, up + section.rise))
     return found
 
 
-def section_ends(a: Analysis) -> Table:
+def section_ends(a: Calculation) -> Table:
     """One row a stretch: steady running and the state of the highest tension; on the page only."""
-    settled = a.balance.settled
-    geometry = settled.loop.geometry
+    settled, shape = a.balance.settled, a.line.loop
     columns = [
-        Column("section", "text", lambda i: geometry.stretches[i].section),
-        Column("strand", "text", lambda i: geometry.stretches[i].strand),
+        Column("section", "text", lambda i: shape.stretches[i].section),
+        Column("strand", "text", lambda i: shape.stretches[i].strand),
     ]
     for state in {state.name: state for state in (settled.steady, settled.unsteady)}.values():
         columns += [
             Column(f"{state.name}, {end}", "force", _of(at))
             for end, at in (("begins", state.starts), ("ends", state.ends))
         ]
-    columns.append(Column("least for sag", "force", lambda i: float(geometry.least[i])))
+    columns.append(Column("least for sag", "force", lambda i: float(shape.least[i])))
     caption = "Tensions where the sections begin and end"
-    rows = tuple(range(len(geometry.stretches)))
+    rows = tuple(range(len(shape.stretches)))
     return Table("section_ends", "", caption, tuple(columns), rows, (OnPage("tensions", caption),))
 
 
@@ -427,22 +421,21 @@ def _of(values: Any) -> Getter:
     return lambda i: float(values[i])
 
 
-def tension_states(a: Analysis) -> Table:
+def tension_states(a: Calculation) -> Table:
     """Tension at both ends of every stretch in every state, in loop order from the head."""
-    settled = a.balance.settled
-    geometry = settled.loop.geometry
+    settled, shape = a.balance.settled, a.line.loop
     columns = [
-        Column("section", "text", lambda at: geometry.stretches[at[0]].section),
-        Column("strand", "text", lambda at: geometry.stretches[at[0]].strand),
+        Column("section", "text", lambda at: shape.stretches[at[0]].section),
+        Column("strand", "text", lambda at: shape.stretches[at[0]].strand),
         Column("end", "text", lambda at: ("start", "end")[at[1]]),
-        Column("distance from head", "length", lambda at: float(geometry.way[at[0] + at[1]])),
-        Column("least for sag", "force", lambda at: float(geometry.least[at[0]])),
+        Column("distance from head", "length", lambda at: float(shape.way[at[0] + at[1]])),
+        Column("least for sag", "force", lambda at: float(shape.least[at[0]])),
         *(
             Column(name, "force", _of_end(state))
             for name, state in (settled.states | a.motions.states).items()
         ),
     ]
-    rows = tuple((i, end) for i in range(len(geometry.stretches)) for end in (0, 1))
+    rows = tuple((i, end) for i in range(len(shape.stretches)) for end in (0, 1))
     return Table("tension_states", "States", "Tension in every state of motion", tuple(columns), rows)
 
 
@@ -450,14 +443,14 @@ def _of_end(state: Any) -> Getter:
     return lambda at: float((state.starts, state.ends)[at[1]][at[0]])
 
 
-def drives(a: Analysis) -> Table:
+def drives(a: Calculation) -> Table:
     """One row a drive and state: force, power, tensions before and behind, grip used."""
-    data, states = a.balance.settled.loop.data, a.balance.settled.states
+    motor, states = a.balance.frame.motor, a.balance.settled.states
     columns = (
         Column("drive", "text", lambda row: row[0].name),
         Column("state", "text", lambda row: row[1]),
         Column("force", "force", lambda row: row[2].force),
-        Column("motor power at full speed", "power", lambda row: data.motor(row[2].force)),
+        Column("motor power at full speed", "power", lambda row: motor(row[2].force)),
         Column("installed power", "power", lambda row: row[0].power),
         Column("arriving", "force", lambda row: row[2].arriving),
         Column("leaving", "force", lambda row: row[2].leaving),
@@ -468,7 +461,7 @@ def drives(a: Analysis) -> Table:
     rows = tuple(
         (drive, state.name, side)
         for state in states.values()
-        for drive, side in zip(data.drives, state.drives, strict=True)
+        for drive, side in zip(a.line.drives, state.drives, strict=True)
     )
     heading = "Drives in every state of motion"
     return Table(
@@ -476,28 +469,28 @@ def drives(a: Analysis) -> Table:
     )
 
 
-def take_up(a: Analysis) -> Table:
+def take_up(a: Calculation) -> Table:
     """Setting of the take-up, what asks for it, its mass or pull."""
     settled = a.balance.settled
-    data, geometry = settled.loop.data, settled.loop.geometry
+    unit_of, gravity = a.line.take_up, a.line.gravity
     means = 0.5 * (settled.steady.starts + settled.steady.ends)
-    mean = mean_tension(means.tolist(), lengths=geometry.length.tolist())
+    mean = mean_tension(means.tolist(), lengths=a.line.loop.length.tolist())
     mass = None
-    if data.take_up.kind != "fixed":
-        mass = take_up_mass(max(settled.setting, 0.0), reeving=data.take_up.reeving, gravity=data.gravity)
+    if unit_of.kind != "fixed":
+        mass = take_up_mass(max(settled.setting, 0.0), reeving=unit_of.reeving, gravity=gravity)
     rows = (
         Figure("setting", "force", settled.setting, "cover"),
         Figure("least setting", "force", settled.needed),
         Figure("mean tension of the loop", "force", mean, key="mean_tension"),
         Figure("mass of a gravity take-up", "mass", mass, key="mass"),
-        Figure("pull on the rope of a winch", "force", None if mass is None else mass * data.gravity, key="pull"),
+        Figure("pull on the rope of a winch", "force", None if mass is None else mass * gravity, key="pull"),
     )  # fmt: skip
-    note = f"kind: {data.take_up.kind}, governed by: {settled.condition_name(settled.governed_by)}"
+    note = f"kind: {unit_of.kind}, governed by: {settled.condition_name(settled.governed_by)}"
     page = (OnPage("tensions", "Take-up"),)
     return figures("take_up", "Loop", "Take-up", rows, page=page, note=note, prefix="take_up_")
 
 
-def conditions(a: Analysis) -> Table:
+def conditions(a: Calculation) -> Table:
     """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
     settled = a.balance.settled
     columns = (
@@ -512,7 +505,7 @@ def conditions(a: Analysis) -> Table:
     return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
 
 
-def start_stop(a: Analysis) -> Table:
+def start_stop(a: Calculation) -> Table:
     """Start, stop, brakes and the limits of the bulk."""
     moving = a.motions
     start, slip = moving.start, moving.slip
@@ -549,7 +542,7 @@ def start_stop(a: Analysis) -> Table:
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
 
 
-def belt_strength_table(a: Analysis) -> Table:
+def belt_strength_table(a: Calculation) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
@@ -565,7 +558,7 @@ def belt_strength_table(a: Analysis) -> Table:
     return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
 
 
-def pulleys(a: Analysis) -> Table:
+def pulleys(a: Calculation) -> Table:
     """One row a pulley: its diameter beside the least one."""
     columns = (
         Column("pulley", "text", attrgetter("name")),
@@ -581,7 +574,7 @@ def pulleys(a: Analysis) -> Table:
     )
 
 
-def vertical_curves(a: Analysis) -> Table:
+def vertical_curves(a: Calculation) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones."""
     columns = (
         Column("section", "text", attrgetter("section")),
@@ -598,7 +591,7 @@ def vertical_curves(a: Analysis) -> Table:
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
 
 
-def convergence(a: Analysis) -> Table:
+def convergence(a: Calculation) -> Table:
     """How tensions and roll loads settled on the curves; empty without curves."""
     found = a.convergence
     rows = () if found is None else (
@@ -611,12 +604,12 @@ def convergence(a: Analysis) -> Table:
     return figures("convergence", "Loop", heading, rows, page=(OnPage("belt", f"{heading} on the curves"),))
 
 
-def _contacts(a: Analysis) -> dict[Any, Any]:
+def _contacts(a: Calculation) -> dict[Any, Any]:
     """Every distinct load curve and the last stretch that runs on it."""
     return {roll.curve: r for r in a.stretches for roll in r.rolls}
 
 
-def contact_solutions(a: Analysis) -> Table:
+def contact_solutions(a: Calculation) -> Table:
     """One row a distinct contact: its range of loads, what the curve cost, its errors."""
     columns = (
         Column("strand", "text", lambda row: row[1].stretch.strand),
@@ -640,7 +633,7 @@ def contact_solutions(a: Analysis) -> Table:
     return Table("contact_solutions", "Indentation", heading, columns, rows, page)
 
 
-def indentation(a: Analysis) -> Table:
+def indentation(a: Calculation) -> Table:
     """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
     seen: dict[Any, str] = {}
     for r in a.stretches:
@@ -665,13 +658,12 @@ def indentation(a: Analysis) -> Table:
     return Table("indentation", "Indentation", heading, declared, tuple(rows))
 
 
-def rubber(a: Analysis) -> Table:
+def rubber(a: Calculation) -> Table:
     """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
-    conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
-    rows = []
-    for strand, compound in _strands(conveyor).items():
-        strain = next(r.surface.strain for r in a.stretches if r.stretch.strand == strand)
-        band, data = excited_band(a.stretches, strand), compound.frequencies(at)
+    at, rows = a.temperature, []
+    for strand, compound in compounds_by_strand(a.conveyor).items():
+        strain = a.contacts.covers[strand].strain
+        band, data = a.contacts.excited_band(strand), compound.frequencies(at)
         rows.append((strand, compound, band or (None, None), data or (None, None), strain))
     columns = (
         Column("strand", "text", itemgetter(0), json="strand"),
@@ -713,14 +705,10 @@ def _words(get: Getter) -> Getter:
     return words
 
 
-def _strands(conveyor: Conveyor) -> dict[Any, RubberCompound]:
-    return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
-
-
-def compounds(a: Analysis, system: System) -> Iterator[Table]:
+def compounds(a: Calculation, system: System) -> Iterator[Table]:
     """What is known of the rubber of each strand, its relaxation spectrum, its moduli."""
-    at, seen = si(a.conveyor.ambient.belt), set()
-    for strand, compound in _strands(a.conveyor).items():
+    at, seen = a.temperature, set()
+    for strand, compound in compounds_by_strand(a.conveyor).items():
         if compound.name not in seen:
             seen.add(compound.name)
             yield _known(compound, strand, system)
@@ -738,7 +726,7 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
         ("data", compound.source.data or "not stated"),
         ("strain of the data", compound.strain or "not stated"),
         ("Poisson's ratio", repr(compound.poisson_ratio)),
-        ("reference temperature", unit("temperature", system).brief(si(compound.reference_temperature))),
+        ("reference temperature", unit("temperature", system).converted(compound.reference_temperature)),
         ("equilibrium modulus", text(compound.prony.equilibrium)),
         ("Prony terms", str(len(compound.prony.terms))),
         ("temperature shift", "none" if compound.shift is None else compound.shift.law),
@@ -757,13 +745,14 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
 
 def _prony(compound: RubberCompound, strand: str, at: float) -> Table:
     """Terms of a compound's relaxation spectrum, at the reference and at a temperature [K]."""
-    terms = sorted(compound.prony.terms, key=lambda term: si(term.time))
+    reference = compound.series_at_reference
     columns = (
-        Column("modulus", "pressure", lambda row: si(row[0].modulus)),
-        Column("time at reference", "time", lambda row: si(row[0].time)),
-        Column("time at belt temperature", "time", lambda row: float(row[1])),
+        Column("modulus", "pressure", itemgetter(0)),
+        Column("time at reference", "time", itemgetter(1)),
+        Column("time at belt temperature", "time", itemgetter(2)),
     )
-    rows = tuple(zip(terms, compound.series(at).times, strict=True))
+    values = (reference.moduli, reference.times, compound.series(at).times)
+    rows = tuple(zip(*(value.tolist() for value in values), strict=True))
     return Table(f"prony_{strand}", "Rubber", "Relaxation spectrum", columns, rows)
 
 
@@ -782,18 +771,18 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
     return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows)
 
 
-def checked(a: Analysis, studies: Studies | None, system: System) -> Table:
+def checked(rows: tuple[Check, ...], system: System) -> Table:
     """What was checked: what was found, what is asked for, pass or fail."""
     columns = (
-        Column("check", "text", attrgetter("subject")),
-        Column("found", "text", attrgetter("found")),
-        Column("asked for", "text", attrgetter("asked")),
+        Column("check", "text", lambda check: check.subject.text(system)),
+        Column("found", "text", lambda check: check.found.text(system)),
+        Column("asked for", "text", lambda check: check.asked.text(system)),
         Column("verdict", "verdict", attrgetter("verdict")),
     )
     caption = (
         "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
     )
-    rows, page = checks(a, system, studies), (OnPage("checks", caption),)
+    page = (OnPage("checks", caption),)
     return Table("checks", "Checks and notes", "Checks", columns, rows, page)
 
 
@@ -805,14 +794,15 @@ class Remark(tuple[str, str]):
     text = property(itemgetter(1))
 
 
-def remarks(a: Analysis) -> Table:
+def remarks(a: Calculation, found: tuple[Check, ...], system: System) -> Table:
     """Warnings, assumptions, and the notes of the spec."""
     columns = (
         Column("kind", "text", attrgetter("kind")),
         Column("text", "text", attrgetter("text")),
     )
     notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
-    said = {"warning": a.warnings, "assumption": a.assumptions, "note of the spec": notes}
+    warned = [line.text(system) for line in warnings(a, found)]
+    said = {"warning": warned, "assumption": assumptions(a.conveyor), "note of the spec": notes}
     rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
     return Table("remarks", "Checks and notes", "Remarks", columns, rows)
 
@@ -833,9 +823,9 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
+def drawings(a: Calculation, system: System) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
-    conveyor, at = a.conveyor, si(a.conveyor.ambient.belt)
+    conveyor, at = a.conveyor, a.temperature
     yield Drawing(
         "breakdown",
         "Resistances of this calculation; beside their sums the classical estimates with given friction.",
@@ -845,7 +835,7 @@ def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
     yield Drawing(
         "profile",
         "Profile of the route from the tail: triangles are feeding points, rings are drives.",
-        lambda: loop_plots.route_profile(conveyor, boundaries(conveyor), system=system),
+        lambda: loop_plots.route_profile(conveyor, boundaries(a.line), system=system),
         "sections",
     )
     yield Drawing(
@@ -857,10 +847,10 @@ def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
     yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
-        lambda: analysis_plots.pressure_under_rolls(a.stretches, system=system),
+        lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
         "highest_rolls",
     )
-    strands = _strands(conveyor)
+    strands = compounds_by_strand(conveyor)
     worked = {compound.name: compound for compound in strands.values()}
     for k, (name, compound) in enumerate(worked.items(), start=1):
         on_it = tuple(strand for strand, other in strands.items() if other.name == name)
@@ -868,15 +858,15 @@ def drawings(a: Analysis, system: System) -> Iterator[Drawing]:
             f"rubber-{k}",
             f"Master curve of {name} at {unit('temperature', system).brief(at)}; "
             f"shaded: the band in which the {' and '.join(on_it)} rolls lose nine tenths of their energy.",
-            partial(analysis_plots.rubber_at_work, compound, at, a.stretches, on_it, system=system),
+            partial(analysis_plots.rubber_at_work, compound, at, a.contacts, on_it, system=system),
             f"known_{on_it[0]}",
         )
 
 
-def plain(a: Analysis) -> dict[str, Any]:
+def plain(a: Calculation) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key."""
     found = a.balance
-    power, settled, even = found.power, found.settled, not a.conveyor.duty
+    power, settled, year = found.power, found.settled, None if a.conveyor.duty else a.year
     data: dict[str, Any] = {
         "name": a.conveyor.name,
         "forces_N": {},
@@ -886,36 +876,37 @@ def plain(a: Analysis) -> dict[str, Any]:
             {
                 "drive": side.name,
                 "force_N": side.force,
-                "motor_kW": settled.loop.data.motor(side.force) / 1e3,
+                "motor_kW": found.frame.motor(side.force) / 1e3,
                 "arriving_N": side.arriving,
                 "leaving_N": side.leaving,
             }
             for side in settled.steady.drives
         ],
         "take_up": {
-            "kind": settled.loop.data.take_up.kind,
+            "kind": a.line.take_up.kind,
             "setting_N": settled.setting,
             "least_setting_N": settled.needed,
             "governed_by": settled.condition_name(settled.governed_by),
         },
         "energy": {
             "kWh_per_tonne_km": power.energy_per_tonne_km,
-            "kWh_per_year": power.energy_per_year if even else None,
-            "cost_per_year": power.cost_per_year if even else None,
-            "currency": power.currency,
+            "kWh_per_year": None if year is None else year.energy,
+            "cost_per_year": None if year is None else year.cost,
+            "currency": a.year and a.year.currency,
         },
-        "classical": {**_estimate(found.classical), "secondary_by": found.classical.secondary_by},
-        "cema": None if found.cema is None else _estimate(found.cema),
+        "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
+        "cema": None if found.cema is None else _estimate(found, found.cema),
         "rubber": rubber(a).plain(),
         "sections": sections(a).plain(),
-        "assumptions": list(a.assumptions),
-        "warnings": list(a.warnings),
+        "assumptions": list(assumptions(a.conveyor)),
+        "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, checks(a))],
     }
     return placed(data, results(a).rows)
 
 
-def _estimate(made: Any) -> dict[str, float]:
-    return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": made.motor / 1e3}
+def _estimate(found: Balance, made: Classical) -> dict[str, float]:
+    motor = found.frame.motor(made.total)
+    return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": motor / 1e3}
 
 
 def placed(data: dict[str, Any], rows: Iterable[Figure]) -> dict[str, Any]:

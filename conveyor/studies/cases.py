@@ -126,7 +126,7 @@ class MotorChoice:
 
 
 @dataclass(frozen=True, eq=False)
-class CaseStudy:
+class CalculatedCases:
     """All load cases of a conveyor.
 
     Attributes
@@ -157,18 +157,6 @@ class CaseStudy:
         """The cases against what is installed; the case that decides is named."""
         return tuple(_checks(self))
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a case, temperature and speed; units in the names."""
-        from conveyor.report.study_tables import cases
-
-        return cases(self).frame()
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_cases
-
-        return notebook_of_cases(self)
-
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
 
@@ -192,7 +180,7 @@ def analyse_cases(
     friction_band: tuple[float, float] | None = None,
     rtol: float | None = None,
     progress: Progress | None = None,
-) -> CaseStudy:
+) -> CalculatedCases:
     """Calculate load cases, all contacts side by side.
 
     Parameters
@@ -211,7 +199,7 @@ def analyse_cases(
 
     Returns
     -------
-    CaseStudy
+    CalculatedCases
         One result a case, speed and temperature; governing cases; motors.
 
     Raises
@@ -248,7 +236,7 @@ def analyse_cases(
             results.append(CaseResult(case, found, band))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
-    return CaseStudy(conveyor, chosen, band, tuple(results), tuple(refused))
+    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused))
 
 
 _FIGURES: Final[dict[str, tuple[str, bool, Callable[[CaseResult], float]]]] = {
@@ -275,7 +263,7 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     return tuple(found)
 
 
-def _checks(study: CaseStudy) -> Iterator[Check]:
+def _checks(study: CalculatedCases) -> Iterator[Check]:
     if study.refused:
         answered, cases = len(study.results), len(study.results) + len(study.refused)
         yield Check(
@@ -304,7 +292,7 @@ def _motor_checks(most: Governing) -> Iterator[Check]:
         yield drive_power(quoted(drive.name), drive, drive.share * most.value, subject)
 
 
-def _take_up_check(study: CaseStudy, most: Governing) -> Iterator[Check]:
+def _take_up_check(study: CalculatedCases, most: Governing) -> Iterator[Check]:
     held = most.result.found.line.take_up.tension
     subject = _of_case("tension of the take-up", most.result)
     asked = said("at least {}", (most.value, "force"))
@@ -317,7 +305,7 @@ def _take_up_check(study: CaseStudy, most: Governing) -> Iterator[Check]:
         yield Check("take_up_tension", subject, None, most.value, "force", anew, asked, "not checked")
 
 
-def _safety_check(study: CaseStudy) -> Iterator[Check]:
+def _safety_check(study: CalculatedCases) -> Iterator[Check]:
     tightest = max(study.results, key=lambda result: result.found.belt_duty.largest_steady)
     if tightest.found.belt_duty.safety_steady is not None:
         yield steady_safety(tightest.found.belt_duty, _of_case("safety of the belt, steady", tightest))

@@ -9,33 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from conveyor import shelf
-from conveyor.display import chosen
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, distinct, with_compound
 from conveyor.pipeline import Progress
 from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound
-from conveyor.studies.duty import DutyStudy, analyse_duty
-from conveyor.units import Quantity, System, quantity
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from conveyor.report.columns import Contents
-    from conveyor.report.files import FileKind
-    from conveyor.studies.drawing import ComparisonPlots
+from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.units import Quantity, quantity
 
 __all__ = [
     "ComparedScene",
-    "Comparison",
+    "CalculatedComparison",
     "Coverage",
     "Refusal",
-    "compare",
     "compare_compounds",
     "with_compound",
 ]
@@ -45,7 +34,7 @@ RTOL = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class CalculatedComparison:
     """All scenes of a comparison, in the order compound, speed, temperature.
 
     Attributes
@@ -76,114 +65,7 @@ class Comparison:
     refused: tuple[Refusal, ...]
     coverage: tuple[Coverage, ...]
     extra_costs: Mapping[str, float]
-    years: Mapping[str, DutyStudy] = field(default_factory=dict)
-
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a scene; units in the names."""
-        from conveyor.report import comparing
-
-        return comparing.scenes(self).frame()
-
-    @cached_property
-    def ranking(self) -> pd.DataFrame:
-        """One row a compound and speed, the least mean power first; savings and payback against the base."""
-        from conveyor.report import comparing
-
-        return comparing.ranking(self).frame()
-
-    def contents(self, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units."""
-        from conveyor.report.comparing import of_comparison
-
-        return of_comparison(self, chosen(self.conveyor.report.units, system))
-
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook.
-
-        Parameters
-        ----------
-        path : str or Path
-            Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Scenes too many for a
-            sheet go to a CSV file beside it.
-        system : {"SI", "US"}, optional
-            Units of the tables; without it those of the spec's report.
-
-        Raises
-        ------
-        InputError
-            The path cannot be written, or the system is neither SI nor US.
-        """
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_tables(
-        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
-    ) -> tuple[Path, ...]:
-        """Write every table of the workbook as a file of its own; names as in docs/workbook.md.
-
-        Parameters
-        ----------
-        folder : str or Path
-            A folder that exists; older files of the same names are replaced.
-        system : {"SI", "US"}, optional
-            Units of the tables; without it those of the spec's report.
-        kind : {"csv", "parquet"}
-            Parquet needs the package pyarrow.
-
-        Raises
-        ------
-        InputError
-            No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
-        """
-        from conveyor.report.files import write
-
-        return write(self.contents(system), Path(folder), kind)
-
-    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report, one static page.
-
-        Parameters
-        ----------
-        path : str or Path
-            Name of the page, ending in ``.html``; an older page there is replaced.
-        system : {"SI", "US"}, optional
-            Units of the tables; without it those of the spec's report.
-
-        Raises
-        ------
-        InputError
-            The path cannot be written, or the system is neither SI nor US.
-        """
-        from conveyor.report.html import write
-
-        return write(self.contents(system), Path(path))
-
-    @property
-    def plots(self) -> ComparisonPlots:
-        """Figures: power over temperature and speed, loss tangents."""
-        from conveyor.studies.drawing import ComparisonPlots
-
-        return ComparisonPlots(self)
-
-    def _repr_html_(self) -> str:
-        """For notebooks: the ranking and what to know of it."""
-        from conveyor.report import comparing
-
-        return comparing.notebook(self)
-
-
-def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
-    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
-
-    Examples
-    --------
-    >>> import conveyor
-    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
-    >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
-    """
-    return compare_compounds(conveyor, compounds, **options).table
+    years: Mapping[str, CalculatedYear] = field(default_factory=dict)
 
 
 def compare_compounds(
@@ -198,7 +80,7 @@ def compare_compounds(
     rtol: float = RTOL,
     shelves: Iterable[str | Path] = (),
     progress: Progress | None = None,
-) -> Comparison:
+) -> CalculatedComparison:
     """Calculate a conveyor with every compound at every temperature and speed.
 
     Parameters
@@ -224,7 +106,7 @@ def compare_compounds(
 
     Returns
     -------
-    Comparison
+    CalculatedComparison
         Scenes, ranking, refusals.
 
     Raises
@@ -244,7 +126,7 @@ def compare_compounds(
         studies.append(of_compound(conveyor, compound, at, runs, cover=cover, rtol=rtol))
     if progress is not None:
         progress(len(chosen), len(chosen))
-    return Comparison(
+    return CalculatedComparison(
         conveyor,
         chosen,
         reference,
@@ -259,15 +141,15 @@ def compare_compounds(
 
 def _years(
     conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: CoverChoice, rtol: float
-) -> dict[str, DutyStudy]:
+) -> dict[str, CalculatedYear]:
     """The year of a duty with each compound; none of one that a bar of it has no answer for."""
-    found: dict[str, DutyStudy] = {}
+    found: dict[str, CalculatedYear] = {}
     if conveyor.duty:
         for compound in compounds:
             try:
                 found[compound.name] = analyse_duty(with_compound(conveyor, compound, cover), rtol=rtol)
             except ConveyorError:
-                continue  # its scenes say why; `conveyor.report.comparing.remarks` says that it has no year
+                continue  # its scenes say why; the report's remarks says that it has no year
     return found
 
 

@@ -60,7 +60,7 @@ class DutyRow:
 
 
 @dataclass(frozen=True, eq=False)
-class DutyStudy:
+class CalculatedYear:
     """A year of a conveyor.
 
     Attributes
@@ -92,29 +92,10 @@ class DutyStudy:
     emission_source: str | None
     energy_per_tonne_km: float | None
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a bar; units in the names."""
-        from conveyor.report.study_tables import duty
-
-        return duty(self).frame()
-
-    @cached_property
-    def summary(self) -> pd.Series:
-        """Sums of the year; units in the names."""
-        from conveyor.report.study_tables import year
-
-        return year(self).series("year")
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_duty
-
-        return notebook_of_duty(self)
-
 
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
-) -> DutyStudy:
+) -> CalculatedYear:
     """Calculate every bar of a conveyor's duty and sum up the year.
 
     Parameters
@@ -128,7 +109,7 @@ def analyse_duty(
 
     Returns
     -------
-    DutyStudy
+    CalculatedYear
         Bars, energy, cost, carbon dioxide.
 
     Raises
@@ -157,7 +138,7 @@ def analyse_duty(
         rows.append(_row(entry, found))
     year = duty_sums([row.step for row in rows])
     price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
-    return DutyStudy(
+    return CalculatedYear(
         conveyor=conveyor,
         rows=tuple(rows),
         year=year,

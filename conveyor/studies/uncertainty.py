@@ -64,7 +64,7 @@ class Effect:
 
 
 @dataclass(frozen=True, eq=False)
-class UncertaintyStudy:
+class CalculatedRanges:
     """The power with its band, and which input matters.
 
     Attributes
@@ -95,18 +95,6 @@ class UncertaintyStudy:
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """The tornado: one row an input, the largest swing first; units in the names."""
-        from conveyor.report.study_tables import sensitivity
-
-        return sensitivity(self).frame()
-
-    def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_uncertainty
-
-        return notebook_of_uncertainty(self)
-
 
 @dataclass(frozen=True)
 class _Variation:
@@ -129,7 +117,7 @@ def study(
     samples: int = SAMPLES,
     seed: int = 0,
     progress: Progress | None = None,
-) -> UncertaintyStudy:
+) -> CalculatedRanges:
     """Calculate a conveyor at both ends of every uncertain input.
 
     Parameters
@@ -149,7 +137,7 @@ def study(
 
     Returns
     -------
-    UncertaintyStudy
+    CalculatedRanges
         Tornado and bands.
 
     Raises
@@ -185,7 +173,7 @@ def study(
         low, high = _ends(mine) if variation.replicas else (mine[0], mine[1])
         effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
     effects.sort(key=lambda effect: -effect.swing)
-    return UncertaintyStudy(
+    return CalculatedRanges(
         conveyor=conveyor,
         motor=motor,
         effects=tuple(effects),

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.analysis import Analysis
-from conveyor.studies import Studies, studies
+from conveyor.analysis import Analysis, Studies, studies
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 

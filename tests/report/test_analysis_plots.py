@@ -10,12 +10,12 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
 
 import conveyor
+from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
 from conveyor.line.walk import excited_band
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
 from conveyor.report.svg import inline, restyle
-from conveyor.studies.uncertainty import study as uncertain
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.analysis import CaseStudy, Studies, analyse_cases
 from conveyor.report.case_checks import case_checks
 from conveyor.report.checks import checks
 from conveyor.report.verdicts import Check
-from conveyor.studies import Studies
-from conveyor.studies.cases import CaseStudy, analyse_cases
 from conveyor.units import display
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor.analysis import studies
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.plots import save
-from conveyor.studies import studies
 from conveyor.units import KINDS, convert
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

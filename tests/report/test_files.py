@@ -12,13 +12,13 @@ import pandas as pd
 import pytest
 
 import conveyor
+from conveyor.analysis import compare_compounds
 from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.report import files, places
 from conveyor.report.excel import build
 from conveyor.report.excel import files as workbook_files
 from conveyor.report.tables import of_analysis
-from conveyor.studies.comparison import compare_compounds
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # pandas writes the shortest decimal that reads back

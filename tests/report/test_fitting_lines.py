@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 import pytest
 
+from conveyor import fitting
 from conveyor.compound_file import Request, fit_file
-from conveyor.report import fitting
 from conveyor.rubber import PronySeries
 
 

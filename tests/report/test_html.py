@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.analysis import studies
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
 from conveyor.report.checks import checks
 from conveyor.report.page_style import COLOURS
-from conveyor.studies import studies
 from tests.report.reading import HOSTILE, Page
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -10,11 +10,11 @@ import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
+from conveyor.analysis import compare_compounds
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
 from conveyor.report.checks import checks
-from conveyor.studies.comparison import compare_compounds
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
 ROUNDED = 1e-11  # twelve significant digits of a conversion, and one division

@@ -14,18 +14,18 @@ from conveyor.errors import InputError
 from conveyor.figures import celsius
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.variants import scaled
 from conveyor.report import analysis_plots, loop_plots, plots
 from conveyor.report.tables import boundaries
-from conveyor.studies.compared import Coverage, Found, Grid, Scene, of_compound
-from conveyor.studies.variants import scaled
-from conveyor.units import Quantity, System, quantity, si
+from conveyor.studies.compared import ComparedScene, Coverage, of_compound
+from conveyor.units import Quantity, System, quantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.analysis import Analysis
-    from conveyor.studies import Studies
-    from conveyor.studies.comparison import Comparison
+    from conveyor.pipeline import Calculation
+    from conveyor.studies import CalculatedStudies
+    from conveyor.studies.comparison import CalculatedComparison
 
 _WARMER: Final = tuple(range(-40, 41, 5))  # than the spec's belt [K]
 _FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # than the spec's belt, times
@@ -44,7 +44,7 @@ class AnalysisPlots:
     >>> result.plots.tensions(system="US").savefig("tensions.png")  # doctest: +SKIP
     """
 
-    analysis: Analysis
+    analysis: Calculation
 
     def resistances(self, *, system: System | None = None) -> Figure:
         """Every kind of resistance, the classical estimates beside their sums."""
@@ -58,11 +58,11 @@ class AnalysisPlots:
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
-        return loop_plots.route_profile(conveyor, boundaries(conveyor), system=self._in(system))
+        return loop_plots.route_profile(conveyor, boundaries(self.analysis.line), system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
-        return analysis_plots.pressure_under_rolls(self.analysis.stretches, system=self._in(system))
+        return analysis_plots.pressure_under_rolls(self.analysis.contacts, system=self._in(system))
 
     def rubber(self, strand: Strand = "carry", *, system: System | None = None) -> Figure:
         """Master curve of the rubber a strand's rolls run on, with the bands that all rolls on it excite."""
@@ -70,8 +70,10 @@ class AnalysisPlots:
         compounds = {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
         chosen_one = compounds[strand]
         on_it = tuple(each for each in _STRANDS if compounds[each].name == chosen_one.name)
-        at, results = si(conveyor.ambient.belt), self.analysis.stretches
-        return analysis_plots.rubber_at_work(chosen_one, at, results, on_it, system=self._in(system))
+        contacts = self.analysis.contacts
+        return analysis_plots.rubber_at_work(
+            chosen_one, conveyor.temperature, contacts, on_it, system=self._in(system)
+        )
 
     def power_against_temperature(
         self, temperatures: Iterable[str | Quantity] | None = None, *, system: System | None = None
@@ -91,7 +93,7 @@ class AnalysisPlots:
             A temperature is refused, or none has an answer.
         """
         conveyor = self.analysis.conveyor
-        at = celsius(si(conveyor.ambient.belt))
+        at = celsius(conveyor.temperature)
         around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
         given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
         found = _varied(conveyor, given, [conveyor.belt.speed])
@@ -120,7 +122,9 @@ class AnalysisPlots:
         found = _varied(conveyor, [conveyor.ambient.belt], given)
         return plots.power_against_speed(found, system=self._in(system))
 
-    def every(self, studies: Studies | None = None, *, system: System | None = None) -> dict[str, Figure]:
+    def every(
+        self, studies: CalculatedStudies | None = None, *, system: System | None = None
+    ) -> dict[str, Figure]:
         """All of these by name, and those of the studies where they are given."""
         conveyor = self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
@@ -145,22 +149,20 @@ class _Alone:
 
     conveyor: Conveyor
     compounds: tuple[RubberCompound, ...]
-    scenes: tuple[Scene, ...]
+    scenes: tuple[ComparedScene, ...]
     coverage: tuple[Coverage, ...]
 
 
 def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _Alone:
-    found = Found([], [], [])
     compound = conveyor.carry_compound
-    grid = Grid(tuple(temperatures), tuple(speeds), "bottom", _RTOL)
-    of_compound(conveyor, compound, grid, found)
+    found = of_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
     if not found.scenes:
         why = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
         raise InputError(f"nothing to draw: {why}")
-    return _Alone(conveyor, (compound,), tuple(found.scenes), tuple(found.coverage))
+    return _Alone(conveyor, (compound,), found.scenes, found.coverage)
 
 
-def _of_studies(studies: Studies, system: System) -> Iterator[tuple[str, Figure]]:
+def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
     cases = studies.cases
     if cases is not None and len({result.temperature for result in cases.results}) > 1:
         yield "cases-temperature", analysis_plots.case_power_against_temperature(cases, system=system)
@@ -174,7 +176,7 @@ def _of_studies(studies: Studies, system: System) -> Iterator[tuple[str, Figure]
 class ComparisonPlots:
     """Figures of a comparison; `system` is SI or US, that of the spec's report without it."""
 
-    comparison: Comparison
+    comparison: CalculatedComparison
 
     def power_against_temperature(
         self, speed: float | None = None, *, system: System | None = None

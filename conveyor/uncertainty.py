@@ -1,0 +1,8 @@
+"""Ranges of the inputs, and what each does to the power: `conveyor.uncertainty.study(line).table`."""
+
+from __future__ import annotations
+
+from conveyor.analysis import UncertaintyStudy
+from conveyor.analysis import study_ranges as study
+
+__all__ = ["UncertaintyStudy", "study"]

@@ -1,0 +1,123 @@
+"""A column, a figure and a table, each declared in one place, are in every output that should show them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from operator import attrgetter
+from pathlib import Path
+
+import openpyxl
+import pytest
+from openpyxl.utils import range_boundaries
+
+import conveyor
+from conveyor.cli.power_tables import show
+from conveyor.display import _KINDS, Unit, unit
+from conveyor.report import excel, files, html, representations, tables
+from conveyor.report.columns import Column, Figure, OnPage, Table
+
+PACKAGE = Path(conveyor.__file__).parent
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+
+
+@pytest.fixture(scope="module")
+def result():
+    return conveyor.analyse(conveyor.load(SPECS / "in_plant_us.yaml"))
+
+
+@pytest.fixture
+def probed(result, monkeypatch):
+    """Contents with a column, a key figure and a table more, each put in where such a one is declared."""
+    sections, results = tables.sections, tables.results
+
+    def with_column(a):
+        table = sections(a)
+        more = Column("probe", "force", attrgetter("indentation"), json="probe_N", total=True)
+        return replace(table, columns=(*table.columns, more))
+
+    def with_figure(a):
+        table = results(a)
+        more = Figure("probing", "power", 12_345.0, "tile large cover notebook", "power_kW.probing")
+        return replace(table, rows=(*table.rows, more))
+
+    def with_table(_):
+        columns_of = (Column("what", "text", str), Column("size", "length", len))
+        return Table("probes", "Loop", "Probes", columns_of, ("abc",), (OnPage("belt", "Probes"),))
+
+    monkeypatch.setattr(tables, "sections", with_column)
+    monkeypatch.setattr(tables, "results", with_figure)
+    monkeypatch.setattr(tables, "vertical_curves", with_table)  # its place in the list; none in this spec
+    return tables.of_analysis(result.in_units("SI"))
+
+
+def cells(book, name):
+    sheet, where = next(iter(book.defined_names[name].destinations))
+    left, top, right, bottom = range_boundaries(where.replace("$", ""))
+    return list(
+        book[sheet].iter_rows(min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True)
+    )
+
+
+def test_in_the_workbook(probed, result, tmp_path):
+    book = openpyxl.load_workbook(excel.write(probed, tmp_path / "probe.xlsx"))
+    header, *rows = cells(book, "table_sections")
+    assert [row[header.index("probe [N]")] for row in rows] == pytest.approx(
+        [r.indentation for r in result.stretches]
+    )
+    assert cells(book, "table_probes") == [("what", "size [m]"), ("abc", 3)]
+    sheet, where = next(iter(book.defined_names["probing"].destinations))
+    assert book[sheet][where.replace("$", "")].value == pytest.approx(12.345)
+    cover = [cell.value for row in book["Summary"].iter_rows() for cell in row]
+    assert cover.count("probing [kW]") >= 1
+
+
+def test_in_the_files(probed, tmp_path):
+    names = [path.name for path in files.write(probed, tmp_path)]
+    assert "probes.csv" in names
+    assert "probe [N]" in (tmp_path / "sections.csv").read_text(encoding="utf-8-sig").splitlines()[0]
+    assert "probing [kW],12.345,probing" in (tmp_path / "results.csv").read_text(encoding="utf-8-sig")
+
+
+def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
+    page = html.build(probed)
+    assert re.search(r">probe <span class=\"unit\">\[N\]", page)
+    assert ">Probes</caption>" in page
+    assert "<dt>probing</dt><dd>12.3 <small>kW</small></dd>" in page
+    assert "probing" in representations.of_analysis(probed)
+    assert "probe [lbf]" in probed["sections"].frame("US")
+
+
+@pytest.mark.usefixtures("probed")
+def test_in_json(result):
+    told = tables.plain(result)
+    assert told["power_kW"]["probing"] == pytest.approx(12.345)
+    assert [row["probe_N"] for row in told["sections"]] == [r.indentation for r in result.stretches]
+
+
+def test_the_terminal_takes_the_same_tables(probed, capsys):
+    show(probed)
+    assert "effective tension" in capsys.readouterr().out
+
+
+def test_a_unit_system_is_one_entry(result, monkeypatch):
+    """Another system: where its units are listed, and nowhere else."""
+    changed = {**_KINDS["US"], "force": _KINDS["US"]["force"]._replace(unit="kN", digits=",.2f")}
+    monkeypatch.setitem(_KINDS, "US", changed)
+    unit.cache_clear()
+    try:
+        frame = result.tables["sections"].frame("US")
+        assert frame["total [kN]"].tolist() == pytest.approx([r.total / 1e3 for r in result.stretches])
+        assert isinstance(unit("force", "US"), Unit)
+    finally:
+        unit.cache_clear()
+
+
+def test_units_are_composed_in_one_place_and_parsed_in_none():
+    """No label with a unit in brackets, and no pattern that takes one apart."""
+    for path in (path for folder in ("report", "cli", "studies") for path in (PACKAGE / folder).glob("*.py")):
+        code = path.read_text(encoding="utf-8")
+        code = re.sub(r'""".*?"""', "", code, flags=re.DOTALL)
+        assert not re.findall(r'"[^"\n]* \[(?:-|[A-Za-z%°][^\]"\n]*)\]"', code), path.name
+        assert not re.findall(r"re\.compile\([^)]*\\\[", code), path.name
+        assert not re.findall(r"\bid\(", code), path.name
