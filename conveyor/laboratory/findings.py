@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
@@ -120,7 +121,7 @@ def _contradiction(
     noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if least < BETTER * left:
         yield Finding("contradiction", f"{seen}, but by {least:.1%} {advice}")
-    elif left > max(CONTRADICTED, OVER_SCATTER * float(np.hypot(*noise)) / np.sqrt(2.0)):
+    elif left > max(CONTRADICTED, OVER_SCATTER * math.hypot(*noise) / math.sqrt(2.0)):
         yield Finding(
             "contradiction",
             f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "

@@ -219,7 +219,7 @@ def power_against_speed(
     return figure
 
 
-def _power(comparison: Scenes, found: Sequence[Scene], over: str, system: System) -> Figure:
+def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system: System) -> Figure:
     """Lines of scenes over temperature or speed."""
     figure, (axis,) = stacked(1, 4.0)
     power, along = unit("power", system, large=True), unit(over, system, large=True)

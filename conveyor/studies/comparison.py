@@ -21,8 +21,8 @@ from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.units import Quantity, quantity
 
 __all__ = [
-    "ComparedScene",
     "CalculatedComparison",
+    "ComparedScene",
     "Coverage",
     "Refusal",
     "compare_compounds",
