@@ -319,7 +319,7 @@ def _cleaners(line: Line) -> Iterator[Force]:
         one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         yield Force(
             "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one, "ISO 5048, F_r",
-            spot=line.places.behind("head", None), place="take-up",
+            spot=line.places.behind("head", None), place="head",
         )  # fmt: skip
 
 

@@ -9,12 +9,16 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.checks import checks
 from conveyor.contact import interior, solve
 from conveyor.errors import RangeError
 from conveyor.indentation import RollContact, to_problem
 from conveyor.laws.softening import losing_load, softened_cover
 from conveyor.models import RubberCompound
-from conveyor.studies.comparison import with_compound
+from conveyor.models.variants import with_compound
+from conveyor.pipeline import calculate
+from conveyor.remarks import warnings
+from conveyor.spec import load
 
 AT = 293.15
 ROUNDING = 1e-11  # of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16
@@ -38,7 +42,7 @@ def softened(compound, contact):
 
 @pytest.fixture(scope="module")
 def line():
-    spec = conveyor.load("examples/specs/overland.yaml")
+    spec = load("examples/specs/overland.yaml")
     return with_compound(spec, shelf.compound("s100"), "bottom")
 
 
@@ -101,6 +105,19 @@ def test_losing_load():
     assert losing_load(np.array([low, high]), np.ones(2)) == pytest.approx(expected, rel=1e-12)
 
 
+def told(result):
+    return [warning.text() for warning in warnings(result, checks(result))]
+
+
+def test_covers_know_at_which_strain_they_work(line):
+    result = calculate(line)
+    worked = result.contacts.covers["carry"].strain
+    assert 0.004 < worked.strain < 0.03
+    assert worked.storage_factor < 1.0
+    assert result.contacts.covers["return"].strain is None
+    assert any("work it at" in warning and "strain" in warning for warning in told(result))
+
+
 def test_the_report_says_which_strain(line):
     result = conveyor.analyse(line)
     carry, back = (result.rubber.set_index("strand").loc[s] for s in ("carry", "return"))
@@ -108,23 +125,22 @@ def test_the_report_says_which_strain(line):
     assert carry["E' factor of strain [-]"] < 1.0
     assert math.isnan(back["working strain [-]"])
     assert back["E' factor of strain [-]"] == 1.0
-    assert any("work it at" in warning and "strain" in warning for warning in result.warnings)
     (row, _) = result.to_dict()["rubber"]
     assert row["working_strain"] == pytest.approx(carry["working strain [-]"], rel=1e-15)
 
 
 def test_off_is_the_linear_rubber(line):
     linear = line.replace(calculation=line.calculation.replace(strain="off"))
-    on, off = conveyor.analyse(line), conveyor.analyse(linear)
+    on, off = calculate(line), calculate(linear)
     assert on.balance.forces.indentation > 1.05 * off.balance.forces.indentation
     plain = shelf.compound("s100").replace(strain_dependence=None)
-    same = conveyor.analyse(with_compound(line, plain, "bottom"))
+    same = calculate(with_compound(line, plain, "bottom"))
     assert off.balance.forces.indentation == pytest.approx(same.balance.forces.indentation, rel=ROUNDING)
-    assert any("calculation.strain is off" in warning for warning in off.warnings)
+    assert any("calculation.strain is off" in warning for warning in told(off))
 
 
 def test_outside_the_sweeps_it_is_linear_and_says_so(line):
     cold = line.replace(ambient=line.ambient.replace(temperature="-20 degC"))
-    result = conveyor.analyse(cold)
-    assert any("do not reach -20 degC: taken as linear" in warning for warning in result.warnings)
-    assert result.rubber["working strain [-]"].isna().all()
+    result = calculate(cold)
+    assert any("do not reach -20 degC: taken as linear" in warning for warning in told(result))
+    assert all(cover.strain is None for cover in result.contacts.covers.values())

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from conveyor.forces import Force, ForceSums
 from conveyor.indentation import RollContact, indentation_curve, indentation_resistance
 from conveyor.laboratory import read_dma
 from conveyor.laws.resistance import length_coefficient
@@ -109,11 +109,30 @@ def test_gauss_points_along_a_roll_suffice(line, result):
 
 
 def test_the_forces_along_a_stretch_add_up(result):
-    stretch = replace(
-        result.stretches[0], indentation=1000.0, rotation=200.0, flexure=130.0, tilt=50.0, lift=-300.0
+    kinds = {force.key: force.kind for force in result.balance.along}
+    for r in result.stretches:
+        main = [r.forces[key] for key in ("indentation", "idler_rotation", "flexure")]
+        assert r.main == pytest.approx(math.fsum(main), rel=1e-15)
+        assert r.total == pytest.approx(r.main + r.forces["tilt"] + r.forces["lift"], rel=1e-13)
+        assert set(r.forces) == set(kinds)
+    along = math.fsum(force.total for force in result.balance.along)
+    assert math.fsum(r.total for r in result.stretches) == pytest.approx(along, rel=1e-13)
+
+
+def test_the_forces_add_up_by_kind():
+    along = {"indentation": 1000.0, "rotation": 200.0, "flexure": 130.0}
+    forces = [
+        Force(name, name, "main", np.array([force - 50.0, 50.0]), "test") for name, force in along.items()
+    ]
+    tilt = Force("tilt", "tilt", "special", np.array([20.0, 30.0]), "test")
+    lift = Force("lift", "lift", "lift", np.array([-500.0, 200.0]), "test")
+    whole = ForceSums.of([*forces, tilt, lift, Force("wrap", "wrap", "secondary", 7.0, "test")])
+    assert whole.main == pytest.approx(1330.0, rel=1e-15)
+    assert whole.parts == pytest.approx(
+        along | {"secondary": 7.0, "special": 50.0, "lift": -300.0}, rel=1e-15
     )
-    assert stretch.main == pytest.approx(1330.0, rel=1e-15)
-    assert stretch.total == pytest.approx(1080.0, rel=1e-15)
+    assert whole.total == pytest.approx(1087.0, rel=1e-15)
+    assert lift.by_strand() == pytest.approx({"carry": -500.0, "return": 200.0}, rel=1e-15)
 
 
 def test_a_wing_integrated_by_single_solves(result):
@@ -262,9 +281,9 @@ def test_published_friction_of_s100():
     data = read_dma(built_in() / "s100.dma.csv")
     fit = fit_prony(data.frequency, data.storage, data.loss, terms_per_decade=1.0)
     rubber = shifted(fit.series, compound("s100").shift_law(), 293.15)
-    for load, friction in ((1500.0, 0.003692), (4000.0, 0.004932)):
-        found = indentation_resistance(contact(rubber=rubber), load)
-        assert float(found.resistance) / load == pytest.approx(friction, rel=6e-4)
+    for pressed, friction in ((1500.0, 0.003692), (4000.0, 0.004932)):
+        found = indentation_resistance(contact(rubber=rubber), pressed)
+        assert float(found.resistance) / pressed == pytest.approx(friction, rel=6e-4)
 
 
 def test_load_exponent_of_s100():

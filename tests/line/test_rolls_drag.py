@@ -67,8 +67,8 @@ def test_the_makers_line_takes_each_rolls_own_load_and_the_belts_speed(line):
     # n = v/(π D) = 5/(π 0.159) 1/s
     rpm = 60.0 * 5.0 / (math.pi * 0.159)
     for stretch in carry_stretches(carry_roll(line, drag_law=MAKER)):
-        for load, drag in zip(stretch.loads, stretch.drags, strict=True):
-            expected = 2.0 + 0.001 * (load.force - 250.0) + 0.001 * (rpm - 650.0)
+        for borne, drag in zip(stretch.loads, stretch.drags, strict=True):
+            expected = 2.0 + 0.001 * (borne.force - 250.0) + 0.001 * (rpm - 650.0)
             assert drag == pytest.approx(expected, rel=1e-12)
     wing, middle, _ = stretch.drags
     assert middle > wing
@@ -98,9 +98,9 @@ def test_the_bearing_law_takes_load_speed_and_the_airs_temperature(line):
             second_temperature=373.15,
             second_viscosity=11e-6,
         )
-        for load, drag in zip(stretch.loads, stretch.drags, strict=True):
+        for borne, drag in zip(stretch.loads, stretch.drags, strict=True):
             expected = bearing_roll_drag(
-                load.force,
+                borne.force,
                 belt_speed=5.0,
                 roll_diameter=0.159,
                 mean_diameter=0.051,
@@ -202,8 +202,8 @@ def test_life_falls_with_the_cube_of_the_load_and_adds_up(line):
     made = carry_roll(line, bearing=LIFE)
     stretch = carry_stretches(made)[0]
     lives = [roll_life(stretch, place, 5.0) for place in range(3)]
-    for life, load in zip(lives, stretch.loads, strict=True):
-        assert life.heavier + life.lighter == pytest.approx(load.force, rel=1e-12)
+    for life, borne in zip(lives, stretch.loads, strict=True):
+        assert life.heavier + life.lighter == pytest.approx(borne.force, rel=1e-12)
     middle, wing = lives[1], lives[0]
     assert middle.heavier == pytest.approx(middle.lighter, rel=1e-12)
     assert wing.heavier > wing.lighter

@@ -108,7 +108,13 @@ def along(found: Balance) -> tuple[OnStretch, ...]:
 
 def told(conveyor: Conveyor, found: Balance) -> list[str]:
     """What every criterion that needs no contact says where it is not met."""
-    given = Calculation(conveyor, conveyor.temperature, Contacts(found.line, {}, (), ()), found)
+    given = Calculation(
+        conveyor=conveyor,
+        temperature=conveyor.temperature,
+        contacts=Contacts(found.line, {}, (), ()),
+        balance=found,
+        fixed=without_rubber(found.line),
+    )
     criteria = [criterion for criterion in CRITERIA if criterion not in (penetration, rubber_data)]
     checked = [check for criterion in criteria for check in criterion(given)]
     return [check.why.text() for check in checked if check.verdict != "pass" and check.why is not None]

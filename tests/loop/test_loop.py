@@ -16,6 +16,9 @@ from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, along
 CLOSED = 1e-9
 """Of the largest tension: the figure the package promises; rounding alone leaves about 1e-14."""
 
+ROUNDING = 1e-11
+"""Of contacts of condition 100, and of sums of 100 forces in whatever order: 1e4 of 2e-16."""
+
 ROUTE, DRIVE = DATA["route"], DATA["drive"]
 CASES = {
     "one drive": {},
@@ -105,7 +108,8 @@ def test_every_drive_grips_no_stretch_sags_and_nothing_is_given_away(case):
     # the least setting: one condition holds exactly, and the figure is that condition's
     margins = [settled.setting - needed for needed in settled.conditions.values()]
     assert min(margins) == pytest.approx(0.0, abs=1e-9 * settled.setting)
-    assert settled.conditions[settled.condition_name(settled.governed_by)] == settled.needed
+    governing = settled.conditions[settled.condition_name(settled.governed_by)]
+    assert governing == pytest.approx(settled.needed, rel=ROUNDING)
 
 
 def test_the_take_up_holds_what_it_holds(case):
@@ -170,7 +174,7 @@ def test_a_booster_takes_tension_out_of_the_belt():
     alone, helped = balanced(), balanced(drive={"further_drives": [BOOSTER]})
     assert helped.tensions.largest < alone.tensions.largest
     # its wrap apart, which the lower tension changes, the force is that of the conveyor
-    assert helped.forces.main == alone.forces.main
+    assert helped.forces.main == pytest.approx(alone.forces.main, rel=ROUNDING)
     assert helped.forces.total == pytest.approx(alone.forces.total, rel=5e-3)
 
 
@@ -198,7 +202,8 @@ def test_a_belt_that_drives_gives_its_motor_what_the_train_leaves():
     assert found.power.motor == pytest.approx(0.88 * found.power.belt, rel=1e-14)
     same = balanced(**CASES["downhill"] | {"drive": {}}).power
     assert same.motor == pytest.approx(0.94 * found.power.belt, rel=1e-14)
-    assert balanced(drive={"regeneration_efficiency": "88 %"}).power.motor == balanced().power.motor
+    driven = balanced(drive={"regeneration_efficiency": "88 %"}).power.motor
+    assert driven == pytest.approx(balanced().power.motor, rel=ROUNDING)
 
 
 def test_bulk_lies_behind_its_feeding_points_only():
@@ -257,7 +262,7 @@ def test_the_numbers_follow_the_conveyor_not_its_predecessor():
     one, other = line(), line(drive={"friction": 0.2})
     first = closed(one).tensions.slack
     assert closed(other).tensions.slack > first
-    assert closed(one).tensions.slack == first
+    assert closed(one).tensions.slack == pytest.approx(first, rel=ROUNDING)
 
 
 def test_start_and_stop_are_newton():

@@ -205,9 +205,15 @@ def test_a_take_up_on_the_slack_side_stays_there_when_the_brake_is_on():
     """Behind a head drive the belt before it goes down by all the brake's force; the take-up does not change sides."""
     weight = {"take_up": {"kind": "gravity", "position": "drive", "tension": "60 kN"}}
     conveyor = line(route=weight, drive={"brake_force": "20 kN"})
-    found = balance(conveyor, forced(conveyor))
+    found = closed(conveyor)
     (side,) = found.settled.states["brakes on"].drives
     assert side.leaving == pytest.approx(60e3, rel=1e-12)
     assert side.arriving == pytest.approx(40e3, rel=1e-12)
     grip = 20e3 / math.expm1(0.35 * math.radians(200.0))
     assert found.settled.conditions["grip, drive, brakes on"] == pytest.approx(20e3 + grip, rel=1e-12)
+
+
+def test_cleaners_are_said_to_stand_at_the_head():
+    """They scrape behind it; which strand that is depends on the drives."""
+    found = closed(line())
+    assert {s.place for s in found.singles if s.name.startswith("cleaner")} == {"head"}

@@ -180,9 +180,7 @@ def test_rubber_is_the_band_of_its_replicas(line):
             ],
         )
         bottom = belt.bottom_cover.replace(compound=compound.replace(prony=prony))
-        powers.append(
-            calculate(given.replace(belt=belt.replace(bottom_cover=bottom))).balance.power.motor
-        )
+        powers.append(calculate(given.replace(belt=belt.replace(bottom_cover=bottom))).balance.power.motor)
     expected = np.quantile(powers, [0.5 * (1.0 - COVERED), 0.5 * (1.0 + COVERED)])
     assert [one.motor_low, one.motor_high] == pytest.approx(expected, rel=2.0 * RTOL)
 
