@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
