@@ -12,6 +12,7 @@ import typer
 from conveyor.cli.app import Force, Quiet, Shelves, app, examples, one_of, say
 from conveyor.cli.completion import compound_names
 from conveyor.cli.outputs import Outputs
+from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
@@ -198,7 +199,8 @@ def shelf(
         pad_edge=False,
         padding=(0, 1),
     )
-    for heading in ("compound", "kind", "E' [MPa]", "tan delta", "degC"):
+    modulus = unit("pressure")
+    for heading in ("compound", "kind", modulus.beside("E'"), "tan delta", "degC"):
         table.add_column(heading, no_wrap=True)
     drawn = []
     for known in store.names(shelves or ()):
@@ -211,7 +213,7 @@ def shelf(
             table.add_row(escape(printable(known)), compound.kind, "outside", "", limits)
             continue
         omega = 2.0 * math.pi * hertz
-        storage, tangent = float(series.storage(omega)) / 1e6, float(series.tan_delta(omega))
+        storage, tangent = float(modulus(series.storage(omega))), float(series.tan_delta(omega))
         table.add_row(escape(printable(known)), compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
         drawn.append(compound)
     _show(console, table, to, plot, lambda plots: plots.loss_tangents(drawn, kelvin))

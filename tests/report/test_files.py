@@ -15,6 +15,7 @@ import conveyor
 from conveyor.analysis import compare_compounds
 from conveyor.errors import InputError
 from conveyor.files.saving import save
+from conveyor.printable import printable
 from conveyor.report import files, places
 from conveyor.report.excel import build
 from conveyor.report.excel import files as workbook_files
@@ -67,8 +68,8 @@ def test_a_comparison_has_its_files(tmp_path):
 def test_no_text_of_a_file_is_a_formula(typed):
     written = files.csv(pd.DataFrame({typed: [typed], "power [kW]": [-1.5]}))
     read = pd.read_csv(BytesIO(written), encoding="utf-8-sig")
-    assert read.columns[0] == f"'{typed}"
-    assert read.iloc[0].tolist() == [f"'{typed}", -1.5]  # a negative number stays one
+    assert read.columns[0] == f"'{printable(typed)}"
+    assert read.iloc[0].tolist() == [f"'{printable(typed)}", -1.5]  # a negative number stays one
 
 
 def test_what_a_user_types_is_safe_in_every_file(result, tmp_path):

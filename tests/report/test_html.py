@@ -225,9 +225,9 @@ def test_verdicts_are_words(result, page, line):
 
 def test_numbers_are_those_of_the_analysis(result, page):
     for figure in result.tables["results"].rows:
-        assert figure.unit("US").written(figure.value) in page.prose
+        assert figure.unit("SI").written(figure.value) in page.prose
     for row in result.stretches:
-        assert unit("force", "US").written(row.total) in page.prose
+        assert unit("force").written(row.total) in page.prose
     for remark in (*result.warnings, *result.assumptions):
         assert remark in page.prose
 
