@@ -54,7 +54,7 @@ _REFERENCE_NAMES = frozenset(
         "bezugstemperatur",
     }
 )
-_NUMBER = re.compile(r"\s*([+-]?\d+(?:\.\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
+_NUMBER = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
 _SMALLEST_ERROR = (
     1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
 )
@@ -224,13 +224,15 @@ def _kelvin(temperature: str) -> float:
 def _stated(data: Path, read: DmaData) -> Iterator[tuple[str, str]]:
     """Where a file states the temperature of its curve, and which: a remark, a column that does not vary."""
     for key, value in read.metadata.items():
-        number = _NUMBER.match(value)
-        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or number is None:
+        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or not re.search(r"\d", value):
             continue
+        number = _NUMBER.match(value)
         place = f'{data}:{read.metadata_rows[key]}: "{key}"'
-        if number[2] is None:
-            raise InputError(f'{place}: "{value[:40]}" has no unit; write it as in "{number[1]} degC"')
-        yield place, f"{number[1]} {number[2].replace('°', 'deg')}"
+        if number is None or number[2] is None:
+            raise InputError(
+                f'{place}: {value[:40]!r} is no temperature with its unit; write it as in "40 degC"'
+            )
+        yield place, f"{number[1].replace(',', '.')} {number[2].replace('°', 'deg')}"
     constant = read.kind == "master curve" and read.temperature is not None
     if constant and read.temperature is not None and float(np.ptp(read.temperature)) <= ISOTHERM_GAP:
         mean = float(np.mean(read.temperature)) - ZERO_CELSIUS

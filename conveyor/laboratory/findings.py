@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
@@ -120,7 +121,7 @@ def _contradiction(
     noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if least < BETTER * left:
         yield Finding("contradiction", f"{seen}, but by {least:.1%} {advice}")
-    elif left > max(CONTRADICTED, OVER_SCATTER * float(np.hypot(*noise)) / np.sqrt(2.0)):
+    elif left > max(CONTRADICTED, OVER_SCATTER * math.sqrt(0.5) * math.hypot(*noise)):
         yield Finding(
             "contradiction",
             f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "
@@ -146,7 +147,7 @@ def _readings(
                 "if what is named E'' is tan delta: name the column 'tan delta'",
             )
         first, second = storage / unit, loss / unit
-        if _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
+        if np.ptp(first) > 0.0 and _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
             moduli = (10.0**first, 10.0**second)
             yield (frequency, *moduli), "if the moduli are log10: name them log10 E' and log10 E''"
             if _within(frequency, _LOGARITHM):
