@@ -22,7 +22,7 @@ MATERIALS = Path(__file__).parents[2] / "materials"
 
 SEEN = [
     ("three_rows.csv", "few-rows", "3 frequencies over 0.4 decades"),
-    ("too_soft.csv", "modulus", "E' = 0.0127 MPa at 0.01 Hz; rubber has 0.05 to 8,000 MPa"),
+    ("too_soft.csv", "modulus", "E' = 0.0127 MPa at 0.01 Hz; rubber has 0.05 to 12,000 MPa"),
     ("too_stiff.csv", "modulus", "E' = 1.824e+04 MPa at 1e+06 Hz"),
     ("tan_delta_as_loss.csv", "contradiction", "what is named E'' is tan delta"),
     ("logarithms_unnamed.csv", "contradiction", "frequency and moduli are log10"),
