@@ -54,7 +54,7 @@ _REFERENCE_NAMES = frozenset(
         "bezugstemperatur",
     }
 )
-_NUMBER = re.compile(r"\s*([+-]?\d+(?:\.\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
+_NUMBER = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
 _SMALLEST_ERROR = (
     1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
 )
@@ -163,8 +163,6 @@ def fit_file(data: Path, request: Request) -> Fitted:
     several = request.shift is not None or request.strain is not None
     read = read_answered(data, request.reading, poisson_ratio=request.poisson_ratio, several=several)
     reference = _reference(data, read, request)
-    if _kelvin(reference) <= 0.0:
-        raise InputError(f"--at: got {reference}, a temperature above absolute zero is needed")
     superposition = _superposed(data, read, reference, request)
     f, e1, e2 = _rows(data, read, superposition)
     accepted = check_findings(str(data), (f, e1, e2), request.accept, 2.0 * (1.0 + request.poisson_ratio))
@@ -195,6 +193,8 @@ def fit_file(data: Path, request: Request) -> Fitted:
 def _reference(data: Path, read: DmaData, request: Request) -> str:
     """Reference temperature: given, or stated by the file; one that contradicts the other is refused."""
     given = request.reference_temperature
+    if given is not None:
+        _kelvin(given)
     stated = dict(_stated(data, read))
     if read.kind == "isotherms":
         if given or stated:
@@ -217,20 +217,27 @@ def _reference(data: Path, read: DmaData, request: Request) -> str:
     return given or first
 
 
-def _kelvin(temperature: str) -> float:
-    return si(quantity(temperature, "temperature"))
+def _kelvin(temperature: str, place: str = "--at") -> float:
+    kelvin = si(quantity(temperature, "temperature"))
+    if kelvin <= 0.0:
+        raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
+    return kelvin
 
 
 def _stated(data: Path, read: DmaData) -> Iterator[tuple[str, str]]:
     """Where a file states the temperature of its curve, and which: a remark, a column that does not vary."""
     for key, value in read.metadata.items():
-        number = _NUMBER.match(value)
-        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or number is None:
+        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or not re.search(r"\d", value):
             continue
+        number = _NUMBER.match(value)
         place = f'{data}:{read.metadata_rows[key]}: "{key}"'
-        if number[2] is None:
-            raise InputError(f'{place}: "{value[:40]}" has no unit; write it as in "{number[1]} degC"')
-        yield place, f"{number[1]} {number[2].replace('°', 'deg')}"
+        if number is None or number[2] is None:
+            raise InputError(
+                f'{place}: {value[:40]!r} is no temperature with its unit; write it as in "40 degC"'
+            )
+        temperature = f"{number[1].replace(',', '.')} {number[2].replace('°', 'deg')}"
+        _kelvin(temperature, place)
+        yield place, temperature
     constant = read.kind == "master curve" and read.temperature is not None
     if constant and read.temperature is not None and float(np.ptp(read.temperature)) <= ISOTHERM_GAP:
         mean = float(np.mean(read.temperature)) - ZERO_CELSIUS

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -112,6 +113,9 @@ def fit(
         found = compound_file.fit_file(data, request)
     except InputError as error:
         said = str(error)
+        for file in (data, shift, strain):
+            if file is not None and re.match(rf"{re.escape(file.name)}[:\[]", said):
+                raise InputError(f"{file.parent / said}") from None
         files = [str(file) for file in (data, shift, strain) if file is not None]
         raise InputError(said if said.startswith((*files, "--")) else f"{data}: {said}") from None
     from conveyor import fitting

@@ -16,15 +16,17 @@ from conveyor.rubber.misfit import scatter
 
 FINDINGS: Final = {
     "few-rows": "fewer than five frequencies, or less than a decade of them",
-    "modulus": "an E' below 0.05 MPa or above 8 GPa",
+    "modulus": "an E' below 0.05 MPa or above 12 GPa, or none below 5 GPa",
     "contradiction": "E' and E'' that no rubber shows together",
 }
 """What a fit refuses unless it is accepted by name."""
 FEWEST_FREQUENCIES: Final = 5
 LEAST_DECADES: Final = 1.0
 """A term spreads its loss over more than a decade: less shows no shape."""
-RUBBER: Final = (5e4, 8e9)
+RUBBER: Final = (5e4, 1.2e10)
 """E' of rubber, soft gel to glass with filler, with room on both sides (general knowledge) [Pa]."""
+GLASS: Final = 5e9
+"""A curve that lies above it as a whole is none of rubber (general knowledge) [Pa]."""
 DOUBTED: Final = 0.05
 """What the best positive spectrum leaves before another reading of the columns is tried: measurements leave less, or
 no other reading does better [-]."""
@@ -97,13 +99,14 @@ def _findings(
             f"{count} frequencies over {decades:.2g} decades; a series needs {FEWEST_FREQUENCIES} over "
             f"{LEAST_DECADES:g}: measure more frequencies, or more temperatures",
         )
-    outside = np.flatnonzero((storage < RUBBER[0]) | (storage > RUBBER[1]))
-    if outside.size:
-        row = outside[0] if storage[outside[0]] < RUBBER[0] else int(np.argmax(storage))
+    lowest, highest = float(storage.min()), float(storage.max())
+    if lowest < RUBBER[0] or highest > RUBBER[1] or lowest > GLASS:
+        seen = lowest if lowest < RUBBER[0] or highest <= RUBBER[1] else highest
         yield Finding(
             "modulus",
-            f"E' = {storage[row] / 1e6:.4g} MPa at {frequency[row]:.3g} Hz; rubber has {RUBBER[0] / 1e6:g} to "
-            f"{RUBBER[1] / 1e6:,.0f} MPa: correct the unit of the moduli in the header, or give --modulus-unit",
+            f"E' = {seen / 1e6:.4g} MPa at {frequency[storage == seen][0]:.3g} Hz; rubber has {RUBBER[0] / 1e6:g} to "
+            f"{RUBBER[1] / 1e6:,.0f} MPa, not all of it above {GLASS / 1e6:,.0f}: correct the unit of the moduli in "
+            "the header, or give --modulus-unit",
         )
 
 
@@ -121,7 +124,7 @@ def _contradiction(
     noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if least < BETTER * left:
         yield Finding("contradiction", f"{seen}, but by {least:.1%} {advice}")
-    elif left > max(CONTRADICTED, OVER_SCATTER * math.hypot(*noise) / math.sqrt(2.0)):
+    elif left > max(CONTRADICTED, OVER_SCATTER * math.sqrt(0.5) * math.hypot(*noise)):
         yield Finding(
             "contradiction",
             f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "
@@ -147,7 +150,7 @@ def _readings(
                 "if what is named E'' is tan delta: name the column 'tan delta'",
             )
         first, second = storage / unit, loss / unit
-        if _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
+        if np.ptp(first) > 0.0 and _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
             moduli = (10.0**first, 10.0**second)
             yield (frequency, *moduli), "if the moduli are log10: name them log10 E' and log10 E''"
             if _within(frequency, _LOGARITHM):

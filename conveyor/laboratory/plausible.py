@@ -23,6 +23,8 @@ HIGHEST_TAN_DELTA = 10.0
 """No rubber reaches it in any row; its glass transition gives 1 to 3 (general knowledge) [-]."""
 USUAL_TAN_DELTA = 3.0
 """No rubber exceeds it in half of its rows [-]."""
+MEASURABLE = (1e-30, 1e30)
+"""Frequencies [Hz] and times [s] of any master curve, with room: a shift of 30 decades is none."""
 _DELETE = "repair or delete the row"
 _POSITIVE = {
     "frequency": "must be > 0; if the column is log10 f, name it 'log10 f', else " + _DELETE,
@@ -58,6 +60,9 @@ def check_possible(table: Table, series: Mapping[str, Series]) -> None:
             _refuse(table, found, bad, f"is too large once its logarithm is undone; {_DELETE}")
         if quantity in _POSITIVE:
             _refuse(table, found, found.values <= 0.0, _POSITIVE[quantity])
+        if quantity in {"frequency", "time"}:
+            far = (found.values < MEASURABLE[0]) | (found.values > MEASURABLE[1])
+            _refuse(table, found, far, f"is outside {MEASURABLE[0]:g} to {MEASURABLE[1]:g}; {_DELETE}")
         if quantity in {"a_T", "b_T"} and found.meaning.log_base is None:
             _refuse(
                 table,

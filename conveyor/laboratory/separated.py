@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
+from contextlib import suppress
 
 from conveyor.laboratory.cells import Grid, Line
 from conveyor.laboratory.decimals import is_number
@@ -80,10 +81,9 @@ def _split(line: str, separator: str) -> tuple[str, ...]:
     if separator == " ":
         return tuple(line.split())
     if '"' in line and re.search(rf'(?:^|{separator})\s*"', line):
-        parts = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
-    else:
-        parts = line.split(separator)
-    return _trimmed(parts)
+        with suppress(csv.Error):  # a field longer than the reader allows: no number, whatever its quotes
+            return _trimmed(next(csv.reader([line], delimiter=separator, skipinitialspace=True)))
+    return _trimmed(line.split(separator))
 
 
 def _split_text(line: str, separator: str, width: int) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conveyor.cli import app
 from conveyor.compound_file import Request, fit_file
 from conveyor.errors import InputError
 from conveyor.laboratory import read_dma
@@ -21,7 +22,7 @@ MATERIALS = Path(__file__).parents[2] / "materials"
 
 SEEN = [
     ("three_rows.csv", "few-rows", "3 frequencies over 0.4 decades"),
-    ("too_soft.csv", "modulus", "E' = 0.0127 MPa at 0.01 Hz; rubber has 0.05 to 8,000 MPa"),
+    ("too_soft.csv", "modulus", "E' = 0.0127 MPa at 0.01 Hz; rubber has 0.05 to 12,000 MPa"),
     ("too_stiff.csv", "modulus", "E' = 1.824e+04 MPa at 1e+06 Hz"),
     ("tan_delta_as_loss.csv", "contradiction", "what is named E'' is tan delta"),
     ("logarithms_unnamed.csv", "contradiction", "frequency and moduli are log10"),
@@ -99,7 +100,7 @@ def test_a_temperature_against_the_files_own_is_refused(name: str, said: str) ->
 def test_a_temperature_without_unit_is_asked_for(tmp_path: Path) -> None:
     text = (DOUBTFUL / "temperature_remark.csv").read_text(encoding="utf-8").replace("40 degC", "40")
     (tmp_path / "a.csv").write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=r'a.csv:1: "reference_temperature": "40" has no unit; .* "40 degC"'):
+    with pytest.raises(InputError, match=r"a.csv:1: .*: '40' is no temperature with its unit"):
         fit_file(tmp_path / "a.csv", request())
 
 
@@ -135,3 +136,51 @@ def test_shear_strain_becomes_the_tensile_one_of_equal_energy() -> None:
     assert equivalent_strain(np.array([1.0]), 0.5)[0][0] == pytest.approx(
         np.sqrt(2.0 / 3.0 * np.sum(strain**2)), rel=1e-14
     )
+
+
+def command(*arguments: str | Path) -> None:
+    """`conveyor` without its exit code: an InputError is 2."""
+    app([str(one) for one in arguments], standalone_mode=False)
+
+
+HEADER = "frequency [Hz],E' [MPa],E'' [MPa]\n"
+ROWS = "".join(f"{10.0 ** (0.25 * i - 2)},{2.0 + 0.3 * i},{0.2 + 0.02 * i}\n" for i in range(25))
+BROKEN = {
+    "a frequency of no instrument": (
+        HEADER + ROWS + "1e308,20,2\n",
+        "frequency = 1e308 is outside 1e-30 to",
+    ),
+    "a frequency of nothing": (HEADER + "1e-308,1.9,0.1\n" + ROWS, "frequency = 1e-308 is outside"),
+    "a quoted field without end": (HEADER + ROWS + '"' + "1" * 200_000 + '",1,1\n', "is not a number"),
+    "a control character": (
+        "# T_ref: \x1b[31m40 degC\n" + HEADER + ROWS,
+        r"'\\x1b\[31m40 degC' is no temperature",
+    ),
+    "two temperatures": ("# T_ref: 40,5 degC\n# Tref = 60 °C\n" + HEADER + ROWS, '"Tref" says 60 degC'),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), BROKEN.values(), ids=BROKEN)
+def test_broken_files_are_refused_by_the_command(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=message) as refused:
+        command("fit", path, "--at", "20 degC")
+    said = str(refused.value)
+    assert said.startswith(str(path)), "the file is named once, with its folder"
+    assert len(said) < 500
+
+
+def test_accept_is_an_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    soft = DOUBTFUL / "too_soft.csv"
+    with pytest.raises(InputError, match="--accept modulus"):
+        command("fit", soft, "--at", "20 degC")
+    command("fit", soft, "--at", "20 degC", "--accept", "modulus", "-o", tmp_path / "soft.yaml")
+    assert "accepted (modulus)" in capsys.readouterr().out
+    assert "accepted (modulus)" in (tmp_path / "soft.yaml").read_text(encoding="utf-8")
+
+
+def test_an_unreadable_shift_file_is_blamed_itself(tmp_path: Path) -> None:
+    (tmp_path / "a_T.csv").write_text("temperature_degC,a_T\n20,1\n30,OVL\n", encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(f"{tmp_path / 'a_T.csv'}:3: column 2")):
+        command("fit", MATERIALS / "s100.dma.csv", "--shift", tmp_path / "a_T.csv")
