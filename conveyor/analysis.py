@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.line.walk import StretchResult, worst_error
 from conveyor.loop.balance import Balance
@@ -127,6 +128,7 @@ class Analysis:
         """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
         return belt_duty(self.conveyor, self.balance)
 
+    @checked
     def in_units(self, system: System | None) -> Analysis:
         """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
 
@@ -218,6 +220,7 @@ class Analysis:
             "warnings": list(self.warnings),
         }
 
+    @checked
     def to_excel(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
@@ -242,6 +245,7 @@ class Analysis:
 
         return write(self, Path(path), studies, system=system)
 
+    @checked
     def to_tables(
         self,
         folder: str | Path,
@@ -272,6 +276,7 @@ class Analysis:
 
         return write(self, Path(folder), studies, system=system, kind=kind)
 
+    @checked
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.figures import ZERO_CELSIUS
 from conveyor.laboratory import DmaData
@@ -124,6 +125,7 @@ class Fitted:
     loss: Array
 
 
+@checked
 def fit_file(data: Path, request: Request) -> Fitted:
     """Fit a master curve or isotherms and describe the result as a compound.
 
@@ -146,6 +148,8 @@ def fit_file(data: Path, request: Request) -> Fitted:
     reference = request.reference_temperature or _stated_temperature(data, read)
     if si(quantity(reference, "temperature")) <= 0.0:
         raise InputError(f"--at: got {reference}, a temperature above absolute zero is needed")
+    if request.terms_per_decade is not None and not 0.1 <= request.terms_per_decade <= 20.0:
+        raise InputError(f"--terms-per-decade: got {request.terms_per_decade:g}, allowed: >= 0.1 and <= 20")
     superposition = _superposed(data, read, reference, request)
     f, e1, e2 = _rows(data, read, superposition)
     fit = fit_prony(f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments import checked
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, order_error, relative_difference, sign
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.excitation import excited_harmonics
@@ -24,7 +25,7 @@ from conveyor.contact.fields import peak
 from conveyor.contact.lobatto import coefficients, interpolated, points, weave, woven
 from conveyor.contact.narrow import LOW_ORDER_FROM, places, shared_rules
 from conveyor.contact.orders import ORDERS, next_order
-from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.short_rule import ShortRule, grades_for
@@ -198,6 +199,7 @@ class LoadCurve:
         return t
 
 
+@checked
 def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: float = 1e-6) -> LoadCurve:
     """Sample a scene between two loads until friction is known to `rtol` anywhere between.
 
@@ -220,6 +222,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     if not 0.0 < lowest <= highest:
         raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
     problem = replace(problem, pressure=highest)
+    check_rtol(rtol)
     sampler = _Sampler.between(problem, lowest, highest, rtol)
     n = ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
     degree, sampled = 0, None
@@ -258,6 +261,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     )
 
 
+@checked
 def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-6) -> LoadSolutions:
     """Solve many loads of one scene with one shared set-up.
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments import checked
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -37,7 +38,7 @@ from conveyor.contact.narrow import (
     plain,
 )
 from conveyor.contact.orders import NARROW_ORDERS
-from conveyor.contact.problem import ContactProblem
+from conveyor.contact.problem import ContactProblem, check_rtol
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import ShortRule, grades_for, panels_beyond, short_rule
 from conveyor.contact.solution import SolveStats
@@ -51,6 +52,7 @@ _DEGREES = (12, 16, 32)
 _LOW_DEGREE_FROM = 1e-4  # rtol that degree 12 may meet over a factor of 100 in load
 
 
+@checked
 def load_curves(
     problems: Sequence[ContactProblem], lowest: ArrayLike, highest: ArrayLike, rtol: float = 1e-6
 ) -> list[LoadCurve | NoSolutionError]:
@@ -79,6 +81,7 @@ def load_curves(
     >>> bool(one.at(0.004).friction < other.at(0.004).friction)
     True
     """
+    check_rtol(rtol)
     low, high = np.asarray(lowest, dtype=float), np.asarray(highest, dtype=float)
     if not (low.shape == high.shape == (len(problems),) and np.all((low > 0.0) & (low <= high))):
         raise InputError("lowest and highest: one of each for every scene, 0 < lowest <= highest")

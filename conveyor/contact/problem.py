@@ -25,12 +25,16 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments import checked
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
 _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
+_HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
+_SMALLEST_ROLL = 1e-12
+_TIMES = 1e-100, 1e100
 _SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
 
@@ -85,15 +89,18 @@ class CreepSpectrum:
     weights: Array = field(default_factory=lambda: np.empty(0))
     times: Array = field(default_factory=lambda: np.empty(0))
 
+    @checked
     def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
-        d = np.array(weights, dtype=float, ndmin=1)
-        z = np.array(times, dtype=float, ndmin=1)
+        try:
+            d, z = (np.array(given, dtype=float, ndmin=1) for given in (weights, times))
+        except (TypeError, ValueError):
+            raise InputError("weights and times: two lists of numbers are needed") from None
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
         if not np.all(np.isfinite(d) & (d > 0.0)):
             raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
-        if not np.all(np.isfinite(z) & (z >= 0.0)):
-            raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
+        if not np.all((z == 0.0) | ((z >= _TIMES[0]) & (z <= _TIMES[1]))):
+            raise InputError(f"times = {z.tolist()}: each ζ is 0 or from {_TIMES[0]:g} to {_TIMES[1]:g}")
         if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
             raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
         if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
@@ -189,15 +196,18 @@ class ContactProblem:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
                 raise InputError(f"{name} = {value!r}: a number is needed")
-        if not 0.0 < self.radius <= 0.5:
-            raise InputError(f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap")
-        if not self.thickness >= _THINNEST:
+        if not _SMALLEST_ROLL <= self.radius <= 0.5:
             raise InputError(
-                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed)"
+                f"radius = {self.radius!r}: R/λ lies in (0, 0.5], at least {_SMALLEST_ROLL:g}; rolls must not overlap"
             )
-        if not _LIGHTEST <= self.pressure < math.inf:
+        if not (_THINNEST <= self.thickness <= _HEAVIEST or self.thickness == math.inf):
             raise InputError(
-                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, at least {_LIGHTEST:g}"
+                f"thickness = {self.thickness!r}: k h is positive, from {_THINNEST:g} to {_HEAVIEST:g} "
+                "(infinity allowed)"
+            )
+        if not _LIGHTEST <= self.pressure <= _HEAVIEST:
+            raise InputError(
+                f"pressure = {self.pressure!r}: the mean pressure is positive, from {_LIGHTEST:g} to {_HEAVIEST:g}"
             )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
@@ -217,3 +227,9 @@ class ContactProblem:
         if self.support == "free":
             return Free(self.thickness)
         return Confined(self.thickness, self.poisson)
+
+
+def check_rtol(rtol: float) -> None:
+    """Refuse a tolerance that is none, or none that double precision reaches."""
+    if not (isinstance(rtol, (int, float, np.floating)) and 1e-12 <= rtol <= 1e-2):
+        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")

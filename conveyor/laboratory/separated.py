@@ -79,7 +79,7 @@ def _separator(lines: list[str]) -> tuple[str, int]:
 def _split(line: str, separator: str) -> tuple[str, ...]:
     if separator == " ":
         return tuple(line.split())
-    if '"' in line and re.search(rf'(?:^|{separator})\s*"', line):
+    if '"' in line and len(line) <= csv.field_size_limit() and re.search(rf'(?:^|{separator})\s*"', line):
         parts = next(csv.reader([line], delimiter=separator, skipinitialspace=True))
     else:
         parts = line.split(separator)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
+from conveyor.arguments import checked
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
 from conveyor.laws.power import motor_power
@@ -191,6 +192,7 @@ class CaseStudy:
         return recommended_motors(self.results, reserve=reserve)
 
 
+@checked
 def analyse_cases(
     conveyor: Conveyor,
     cases: Sequence[LoadCase] | None = None,

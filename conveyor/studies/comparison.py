@@ -11,11 +11,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final, get_args
+
+from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
+from conveyor.arguments import checked
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.operation import BeltSpeed
 from conveyor.studies.compared import Cover, Coverage, Found, Grid, Refusal, Scene, of_compound, with_compound
 from conveyor.studies.duty import DutyStudy, analyse_duty
 from conveyor.units import Quantity, System, quantity, si
@@ -40,6 +44,9 @@ Progress = Callable[[int, int], None]
 
 RTOL = 1e-4
 """Relative tolerance of the contacts: a hundredth of what any rubber is known to."""
+
+
+_SPEED: Final[TypeAdapter[Quantity]] = TypeAdapter(BeltSpeed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +97,7 @@ class Comparison:
 
         return comparing.ranking(self)
 
+    @checked
     def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the workbook.
 
@@ -110,6 +118,7 @@ class Comparison:
 
         return write_comparison(self, Path(path), system=system)
 
+    @checked
     def to_tables(
         self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
     ) -> tuple[Path, ...]:
@@ -133,6 +142,7 @@ class Comparison:
 
         return write_comparison(self, Path(folder), system=system, kind=kind)
 
+    @checked
     def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page.
 
@@ -178,6 +188,7 @@ def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **opt
     return compare_compounds(conveyor, compounds, **options).table
 
 
+@checked
 def compare_compounds(
     conveyor: Conveyor,
     compounds: Iterable[str | RubberCompound],
@@ -224,6 +235,8 @@ def compare_compounds(
     InputError
         No compound, one twice, an unknown base or name, a value without unit or outside its range.
     """
+    if cover not in get_args(Cover):
+        raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(Cover))}')
     chosen = _compounds(compounds, shelves)
     at = [conveyor.ambient.belt] if temperatures is None else _quantities(temperatures, "temperature")
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
@@ -288,8 +301,19 @@ def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
     raise InputError(f'"{name}" is none of the compounds compared: {listed}')
 
 
+def _check_speed(given: Quantity) -> None:
+    """Refuse a speed that no belt runs at, as its field in a spec does."""
+    try:
+        _SPEED.validate_python(given)
+    except ValidationError as error:
+        raise InputError(f"speed: {error.errors()[0]['msg']}") from None
+
+
 def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
     found = [quantity(item, kind) for item in given]
+    if kind == "speed":
+        for item in found:
+            _check_speed(item)
     if not found:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
     return list({si(item): item for item in found}.values())

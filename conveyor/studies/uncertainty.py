@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.loop.curved import Run
@@ -126,6 +127,7 @@ class _Variation:
     replicas: bool = False
 
 
+@checked
 def study(
     conveyor: Conveyor,
     ranges: Uncertainty | None = None,
