@@ -100,7 +100,9 @@ class CreepSpectrum:
         if not np.all(np.isfinite(d) & (d > 0.0)):
             raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
         if not np.all((z == 0.0) | ((z >= _TIMES[0]) & (z <= _TIMES[1]))):
-            raise InputError(f"times = {z.tolist()}: each ζ is 0 or from {_TIMES[0]:g} to {_TIMES[1]:g}")
+            raise InputError(
+                f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {_TIMES[0]:g} to {_TIMES[1]:g}"
+            )
         if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
             raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
         if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
@@ -198,16 +200,17 @@ class ContactProblem:
                 raise InputError(f"{name} = {value!r}: a number is needed")
         if not _SMALLEST_ROLL <= self.radius <= 0.5:
             raise InputError(
-                f"radius = {self.radius!r}: R/λ lies in (0, 0.5], at least {_SMALLEST_ROLL:g}; rolls must not overlap"
+                f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap; at least {_SMALLEST_ROLL:g}"
             )
         if not (_THINNEST <= self.thickness <= _HEAVIEST or self.thickness == math.inf):
             raise InputError(
-                f"thickness = {self.thickness!r}: k h is positive, from {_THINNEST:g} to {_HEAVIEST:g} "
-                "(infinity allowed)"
+                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed), "
+                f"at most {_HEAVIEST:g} below it"
             )
         if not _LIGHTEST <= self.pressure <= _HEAVIEST:
             raise InputError(
-                f"pressure = {self.pressure!r}: the mean pressure is positive, from {_LIGHTEST:g} to {_HEAVIEST:g}"
+                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, "
+                f"from {_LIGHTEST:g} to {_HEAVIEST:g}"
             )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")

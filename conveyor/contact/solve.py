@@ -98,7 +98,7 @@ def solve_penetration(
     """
     if not (_SHALLOWEST <= penetration <= _DEEPEST):
         raise InputError(
-            f"penetration = {penetration!r}: Δ/R is positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
+            f"penetration = {penetration!r}: Δ/R is finite and positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
         )
     check_rtol(rtol)
     return _solved(Scene.of(problem, depth=penetration), rtol, throw)
