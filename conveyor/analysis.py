@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 from conveyor import studies as study
+from conveyor.arguments import checked
 from conveyor.checks import Check, checks
 from conveyor.display import chosen
 from conveyor.models import Conveyor, RubberCompound
@@ -114,6 +115,7 @@ class Analysis(Calculation):
 
         return plain(self)
 
+    @checked
     def to_excel(
         self,
         path: str | Path,
@@ -142,6 +144,7 @@ class Analysis(Calculation):
 
         return write(self.contents(studies, system=system), Path(path))
 
+    @checked
     def to_tables(
         self,
         folder: str | Path,
@@ -172,6 +175,7 @@ class Analysis(Calculation):
 
         return write(self.contents(studies, system=system), Path(folder), kind)
 
+    @checked
     def to_html(
         self,
         path: str | Path,

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.figures import ZERO_CELSIUS, celsius
 from conveyor.laboratory import DmaData
@@ -143,6 +144,7 @@ class Fitted:
     loss: Array
 
 
+@checked
 def fit_file(data: Path, request: Request) -> Fitted:
     """Fit a master curve or isotherms and describe the result as a compound.
 
@@ -162,6 +164,8 @@ def fit_file(data: Path, request: Request) -> Fitted:
     """
     several = request.shift is not None or request.strain is not None
     read = read_answered(data, request.reading, poisson_ratio=request.poisson_ratio, several=several)
+    if request.terms_per_decade is not None and not 0.1 <= request.terms_per_decade <= 20.0:
+        raise InputError(f"--terms-per-decade: got {request.terms_per_decade:g}, allowed: >= 0.1 and <= 20")
     reference = _reference(data, read, request)
     superposition = _superposed(data, read, reference, request)
     f, e1, e2 = _rows(data, read, superposition)

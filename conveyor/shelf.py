@@ -12,6 +12,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.explain import findings
 from conveyor.files.document import listing, read_document
@@ -21,6 +22,7 @@ from conveyor.models.compound import RubberCompound
 __all__ = ["ENVIRONMENT", "built_in", "compound", "dump", "folders", "names", "read_compound", "resolver"]
 
 
+@checked
 def names(extra: Iterable[str | Path] = ()) -> list[str]:
     """Return the names on the shelf, sorted.
 
@@ -32,6 +34,7 @@ def names(extra: Iterable[str | Path] = ()) -> list[str]:
     return sorted(files(extra))
 
 
+@checked
 def compound(
     name_or_path: str | Path, *, extra: Iterable[str | Path] = (), base: Path | None = None
 ) -> RubberCompound:
@@ -134,6 +137,7 @@ def resolver(
     return resolve
 
 
+@checked
 def dump(compound: RubberCompound, heading: str = "") -> str:
     """YAML text of a compound file, as the shelf reads it; lists of numbers and terms on one line each.
 

@@ -14,6 +14,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from conveyor import shelf
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.explain import findings, message
 from conveyor.files.document import MOST_LINES, listing, read_document
@@ -24,6 +25,7 @@ _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
 _TABLES: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}
 
 
+@checked
 def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     """Read a conveyor from a ``.yaml``, ``.yml`` or ``.json`` file, or from an input workbook (``.xlsx``).
 
@@ -70,6 +72,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     return conveyor
 
 
+@checked
 def from_data(
     data: Mapping[str, Any],
     *,
@@ -142,6 +145,7 @@ def _placed(path: Path, location: Location) -> str:
     return f"{path}:{line}:{column}"
 
 
+@checked
 def dump(conveyor: Conveyor) -> str:
     """Return a spec (YAML) that `load` reads back to an equal conveyor; compounds are written out."""
     from ruamel.yaml import YAML

@@ -102,6 +102,8 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
 
 def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quantity:
     """Refuse a size that nothing of its kind has: what is computed with it would overflow or vanish."""
+    if kind == "temperature" and si(value) < 0.0:
+        raise InputError(f"got {text(value)}, below absolute zero (-273.15 degC)")
     number = abs(value.magnitude)
     if kind is None or number == 0.0:
         return value

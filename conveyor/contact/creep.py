@@ -9,10 +9,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
 
+_TIMES = 1e-100, 1e100
 _SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
 
@@ -44,15 +46,20 @@ class CreepSpectrum:
     weights: Array = field(default_factory=lambda: np.empty(0))
     times: Array = field(default_factory=lambda: np.empty(0))
 
+    @checked
     def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
-        d = np.array(weights, dtype=float, ndmin=1)
-        z = np.array(times, dtype=float, ndmin=1)
+        try:
+            d, z = (np.array(given, dtype=float, ndmin=1) for given in (weights, times))
+        except (TypeError, ValueError):
+            raise InputError("weights and times: two lists of numbers are needed") from None
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
         if not np.all(np.isfinite(d) & (d > 0.0)):
             raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
-        if not np.all(np.isfinite(z) & (z >= 0.0)):
-            raise InputError(f"times = {z.tolist()}: each ζ is finite and not negative")
+        if not np.all((z == 0.0) | ((z >= _TIMES[0]) & (z <= _TIMES[1]))):
+            raise InputError(
+                f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {_TIMES[0]:g} to {_TIMES[1]:g}"
+            )
         if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
             raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
         if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:

@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments import checked
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -38,7 +39,7 @@ from conveyor.contact.narrow import (
     guess,
 )
 from conveyor.contact.orders import ORDERS
-from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
 from conveyor.contact.scene import instantly_relaxed
@@ -66,6 +67,7 @@ _SPLITS = (
 )
 
 
+@checked
 def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: float = 1e-6) -> LoadCurve:
     """Sample a scene between two loads until friction is known to `rtol` anywhere between.
 
@@ -93,6 +95,7 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     return found
 
 
+@checked
 def load_curves(
     problems: Sequence[ContactProblem], lowest: ArrayLike, highest: ArrayLike, rtol: float = 1e-6
 ) -> list[LoadCurve | NoSolutionError]:
@@ -121,6 +124,7 @@ def load_curves(
     >>> bool(one.at(0.004).friction < other.at(0.004).friction)
     True
     """
+    check_rtol(rtol)
     low, high = np.asarray(lowest, dtype=float), np.asarray(highest, dtype=float)
     if not (low.shape == high.shape == (len(problems),) and np.all((low > 0.0) & (low <= high))):
         raise InputError("lowest and highest: one of each for every scene, 0 < lowest <= highest")
@@ -131,6 +135,7 @@ def load_curves(
     ]
 
 
+@checked
 def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-6) -> LoadSolutions:
     """Solve many loads of one scene with one shared set-up.
 

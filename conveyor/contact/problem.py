@@ -31,6 +31,8 @@ from conveyor.errors import InputError
 
 _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
+_HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
+_SMALLEST_ROLL = 1e-12
 
 
 class Status(Enum):
@@ -103,15 +105,19 @@ class ContactProblem:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
                 raise InputError(f"{name} = {value!r}: a number is needed")
-        if not 0.0 < self.radius <= 0.5:
-            raise InputError(f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap")
-        if not self.thickness >= _THINNEST:
+        if not _SMALLEST_ROLL <= self.radius <= 0.5:
             raise InputError(
-                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed)"
+                f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap; at least {_SMALLEST_ROLL:g}"
             )
-        if not _LIGHTEST <= self.pressure < math.inf:
+        if not (_THINNEST <= self.thickness <= _HEAVIEST or self.thickness == math.inf):
             raise InputError(
-                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, at least {_LIGHTEST:g}"
+                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed), "
+                f"at most {_HEAVIEST:g} below it"
+            )
+        if not _LIGHTEST <= self.pressure <= _HEAVIEST:
+            raise InputError(
+                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, "
+                f"from {_LIGHTEST:g} to {_HEAVIEST:g}"
             )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
@@ -131,3 +137,9 @@ class ContactProblem:
         if self.support == "free":
             return Free(self.thickness)
         return Confined(self.thickness, self.poisson)
+
+
+def check_rtol(rtol: float) -> None:
+    """Refuse a tolerance that is none, or none that double precision reaches."""
+    if not (isinstance(rtol, (int, float, np.floating)) and 1e-12 <= rtol <= 1e-2):
+        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from conveyor.arguments import checked
 from conveyor.contact.general import by_strips
 from conveyor.contact.narrow import solve_narrow
-from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
 from conveyor.contact.scene import Scene
 from conveyor.contact.single import by_half_width
 from conveyor.contact.solution import ContactSolution, Outcome, SolveStats
 from conveyor.errors import InputError, NoSolutionError
 
+_SHALLOWEST, _DEEPEST = (
+    1e-28,
+    1e3,
+)  # of penetrations over R: the loads of others underflow or lead beyond the roll
 
+
+@checked
 def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) -> ContactSolution:
     """Solve a steady rolling contact under load control.
 
@@ -55,6 +61,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     return solve_many([problem], rtol, throw=throw)[0]
 
 
+@checked
 def solve_penetration(
     problem: ContactProblem, penetration: float, rtol: float = 1e-6, *, throw: bool = True
 ) -> ContactSolution:
@@ -89,12 +96,15 @@ def solve_penetration(
     >>> round(s.problem.pressure, 6), round(s.friction, 5)
     (0.05, 0.13098)
     """
-    if not (math.isfinite(penetration) and penetration > 0.0):
-        raise InputError(f"penetration = {penetration!r}: Δ/R is finite and positive")
-    _within(rtol)
+    if not (_SHALLOWEST <= penetration <= _DEEPEST):
+        raise InputError(
+            f"penetration = {penetration!r}: Δ/R is finite and positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
+        )
+    check_rtol(rtol)
     return _solved(Scene.of(problem, depth=penetration), rtol, throw)
 
 
+@checked
 def solve_many(
     problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
 ) -> list[ContactSolution]:
@@ -109,16 +119,11 @@ def solve_many(
     NoSolutionError
         As `solve`, of the first scene without an answer (throw=True).
     """
-    _within(rtol)
+    check_rtol(rtol)
     return [
         _solution(problem, outcome, throw) if outcome is not None else _solved(Scene.of(problem), rtol, throw)
         for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
     ]
-
-
-def _within(rtol: float) -> None:
-    if not 1e-12 <= rtol <= 1e-2:
-        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")
 
 
 def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:

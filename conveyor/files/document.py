@@ -34,6 +34,7 @@ _MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", c
           codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
 
 _TOO_DEEP: Final = f"nested deeper than {DEEPEST} levels"
+_HALF: Final = re.compile("[\ud800-\udfff]")
 _FIRST: Final = 1000  # bytes: text without a null there has none
 
 Location = tuple[int | str, ...]
@@ -254,7 +255,7 @@ class _Reader:
                     )
                 )
                 continue
-            name = str(key.value)
+            name = self._whole(key)
             field = _path((*location, name))
             if key.tag == _TAG + "merge":
                 message = "merge keys (<<) are not allowed; write the fields out"
@@ -266,8 +267,23 @@ class _Reader:
                 first[name] = _place(key)
                 yield name, self.value(value, (*location, name))
 
+    def _whole(self, node: ScalarNode) -> str:
+        """Text of a node, characters that were written as two codes put together."""
+        content = str(node.value)
+        try:
+            return (
+                content.encode("utf-16", "surrogatepass").decode("utf-16")
+                if _HALF.search(content)
+                else content
+            )
+        except UnicodeDecodeError:
+            line, column = _place(node)
+            raise InputError(
+                f"{self.path}:{line}:{column} file: half of a character (a lone surrogate); remove it"
+            ) from None
+
     def _scalar(self, node: ScalarNode, location: Location) -> Any:
-        content, kind = str(node.value), str(node.tag).removeprefix(_TAG)
+        content, kind = self._whole(node), str(node.tag).removeprefix(_TAG)
         if kind in {"str", "timestamp"}:
             return content
         if kind == "null":

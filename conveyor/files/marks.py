@@ -13,7 +13,7 @@ from xml.etree import ElementTree as ET
 REPORT: Final = "report workbook"
 PAGE: Final = "report page"
 FIGURE: Final = "figure"
-COMPOUND: Final = "compound file of conveyor fit"
+COMPOUND: Final = "compound file"
 TABLE: Final = "table"
 TO_FILL_IN: Final = "file to fill in"
 """A template or a starter: made to be edited, so without a mark, and no older one is replaced unasked."""
@@ -52,7 +52,7 @@ def mark(content: bytes) -> str | None:
     Examples
     --------
     >>> mark(b"# Written by conveyor fit\nname: mine\n")
-    'compound file of conveyor fit'
+    'compound file'
     >>> mark("\ufeffroll,force [N]\r\n1,5\r\n".encode())
     'table: roll,force'
     >>> mark(b"name: mine\n") is None

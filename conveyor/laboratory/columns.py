@@ -292,7 +292,8 @@ def _converted(meaning: Meaning, numbers: FloatArray, unit: Unit) -> tuple[Float
     with np.errstate(over="ignore"):
         plain = numbers if base is None else np.power(base, numbers)
     factor = unit.factor * (0.5 if meaning.peak_to_peak else 1.0)
-    values = (plain + unit.offset) * factor if unit.offset else plain * factor
+    with np.errstate(over="ignore"):  # an infinite value is refused with its row
+        values = (plain + unit.offset) * factor if unit.offset else plain * factor
     words = [] if base is None else ["log10 undone" if base == 10.0 else "natural logarithm undone"]
     if unit.offset:
         words.append(f"+ {unit.offset:g}")

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
+from conveyor.arguments import checked
 from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
 from conveyor.errors import InputError
 from conveyor.figures import Said, quoted, said
@@ -173,6 +174,7 @@ class CalculatedCases:
         return recommended_motors(self.results, reserve=reserve)
 
 
+@checked
 def analyse_cases(
     conveyor: Conveyor,
     cases: Sequence[LoadCase] | None = None,

@@ -10,10 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Final, get_args
+
+from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
+from conveyor.arguments import checked
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct, with_compound
 from conveyor.pipeline import Progress
 from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound
@@ -31,6 +36,9 @@ __all__ = [
 
 RTOL = 1e-4
 """Relative tolerance of the contacts: a hundredth of what any rubber is known to."""
+
+
+_SPEED: Final[TypeAdapter[Quantity]] = TypeAdapter(BeltSpeed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +76,7 @@ class CalculatedComparison:
     years: Mapping[str, CalculatedYear] = field(default_factory=dict)
 
 
+@checked
 def compare_compounds(
     conveyor: Conveyor,
     compounds: Iterable[str | RubberCompound],
@@ -114,6 +123,8 @@ def compare_compounds(
     InputError
         No compound, one twice, an unknown base or name, a value without unit or outside its range.
     """
+    if cover not in get_args(CoverChoice):
+        raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(CoverChoice))}')
     chosen = _compounds(compounds, shelves)
     at = [conveyor.ambient.belt] if temperatures is None else _quantities(temperatures, "temperature")
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
@@ -178,8 +189,19 @@ def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
     raise InputError(f'"{name}" is none of the compounds compared: {listed}')
 
 
+def _check_speed(given: Quantity) -> None:
+    """Refuse a speed that no belt runs at, as its field in a spec does."""
+    try:
+        _SPEED.validate_python(given)
+    except ValidationError as error:
+        raise InputError(f"speed: {error.errors()[0]['msg']}") from None
+
+
 def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
     found = [quantity(item, kind) for item in given]
+    if kind == "speed":
+        for item in found:
+            _check_speed(item)
     if not found:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
     return distinct(found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
@@ -93,6 +94,7 @@ class CalculatedYear:
     energy_per_tonne_km: float | None
 
 
+@checked
 def analyse_duty(
     conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
 ) -> CalculatedYear:

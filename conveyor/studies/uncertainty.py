@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.models import Conveyor, Uncertainty
@@ -109,6 +110,7 @@ class _Variation:
     replicas: bool = False
 
 
+@checked
 def study(
     conveyor: Conveyor,
     ranges: Uncertainty | None = None,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from conveyor import shelf, spec
+from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import save, writable
@@ -21,6 +22,7 @@ _MADE: Final = Path("template.xlsx")
 EXAMPLE: Final = Path(__file__).with_name("example.yaml")
 
 
+@checked
 def write_template(
     path: str | Path, conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = ()
 ) -> Path:

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conveyor.line.walk import excited_band
 from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
 
 import conveyor
 from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
-from conveyor.line.walk import excited_band
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
 from conveyor.report.svg import inline, restyle

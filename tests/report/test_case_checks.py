@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
-import conveyor
-from conveyor.analysis import CaseStudy, Studies, analyse_cases
 from conveyor.report.case_checks import case_checks
 from conveyor.report.checks import checks
 from conveyor.report.verdicts import Check
+
+import conveyor
+from conveyor.analysis import CaseStudy, Studies, analyse_cases
 from conveyor.units import display
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"

@@ -6,10 +6,10 @@ from operator import itemgetter
 from pathlib import Path
 
 import pytest
+from conveyor.report.checks import band_words, checks
 
 import conveyor
 from conveyor.display import unit
-from conveyor.report.checks import band_words, checks
 from conveyor.report.columns import Column, Figure, Table, figures
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

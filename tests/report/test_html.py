@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from conveyor.report.checks import checks
 
 import conveyor
 from conveyor.analysis import studies
@@ -14,7 +15,6 @@ from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
-from conveyor.report.checks import checks
 from conveyor.report.page_style import COLOURS
 from tests.report.reading import HOSTILE, Page
 

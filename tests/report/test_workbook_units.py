@@ -7,6 +7,7 @@ from pathlib import Path
 
 import openpyxl
 import pytest
+from conveyor.report.checks import checks
 from openpyxl.utils import range_boundaries
 
 import conveyor
@@ -14,7 +15,6 @@ from conveyor.analysis import compare_compounds
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
-from conveyor.report.checks import checks
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
 ROUNDED = 1e-11  # twelve significant digits of a conversion, and one division

@@ -158,7 +158,7 @@ WORKBOOKS = [
     Case("workbook", "empty", book(lambda _: b""), "input.xlsx: empty"),
     Case("workbook", "text named .xlsx", book(lambda _: SPEC.encode()), "input.xlsx: not a workbook (.xlsx)"),
     Case("workbook", "an .xls renamed", book(lambda _: OLD_XLS), "not a workbook of the .xlsx format; save it as .xlsx"),
-    Case("workbook", "an .xls", book(lambda _: OLD_XLS, "input.xls"), "save a workbook as .xlsx"),
+    Case("workbook", "an .xls", book(lambda _: OLD_XLS, name="input.xls"), "save a workbook as .xlsx"),
     Case("workbook", "with a password", book(lambda _: PROTECTED), "protected by a password; save it without one"),
     Case("workbook", "cut off in the middle", book(lambda content: content[: len(content) // 2]), "damaged or cut short"),
     Case("workbook", "a byte flipped", book(lambda c: c[:3000] + bytes([c[3000] ^ 0xFF]) + c[3001:]), "damaged or cut short"),
@@ -228,7 +228,7 @@ OUTPUTS = [
     Case("output", "tables onto a file of somebody else", older("sections.csv", "power", "spec.yaml", "--tables", "."), "sections.csv: exists and is no table"),
     Case("output", "table onto a file of somebody else", older("t.csv", "compare", "spec.yaml", "-c", "s100", "--csv", "t.csv"), "t.csv: exists and is no table"),
     Case("output", "figure onto a file of somebody else", older("f.png", "shelf", "s100", "--plot", "f.png"), "f.png: exists and is no figure"),
-    Case("output", "compound onto a file of somebody else", older("c.yaml", "fit", "data.csv", "-o", "c.yaml"), "c.yaml: exists and is no compound file of conveyor fit"),
+    Case("output", "compound onto a file of somebody else", older("c.yaml", "fit", "data.csv", "-o", "c.yaml"), "c.yaml: exists and is no compound file that"),
     Case("output", "template onto an older file", older("t.xlsx", "template", "t.xlsx"), "t.xlsx: exists; choose another name, or replace it with --force"),
     Case("output", "workbook onto its input, by force", book(lambda content: content, "-o", "./input.xlsx", "--force"), "input.xlsx: is an input of this command; choose another name for the output"),
     Case("output", "template onto the spec it is filled in from", lambda folder: ("template", "input.xlsx", "--from", *book(lambda content: content)(folder)[1:], "-f"), "input.xlsx: is an input of this command"),
@@ -253,7 +253,7 @@ COMMANDS = [
     Case("no answer", "a free cover wrapped around the roll", edited(("ambient: {", "calculation: {support: free, gauss_points: 1}\nambient: {")), "confined", code=1),
     Case("no answer", "a temperature that no compound reaches", given("compare", "spec.yaml", "-c", "s100", "--temperature", "-90"), "no scene has an answer", code=1),
     Case("no answer", "one contact too heavily loaded", given("contact", "--support", "free", "--radius", "0.1", "--thickness", "0.05", "--pressure", "0.5"), "lower the load", code=1),
-    Case("stopped", "Ctrl-C while it calculates", older("r.xlsx", "power", "spec.yaml", "-o", "r.xlsx"), "conveyor: stopped by Ctrl-C", code=130, spoil=stopped),
+    Case("stopped", "Ctrl-C while it calculates", older("r.xlsx", "power", "--force", "spec.yaml", "-o", "r.xlsx"), "conveyor: stopped by Ctrl-C", code=130, spoil=stopped),
 ]  # fmt: skip
 
 CASES = [

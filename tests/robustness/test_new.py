@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
+from conveyor.report.checks import checks
 
 import conveyor
 from conveyor import spec, starter
 from conveyor.errors import InputError
-from conveyor.report.checks import checks
 from conveyor.units import System
 
 KINDS = [(kind, units) for kind in starter.KINDS for units in ("SI", "US")]

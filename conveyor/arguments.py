@@ -1,0 +1,131 @@
+"""Arguments of public functions: one of a wrong type is refused by its name, once, at the door."""
+
+from __future__ import annotations
+
+import builtins
+import inspect
+import sys
+import types
+import typing
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, wraps
+from numbers import Integral, Real
+from typing import Any, Final, Literal, ParamSpec, TypeVar, get_args, get_origin
+
+from conveyor.errors import InputError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_SHOWN: Final = 60
+_NUMBERS: Final[dict[Any, Any]] = {float: Real, int: Integral}
+_LISTS: Final = (list, tuple)
+
+
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """Refuse arguments of another type than the function's signature states.
+
+    Containers are looked into where they are lists, tuples or mappings; what a signature states in ways that cannot
+    be told from a value (protocols, callables' arguments) is left to the function.
+
+    Raises
+    ------
+    InputError
+        An argument is missing, unknown, or of a wrong type; it is named, with what was given and what is expected.
+
+    Examples
+    --------
+    >>> @checked
+    ... def doubled(value: float, *, times: int = 1) -> float:
+    ...     return 2.0**times * value
+    >>> doubled(3.0, times=2)
+    12.0
+    >>> doubled("3")
+    Traceback (most recent call last):
+    conveyor.errors.InputError: doubled: value: expected float, got '3' (str)
+    """
+    signature = inspect.signature(function)
+    named = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
+
+    @wraps(function)
+    def called(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            bound = signature.bind(*args, **kwargs)
+        except TypeError as error:
+            raise InputError(f"{named}: {error}") from None
+        for name, value in bound.arguments.items():
+            written = signature.parameters[name].annotation
+            if not _fits(value, _hint(function.__module__, written)):
+                expected = str(written).replace(" | None", "")
+                shown = repr(value)
+                shown = shown if len(shown) <= _SHOWN else shown[:_SHOWN] + "..."
+                raise InputError(
+                    f"{named}: {name}: expected {expected}, got {shown} ({type(value).__name__})"
+                )
+        return function(*args, **kwargs)
+
+    return called
+
+
+class _NotLoaded:
+    """Stands for a type of a module that is not imported: no value can be of it."""
+
+
+class _Known(dict[str, Any]):
+    """Names of a module; those it imports for types only are looked for in the modules that are there."""
+
+    def __missing__(self, name: str) -> Any:
+        if hasattr(builtins, name):
+            raise KeyError(name)
+        ours = [module for key, module in list(sys.modules.items()) if key.startswith("conveyor.")]
+        return next((vars(module)[name] for module in ours if name in vars(module)), _NotLoaded)
+
+
+def _hint(module: str, written: Any) -> Any:
+    """Type that an annotation names; Any where it cannot be told."""
+    if not isinstance(written, str):
+        return Any if written is inspect.Parameter.empty else written
+    try:
+        return _evaluated(module, written, len(sys.modules))
+    except (AttributeError, TypeError):
+        return Any
+
+
+@cache
+def _evaluated(module: str, written: str, _loaded: int) -> Any:
+    """Type that our own source names; told anew when further modules are loaded."""
+    return eval(written, {}, _Known(vars(sys.modules[module])))  # noqa: S307
+
+
+def _fits(value: Any, hint: Any) -> bool:
+    """Whether a value is of a type, as far as can be told."""
+    origin, arguments = get_origin(hint), get_args(hint)
+    if origin in {typing.Union, types.UnionType}:
+        fits = any(_fits(value, one) for one in arguments)
+    elif origin is typing.Annotated:
+        fits = _fits(value, arguments[0])
+    elif origin is Literal:
+        fits = True  # a wrong word is refused with those allowed, by the function
+    elif origin is not None:
+        fits = _holds(value, origin, arguments)
+    elif hint in _NUMBERS:
+        fits = isinstance(value, _NUMBERS[hint]) and not isinstance(value, bool)
+    elif hint is None:
+        fits = value is None
+    else:
+        told = isinstance(hint, type) and hint is not Any and not getattr(hint, "_is_protocol", False)
+        fits = isinstance(value, hint) if told else True
+    return fits
+
+
+def _holds(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
+    """Whether a container is one, and holds what it may."""
+    if origin in {Sequence, Iterable} and isinstance(value, str | bytes):
+        return False
+    if isinstance(origin, type) and not isinstance(value, origin):
+        return False
+    if isinstance(value, Mapping) and len(arguments) == 2:
+        return all(_fits(key, arguments[0]) and _fits(item, arguments[1]) for key, item in value.items())
+    if isinstance(value, _LISTS) and arguments and (origin is not tuple or arguments[-1] is Ellipsis):
+        return all(_fits(item, arguments[0]) for item in value)
+    return True
