@@ -1,0 +1,63 @@
+"""Constants as their sources print them: DIN 22101, ISO 5048, CEMA, acceptance of rolls, one measured site."""
+
+from __future__ import annotations
+
+import pytest
+
+from conveyor.laws import resistance
+from conveyor.laws.resistance import cema
+
+# C over L [m], DIN 22101 and ISO 5048
+LENGTHS = """
+3 9.0   4 7.6   6 5.9   10 4.5   16 3.6   20 3.2   25 2.9   32 2.6   40 2.4   50 2.2   63 2.0   80 1.92   90 1.86
+100 1.78   120 1.70   140 1.63   160 1.56   180 1.50   200 1.45   250 1.38   300 1.31   350 1.27   400 1.25   450 1.22
+500 1.20   550 1.18   600 1.17   700 1.14   800 1.12   900 1.10   1000 1.09   1500 1.06   2000 1.05   2500 1.04
+5000 1.03
+"""
+
+
+@pytest.mark.filterwarnings("ignore:length = ")
+def test_length_coefficients_at_the_printed_lengths():
+    printed = [float(word) for word in LENGTHS.split()]
+    assert len(printed) == 2 * 35
+    for length, coefficient in zip(printed[::2], printed[1::2], strict=True):
+        assert resistance.length_coefficient(length) == pytest.approx(coefficient, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("default", "value", "low", "high"),
+    [
+        (resistance.FRICTION_FACTOR, 0.020, 0.0085, 0.030),
+        (resistance.FRICTION_FACTOR_OVERLAND, 0.011, 0.0085, 0.013),
+        (resistance.FRICTION_FACTOR_GOOD, 0.016, 0.016, 0.016),
+        (resistance.FRICTION_FACTOR_POOR, 0.025, 0.025, 0.030),
+        (resistance.FRICTION_FACTOR_DOWNHILL, 0.012, 0.012, 0.012),
+        (resistance.BULK_ON_BELT_FRICTION, 0.5, 0.5, 0.5),
+        (resistance.BULK_ON_SKIRT_FRICTION, 0.7, 0.7, 0.7),
+        (resistance.CLEANER_FRICTION, 0.6, 0.5, 0.7),
+        (resistance.CLEANER_PRESSURE, 3e4, 3e4, 1e5),
+        (resistance.ROLL_ON_BELT_FRICTION, 0.35, 0.3, 0.4),
+        (resistance.TILT_COEFFICIENT_30, 0.4, 0.4, 0.4),
+        (resistance.TILT_COEFFICIENT_45, 0.5, 0.5, 0.5),
+        (resistance.ROLL_DRAG_TO_153, 1.28, 0.0, 1.28),
+        (resistance.ROLL_DRAG_TO_178, 2.45, 0.0, 2.45),
+        (resistance.ROLL_DRAG_LARGER, 3.0, 0.0, 3.0),
+        (resistance.FLEXURE_SHARE, 0.11, 0.0, 0.11),
+        (cema.IDLER_FRICTION_4_IN, 2.3, 2.3, 2.3),
+        (cema.IDLER_FRICTION_5_IN, 1.8, 1.8, 1.8),
+        (cema.IDLER_FRICTION_6_IN, 1.5, 1.5, 1.5),
+        (cema.IDLER_FRICTION_6_IN_HEAVY, 2.8, 2.8, 2.8),
+        (cema.IDLER_FRICTION_7_IN, 2.4, 2.4, 2.4),
+        (cema.CLEANER_PER_INCH, 5.0, 5.0, 5.0),
+        (cema.PLOUGH_PER_INCH, 5.0, 3.0, 5.0),
+    ],
+)
+def test_a_default_and_its_range_are_the_printed_ones(default, value, low, high):
+    assert (default.value, default.low, default.high) == pytest.approx((value, low, high), rel=1e-15)
+    assert default.source
+
+
+def test_pulleys_and_rolls_after_standstill():
+    # lbf a pulley; drag after standstill over running drag
+    assert pytest.approx({"tight": 200.0, "slack": 150.0, "other": 100.0}, rel=1e-15) == cema.PULLEY_FRICTION
+    assert pytest.approx(1.5, rel=1e-15) == resistance.ROLL_DRAG_STANDSTILL_FACTOR

@@ -1,0 +1,42 @@
+"""Figures beside the loop, worked out by hand from the masses of one conveyor."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from tests.loop.loop_lines import balanced
+
+# 20 kg/m² of 1 m: 20 kg/m; 1200 t/h at 4 m/s: 83.33 kg/m; rolls 3·4 kg/1.2 m and 9 kg/3 m: 10 and 3 kg/m
+BELT, BULK, ROLLS, GRAVITY = 20.0, 1200.0 / 3.6 / 4.0, 13.0, 9.81
+SECTIONS = ((120.0, 0.0), (400.0, 25.0), (300.0, -8.0), (180.0, 6.0))
+
+
+def test_the_classical_estimate_is_that_of_din_22101():
+    one = balanced()
+    found = one.classical
+    # F_H = f g Σ l (m'_R + (2 m'_belt + m'_bulk) cos δ), f 0.02; C is 1.09 at 1000 m
+    weights = [
+        length * (ROLLS + (2.0 * BELT + BULK) * math.cos(math.asin(rise / length)))
+        for length, rise in SECTIONS
+    ]
+    main = 0.02 * GRAVITY * sum(weights)
+    assert main == pytest.approx(26.7e3, rel=5e-3)
+    assert found.main == pytest.approx(main, rel=1e-12)
+    assert found.secondary == pytest.approx(0.09 * main, rel=1e-11)
+    assert found.lift == pytest.approx(BULK * GRAVITY * 23.0, rel=1e-12)
+    assert found.special == pytest.approx(one.forces.special, rel=1e-12)
+    total = 1.09 * main + one.forces.special + BULK * GRAVITY * 23.0
+    assert found.total == pytest.approx(total, rel=1e-12)
+    assert found.motor == pytest.approx(total * 4.0 / 0.94, rel=1e-12)
+
+
+def test_beyond_the_table_of_c_the_secondary_resistances_are_itemised():
+    long = [{"name": "a", "length": "5100 m"}, {"name": "c", "length": "100 m"}]
+    one = balanced(route={"sections": long})
+    assert one.classical.secondary == pytest.approx(one.forces.secondary, rel=1e-12)
+    short = [{"name": "a", "length": "4900 m"}, {"name": "c", "length": "100 m"}]
+    # C is 1.03 at 5000 m, the last of the table
+    one = balanced(route={"sections": short})
+    assert one.classical.secondary == pytest.approx(0.03 * one.classical.main, rel=1e-11)

@@ -1,0 +1,46 @@
+"""Tables of the belt, the pulleys and the curves: figures put in by hand come out in the unit of their column."""
+
+from __future__ import annotations
+
+import pytest
+
+from conveyor.loop.belt_duty import BeltDuty, CurveCheck, PulleyCheck
+from conveyor.report import loop_tables
+
+DUTY = BeltDuty(
+    largest_steady=100e3,
+    largest=140e3,
+    safety_steady=9.0,
+    safety=6.5,
+    safety_needed=8.0,
+    strength_needed=630e3,
+    drive_diameter=0.725,
+    pulleys=(
+        PulleyCheck("head", "head", "A", 0.63, 0.725, 0.8),
+        PulleyCheck("snub", "return", "C", 0.5, 0.45675, 0.5),
+    ),
+    curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0),),
+)
+
+
+def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
+    table = loop_tables.belt(DUTY)
+    assert table["strength the splice asks for [N/mm]"] == pytest.approx(630.0)
+    assert table["least diameter of drive pulleys [mm]"] == pytest.approx(725.0)
+    assert table["largest tension, all states [N]"] == pytest.approx(140e3)
+    assert table["safety, steady [-]"] == pytest.approx(9.0)
+    assert table["classic safety asked for [-]"] == pytest.approx(8.0)
+    pulleys = loop_tables.pulleys(DUTY)
+    assert pulleys["diameter [mm]"].tolist() == pytest.approx([630.0, 500.0])
+    assert pulleys["least [mm]"].tolist() == pytest.approx([725.0, 456.75])
+    assert pulleys["of the series [mm]"].tolist() == pytest.approx([800.0, 500.0])
+    assert pulleys["large enough"].tolist() == [False, True]
+
+
+def test_a_curve_beside_its_least_radii():
+    (row,) = loop_tables.curves(DUTY).to_dict("records")
+    assert row["radius [m]"] == pytest.approx(250.0)
+    assert row["least against lift-off [m]"] == pytest.approx(255.0)
+    assert row["least against overstress [m]"] == pytest.approx(70.0)
+    assert row["least against slack strips [m]"] == pytest.approx(110.0)
+    assert (row["lowest tension [N]"], row["highest tension [N]"]) == pytest.approx((20e3, 50e3))
