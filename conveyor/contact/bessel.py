@@ -53,24 +53,31 @@ def bessel_j(order: int, x: Array) -> Array:
 
 
 def _downward(order: int, start: int, x: Array) -> Array:
-    quarter = 0.25 * x * x
-    above, level = np.ones_like(x), np.ones_like(x)
-    table = np.empty((order + 1, *x.shape))
-    work = np.empty_like(x)
-    for v in range(start, 0, -1):
-        np.multiply(quarter, 1.0 / (v * (v + 1.0)), out=work)
-        work *= above
-        above = level
-        level = np.subtract(level, work, out=table[v - 1] if v <= order + 1 else np.empty_like(x))
     half = 0.5 * x
+    quarter = half * half
+    table = np.empty((start + 1, *x.shape))
+    table[start] = 1.0
+    np.subtract(1.0, quarter * _over_products(start)[0], out=table[start - 1])
+    work = np.empty_like(x)
+    for v, factor in zip(range(start - 1, 0, -1), _over_products(start)[1:], strict=True):
+        np.multiply(quarter, factor, out=work)
+        work *= table[v + 1]
+        np.subtract(table[v], work, out=table[v - 1])
+    table = table[: order + 1]
     first, second = special.j0(x), special.j1(x)
     larger = np.abs(first) > np.abs(second)
-    scale = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
-    for v in range(order + 1):
-        table[v] *= scale
-        scale = scale * half
-        scale *= 1.0 / (v + 1.0)
+    powers = np.empty_like(table)
+    powers[0] = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
+    np.divide(half, np.arange(1.0, order + 1.0).reshape(-1, *[1] * x.ndim), out=powers[1:])
+    np.cumprod(powers, axis=0, out=powers)
+    table *= powers
     return table
+
+
+@lru_cache(maxsize=256)
+def _over_products(start: int) -> list[float]:
+    """1/(v (v+1)) of v = start … 1."""
+    return [1.0 / (v * (v + 1.0)) for v in range(start, 0, -1)]
 
 
 def _by_ratios(order: int, x: Array) -> Array:
@@ -137,9 +144,10 @@ class ProductIK:
         last = special.k1e(b) / special.k0e(b)
         k[0] = last
         two_over_b = 2.0 / b
+        steps = np.multiply.outer(np.arange(1.0, order + 1.0), two_over_b)
         for v in range(1, order + 1):
-            last = 1.0 / last + v * two_over_b
-            k[v] = last
+            np.add(np.reciprocal(last), steps[v - 1], out=k[v])
+            last = k[v]
         twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
         delta = b * (r[1:] + 1.0 / k[:-1])
         self._deficit = delta / (twice * (twice + delta))
@@ -215,10 +223,13 @@ def _ratio_i(order: int, b: Array) -> Array:
     two_over_b = 2.0 / b
     r = b / (start + 0.5 + np.hypot(start + 1.5, b))
     out = np.empty((order + 1, *b.shape))
+    work = np.empty_like(b)
     for v in range(start, 0, -1):
         if v <= order:
             out[v] = r
-        r = 1.0 / (v * two_over_b + r)
+        np.multiply(two_over_b, v, out=work)
+        work += r
+        np.reciprocal(work, out=r)
     out[0] = r
     if upward.any():
         step = two_over_b[upward]

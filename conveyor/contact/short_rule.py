@@ -6,7 +6,7 @@ whole window [0, 2 m0] only, so the functional
     Σ_{m≥1} χ S f  -  ∫_0^1 j f dm  +  ∫_1^{2m0} [(1-χ) S - j] f dm
 
 is carried over to K Gauss nodes by interpolation: one weight a node, the symbol's integers, window, poles and decades
-of slow retardation terms all inside the weights. On [0, 1] a term with ζ > ¼ is integrated exactly against Legendre
+of slow retardation terms all inside the weights. On [0, 1] a slow term is integrated exactly against Legendre
 polynomials, ∫ P_l/(1-imζ) dm = 2 Q_l(z)/(iζ), z = -1 - 2i/ζ (Neumann's integral, A&S 8.8.3). Beyond the window the
 layer's part S - j is left, on Gauss panels of each scene's own.
 """
@@ -31,9 +31,8 @@ ComplexArray = NDArray[np.complex128]
 WIDEST = 0.5  # half width α up to which the window's width below meets the alias exp(-(w(2π-2α))²/4) = 1e-17
 _RAMP = 6.5  # as in quadrature.py
 _UNIT = 10  # nodes on [0, 1]: f of half width 0.5 is a polynomial of degree 9 there to 1e-17
-_SLOW = 0.25
-_NEAR = 1.7  # |z + sqrt(z²-1)| below which Q_l is recurred upward: 1.7^18 = 1e4 units of rounding
-_DOWN = 30  # levels of the downward ratio recurrence: 1.7^-60 = 1e-14
+_SLOW = 7.4  # |z + sqrt(z²-1)| = 1.7, z = -1 - 2i/ζ: beyond, Q_l may be recurred upward, 1.7^18 = 1e4 units of rounding
+_PLAIN = 36  # Gauss points of the other terms, with a polynomial of degree 9: 1.7^(9-72) = 3e-15
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,7 @@ class _Window:
     spread: Array  # (10 + integers + panels, K)
     legendre: Array  # (10, 10): Legendre moments to weights on [0, 1]
     unit: Array
-    unit_weights: Array
+    unit_spread: Array  # (36, 10): weights times values on [0, 1] to those nodes
 
 
 _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
@@ -122,11 +121,12 @@ def _window(grade: Grade, count: int) -> _Window:
     panels = (edges[:-1, None] + half * (x + 1.0)).ravel()
     measure = (half * gauss).ravel()
     unit_x, unit_gauss = _gauss(_UNIT)
-    unit, unit_weights = 0.5 * (unit_x + 1.0), 0.5 * unit_gauss
+    unit_weights = 0.5 * unit_gauss
+    plain_x, plain_gauss = _gauss(_PLAIN)
     degrees = np.arange(_UNIT)
     values = special.eval_legendre(degrees[:, None], unit_x)
     coarse_x, coarse_gauss = _gauss(count)
-    fine = np.concatenate([unit, integers, panels]) * (2.0 / end) - 1.0
+    fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
     spread = (special.eval_legendre(all_degrees, fine[:, None]) * (all_degrees + 0.5)) @ (
         special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
@@ -141,8 +141,9 @@ def _window(grade: Grade, count: int) -> _Window:
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
         legendre=(2.0 * degrees[:, None] + 1.0) * values * unit_weights,
-        unit=unit,
-        unit_weights=unit_weights,
+        unit=0.5 * (plain_x + 1.0),
+        unit_spread=(0.5 * plain_gauss * special.eval_legendre(degrees[:, None], plain_x)).T
+        @ ((2.0 * degrees[:, None] + 1.0) * values * unit_weights),
     )
 
 
@@ -209,11 +210,10 @@ def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.i
 def _unit_weights(creeps: Creeps, window: _Window) -> ComplexArray:
     """Weights of ∫_0^1 j f dm on the ten nodes of [0, 1], shape (b, 10)."""
     slow = creeps.times > _SLOW
-    # Gauss points are enough for terms whose poles ±i/ζ lie four units away
     plain = Creeps(
         creeps.instantaneous, np.where(slow, 0.0, creeps.weights), np.where(slow, 1.0, creeps.times)
     )
-    weights: ComplexArray = plain.compliance(window.unit[None, :]) * window.unit_weights
+    weights: ComplexArray = plain.compliance(window.unit[None, :]) @ window.unit_spread
     if slow.any():
         scene = np.nonzero(slow)[0]
         moments = _moments(creeps.times[slow]) * creeps.weights[slow]
@@ -225,27 +225,12 @@ def _unit_weights(creeps: Creeps, window: _Window) -> ComplexArray:
 
 
 def _moments(zeta: Array) -> ComplexArray:
-    """∫_0^1 P_l(2m-1)/(1-imζ) dm for l = 0 … 9 and ζ > ¼, shape (10, ...)."""
+    """∫_0^1 P_l(2m-1)/(1-imζ) dm for l = 0 … 9 of slow terms, shape (10, ...): upward, 2 Q_l/(iζ)."""
     z = -1.0 - 2.0j / zeta
-    first = 1j * np.log1p(-1j * zeta) / zeta  # l = 0
     out = np.empty((_UNIT, *zeta.shape), dtype=complex)
-    out[0] = first
-    # downward: ratios Q_l/Q_{l-1} = l/((2l+1) z - (l+1) Q_{l+1}/Q_l)
-    ratio = np.zeros_like(z)
-    for level in range(_UNIT + _DOWN, 0, -1):
-        ratio = level / ((2 * level + 1) * z - (level + 1) * ratio)
-        if level < _UNIT:
-            out[level] = ratio
-    for level in range(1, _UNIT):
-        out[level] *= out[level - 1]
-    far = np.maximum(np.abs(z + np.sqrt(z * z - 1.0)), np.abs(z - np.sqrt(z * z - 1.0)))
-    near = far < _NEAR
-    if near.any():
-        at, before = z[near], first[near]
-        # Q_1 = z Q_0 - 1; in these units Q_0 = first iζ/2, so 1 is 2/(iζ)
-        present = at * before - 2.0 / (1j * zeta[near])
-        out[1][near] = present
-        for level in range(1, _UNIT - 1):
-            before, present = present, ((2 * level + 1) * at * present - level * before) / (level + 1)
-            out[level + 1][near] = present
+    out[0] = 1j * np.log1p(-1j * zeta) / zeta
+    # Q_1 = z Q_0 - 1; in these units Q_0 = first iζ/2, so 1 is 2/(iζ)
+    out[1] = z * out[0] - 2.0 / (1j * zeta)
+    for level in range(1, _UNIT - 1):
+        out[level + 1] = ((2 * level + 1) * z * out[level] - level * out[level - 1]) / (level + 1)
     return out

@@ -53,7 +53,7 @@ def conveyors(count: int, seed: int = 0) -> list[ContactProblem]:
     ]
 
 
-@pytest.mark.parametrize("zeta", [0.26, 1.0, 4.0, 9.0, 30.0, 1e3, 1e6])
+@pytest.mark.parametrize("zeta", [6.0, 9.0, 30.0, 1e3, 1e6])
 def test_moments_of_slow_terms(zeta):
     found = _moments(np.array([zeta]))[:, 0]
     for degree in (0, 1, 4, 9):
