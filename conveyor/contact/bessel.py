@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 _FAR_DOWN = 2
 _SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
-_UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
-_DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
+_UPWARD = 0.125  # times order²: rounding grows e⁸ upward from there
+_DAMPED = 21.0  # exponent of the damping: 8e-10 of the start's error, itself below 1e-3
 
 
 def bessel_j(order: int, x: Array) -> Array:
@@ -197,16 +197,33 @@ class ProductIK:
 
     def _add_narrow(self, upper: Array, weights: Array, narrow: NDArray[np.bool_]) -> None:
         """The terms of small b, diagonal by diagonal until they are negligible."""
-        diagonal = self._diagonal[..., narrow] * weights[:, narrow]
-        logs = np.zeros_like(diagonal)
-        np.cumsum(np.log(self._ratio[:-1, :, narrow]), axis=0, out=logs[1:])
-        size = diagonal.shape[0]
+        ratio = self._ratio[..., narrow]
+        product = self._diagonal[..., narrow] * weights[:, narrow]
+        size = product.shape[0]
         for step in range(1, size):
-            ratio = np.exp(logs[step:] - logs[:-step])
-            if float(ratio.max()) < _NEGLIGIBLE:
-                break
+            product = product[:-1] * ratio[step - 1 : -1]
+            along = product.sum(axis=2).T
             at = np.arange(size - step)
-            upper[:, at, at + step] += (diagonal[:-step] * ratio).sum(axis=2).T
+            upper[:, at, at + step] += along
+            if float(along.max(initial=0.0)) < _NEGLIGIBLE:
+                break
+
+    def quadratic(self, weights: Array, c: Array) -> Array:
+        """Σ_t w_t [Σ_v (1/(2v) - I_v K_v) c_v² - Σ_{v≠u} c_v c_u I_max K_min over equal parity], shape (k,).
+
+        `weights` as in `weighted`, c of shape (k, order) for v = 1 … order.
+        """
+        factors = np.ascontiguousarray(c.T)[:, :, None]
+        total = (self._deficit * (factors * factors)).sum(axis=0)
+        ratio, order = self._ratio, c.shape[1]
+        beyond = [np.zeros(ratio.shape[1:])] * 2  # Σ_{u>v} c_u I_u/I_v of equal parity, of v + 2 and v + 1
+        for v in range(order - 2, 0, -1):
+            here = ratio[v] * ratio[v + 1]
+            here *= factors[v + 1] + beyond[0]
+            beyond = [beyond[1], here]
+            total -= (2.0 * factors[v - 1]) * self._diagonal[v] * here
+        found: Array = (total * weights).sum(axis=1)
+        return found
 
 
 def _ratio_i(order: int, b: Array) -> Array:
