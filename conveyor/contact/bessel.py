@@ -66,11 +66,12 @@ def _downward(order: int, start: int, x: Array) -> Array:
     table = table[: order + 1]
     first, second = special.j0(x), special.j1(x)
     larger = np.abs(first) > np.abs(second)
-    powers = np.empty_like(table)
-    powers[0] = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
-    np.divide(half, np.arange(1.0, order + 1.0).reshape(-1, *[1] * x.ndim), out=powers[1:])
-    np.cumprod(powers, axis=0, out=powers)
-    table *= powers
+    scale = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
+    table[0] *= scale
+    for v in range(1, order + 1):
+        np.multiply(half, 1.0 / v, out=work)
+        scale *= work
+        table[v] *= scale
     return table
 
 
@@ -154,7 +155,8 @@ class ProductIK:
         self._diagonal = 1.0 / (b * (r + k))
         self._ratio = r
         self._high = np.ones_like(r)  # I_v/I_0
-        np.cumprod(r[:-1], axis=0, out=self._high[1:])
+        for v in range(order):
+            np.multiply(self._high[v], r[v], out=self._high[v + 1])
 
     def __getitem__(self, chosen: NDArray[np.int_]) -> ProductIK:
         """The same of some of the k half widths."""
