@@ -27,7 +27,6 @@ from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.narrow import (
     CHUNK,
-    LOW_ORDER_FROM,
     RANGE,
     ROOM,
     Group,
@@ -36,7 +35,7 @@ from conveyor.contact.narrow import (
     fits,
     guess,
 )
-from conveyor.contact.orders import ORDERS
+from conveyor.contact.orders import ORDERS, lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
@@ -56,6 +55,7 @@ _LOW_DEGREE_FROM = 1e-4  # rtol that degree 8 may meet over a factor of 10 in lo
 _FEW = 4  # degree that carries what a higher order changes
 _MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _SIGN_FLOOR = 1e-9
+_FARTHEST = 4.0  # times the order, in one step
 _BETWEEN = 1.25  # errors between the five points that are looked at over those there: 1.03 seen
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
@@ -224,7 +224,7 @@ def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], r
     solving, checking = grades_for(rtol)
     low, high = np.log(guesses[0]) - RANGE, np.log(guesses[1]) + RANGE
     rule = short_rule(group.layers, group.creeps, np.exp(high), solving)
-    check = short_rule(group.layers, group.creeps, np.exp(high), checking, rule.unit)
+    check = short_rule(group.layers, group.creeps, np.exp(high), checking, rule)
     rows = np.arange(lowest.size)
     return _Sampler(
         group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, solving.error, rows, narrow=True
@@ -282,7 +282,7 @@ class _Sampler:
     def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
         """Curves by row; why there is none, or nothing where another way may have one."""
         found: dict[int, LoadCurve | NoSolutionError] = {}
-        n = ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
+        n = lowest_order(rtol)
         waiting = np.arange(self.rows.size)
         for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 4 if self.narrow else None]:
             if waiting.size == 0:
@@ -358,7 +358,12 @@ class _Sampler:
                 elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
                     todo.setdefault((n, False), []).append(place)
                 else:
-                    more = _order_for(n, float(error[k]), float(energy[k]), rtol)
+                    more = order_for(
+                        n,
+                        _BETWEEN * float(error[k]) / rtol,
+                        float(energy[k]) / ENERGY_OVER_ERROR / rtol,
+                        _FARTHEST,
+                    )
                     todo.setdefault((more, plain), []).append(place)
 
     def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array]:
@@ -442,14 +447,6 @@ def _exponents(batch: _Batch) -> Array:
     every = (batch.count - 1) // _FEW
     exponents: Array = np.where(lossy, beta, 0.0)[:, ::every]
     return exponents
-
-
-def _order_for(n: int, error: float, energy: float, rtol: float) -> int:
-    """The order to go on with: the error falls like n^-3 or faster, that by energy like n^-2 to n^-2.6."""
-    enough = n * max(
-        (_BETWEEN * error / rtol) ** (1.0 / 3.0), (energy / ENERGY_OVER_ERROR / rtol) ** (1.0 / 2.4)
-    )
-    return next((order for order in ORDERS if n < order >= enough), ORDERS[-1])
 
 
 def _unsettled(error: float) -> NoSolutionError:
