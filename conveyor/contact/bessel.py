@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 _FAR_DOWN = 2
 _SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
-_UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
-_DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
+_UPWARD = 0.125  # times order²: rounding grows e⁸ upward from there
+_DAMPED = 21.0  # exponent of the damping: 8e-10 of the start's error, itself below 1e-3
 
 
 def bessel_j(order: int, x: Array) -> Array:
@@ -53,24 +53,32 @@ def bessel_j(order: int, x: Array) -> Array:
 
 
 def _downward(order: int, start: int, x: Array) -> Array:
-    quarter = 0.25 * x * x
-    above, level = np.ones_like(x), np.ones_like(x)
-    table = np.empty((order + 1, *x.shape))
-    work = np.empty_like(x)
-    for v in range(start, 0, -1):
-        np.multiply(quarter, 1.0 / (v * (v + 1.0)), out=work)
-        work *= above
-        above = level
-        level = np.subtract(level, work, out=table[v - 1] if v <= order + 1 else np.empty_like(x))
     half = 0.5 * x
+    quarter = half * half
+    table = np.empty((start + 1, *x.shape))
+    table[start] = 1.0
+    np.subtract(1.0, quarter * _over_products(start)[0], out=table[start - 1])
+    work = np.empty_like(x)
+    for v, factor in zip(range(start - 1, 0, -1), _over_products(start)[1:], strict=True):
+        np.multiply(quarter, factor, out=work)
+        work *= table[v + 1]
+        np.subtract(table[v], work, out=table[v - 1])
+    table = table[: order + 1]
     first, second = special.j0(x), special.j1(x)
     larger = np.abs(first) > np.abs(second)
     scale = np.where(larger, first, second) / np.where(larger, table[0], half * table[1])
-    for v in range(order + 1):
+    table[0] *= scale
+    for v in range(1, order + 1):
+        np.multiply(half, 1.0 / v, out=work)
+        scale *= work
         table[v] *= scale
-        scale = scale * half
-        scale *= 1.0 / (v + 1.0)
     return table
+
+
+@lru_cache(maxsize=256)
+def _over_products(start: int) -> list[float]:
+    """1/(v (v+1)) of v = start … 1."""
+    return [1.0 / (v * (v + 1.0)) for v in range(start, 0, -1)]
 
 
 def _by_ratios(order: int, x: Array) -> Array:
@@ -137,16 +145,18 @@ class ProductIK:
         last = special.k1e(b) / special.k0e(b)
         k[0] = last
         two_over_b = 2.0 / b
+        steps = np.multiply.outer(np.arange(1.0, order + 1.0), two_over_b)
         for v in range(1, order + 1):
-            last = 1.0 / last + v * two_over_b
-            k[v] = last
+            np.add(np.reciprocal(last), steps[v - 1], out=k[v])
+            last = k[v]
         twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
         delta = b * (r[1:] + 1.0 / k[:-1])
         self._deficit = delta / (twice * (twice + delta))
         self._diagonal = 1.0 / (b * (r + k))
         self._ratio = r
         self._high = np.ones_like(r)  # I_v/I_0
-        np.cumprod(r[:-1], axis=0, out=self._high[1:])
+        for v in range(order):
+            np.multiply(self._high[v], r[v], out=self._high[v + 1])
 
     def __getitem__(self, chosen: NDArray[np.int_]) -> ProductIK:
         """The same of some of the k half widths."""
@@ -189,16 +199,33 @@ class ProductIK:
 
     def _add_narrow(self, upper: Array, weights: Array, narrow: NDArray[np.bool_]) -> None:
         """The terms of small b, diagonal by diagonal until they are negligible."""
-        diagonal = self._diagonal[..., narrow] * weights[:, narrow]
-        logs = np.zeros_like(diagonal)
-        np.cumsum(np.log(self._ratio[:-1, :, narrow]), axis=0, out=logs[1:])
-        size = diagonal.shape[0]
+        ratio = self._ratio[..., narrow]
+        product = self._diagonal[..., narrow] * weights[:, narrow]
+        size = product.shape[0]
         for step in range(1, size):
-            ratio = np.exp(logs[step:] - logs[:-step])
-            if float(ratio.max()) < _NEGLIGIBLE:
-                break
+            product = product[:-1] * ratio[step - 1 : -1]
+            along = product.sum(axis=2).T
             at = np.arange(size - step)
-            upper[:, at, at + step] += (diagonal[:-step] * ratio).sum(axis=2).T
+            upper[:, at, at + step] += along
+            if float(along.max(initial=0.0)) < _NEGLIGIBLE:
+                break
+
+    def quadratic(self, weights: Array, c: Array) -> Array:
+        """Σ_t w_t [Σ_v (1/(2v) - I_v K_v) c_v² - Σ_{v≠u} c_v c_u I_max K_min over equal parity], shape (k,).
+
+        `weights` as in `weighted`, c of shape (k, order) for v = 1 … order.
+        """
+        factors = np.ascontiguousarray(c.T)[:, :, None]
+        total = (self._deficit * (factors * factors)).sum(axis=0)
+        ratio, order = self._ratio, c.shape[1]
+        beyond = [np.zeros(ratio.shape[1:])] * 2  # Σ_{u>v} c_u I_u/I_v of equal parity, of v + 2 and v + 1
+        for v in range(order - 2, 0, -1):
+            here = ratio[v] * ratio[v + 1]
+            here *= factors[v + 1] + beyond[0]
+            beyond = [beyond[1], here]
+            total -= (2.0 * factors[v - 1]) * self._diagonal[v] * here
+        found: Array = (total * weights).sum(axis=1)
+        return found
 
 
 def _ratio_i(order: int, b: Array) -> Array:
@@ -215,10 +242,13 @@ def _ratio_i(order: int, b: Array) -> Array:
     two_over_b = 2.0 / b
     r = b / (start + 0.5 + np.hypot(start + 1.5, b))
     out = np.empty((order + 1, *b.shape))
+    work = np.empty_like(b)
     for v in range(start, 0, -1):
         if v <= order:
             out[v] = r
-        r = 1.0 / (v * two_over_b + r)
+        np.multiply(two_over_b, v, out=work)
+        work += r
+        np.reciprocal(work, out=r)
     out[0] = r
     if upward.any():
         step = two_over_b[upward]

@@ -28,17 +28,15 @@ from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.narrow import (
     CHUNK,
-    LOW_ORDER_FROM,
     RANGE,
     ROOM,
     Group,
-    Search,
     alike,
     chosen_rows,
     fits,
     guess,
 )
-from conveyor.contact.orders import ORDERS
+from conveyor.contact.orders import ORDERS, lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
@@ -53,11 +51,12 @@ from conveyor.errors import InputError, NoSolutionError
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_DEGREES = (12, 16, 32, 64, 128)
-_LOW_DEGREE_FROM = 1e-4  # rtol that degree 12 may meet over a factor of 100 in load
+_DEGREES = (8, 12, 16, 32, 64, 128)
+_LOW_DEGREE_FROM = 1e-4  # rtol that degree 8 may meet over a factor of 10 in load
 _FEW = 4  # degree that carries what a higher order changes
 _MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _SIGN_FLOOR = 1e-9
+_FARTHEST = 4.0  # times the order, in one step
 _BETWEEN = 1.25  # errors between the five points that are looked at over those there: 1.03 seen
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
@@ -209,42 +208,31 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
     curves: dict[int, LoadCurve] = {}
     for members in alike(problems, creeps):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
-        widest = ROOM * guess(group)
-        panels = panels_beyond(group.layers.reach(grade.depth), widest, grade)
-        order = np.flatnonzero(fits(group, widest, grade))
-        order = order[np.lexsort((widest[order], panels[order]))]
-        step = max(1, CHUNK // _DEGREES[0])
+        high = guess(group)
+        light = lowest[members]
+        low = guess(replace(group, target=np.log(light)))
+        panels = panels_beyond(group.layers.reach(grade.depth), high, grade)
+        order = np.flatnonzero(fits(group, ROOM * high, grade))
+        order = order[np.lexsort((high[order], panels[order]))]
+        step = max(1, CHUNK // _DEGREES[1])
         for start in range(0, order.size, step):
             chosen = order[start : start + step]
-            sampler = _narrow_sampler(group[chosen], lowest[[members[k] for k in chosen]], rtol)
-            if sampler is not None:
-                for row, found in sampler.curves(rtol).items():
-                    if isinstance(found, LoadCurve):
-                        curves[members[chosen[row]]] = found
+            sampler = _narrow_sampler(group[chosen], light[chosen], (low[chosen], high[chosen]), rtol)
+            for row, found in sampler.curves(rtol).items():
+                if isinstance(found, LoadCurve):
+                    curves[members[chosen[row]]] = found
     return curves
 
 
-def _narrow_sampler(group: Group, lowest: Array, rtol: float) -> _Sampler | None:
-    """Half widths of the lightest and the heaviest loads; None where no scene of the chunk is narrow."""
+def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], rtol: float) -> _Sampler:
+    """Between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
     solving, checking = grades_for(rtol)
-    twice = np.tile(np.arange(lowest.size), 2)
-    alpha_high = guess(group)
-    light = replace(group, target=np.log(lowest))
-    both = replace(group[twice], target=np.concatenate([light.target, group.target]))
-    rough = short_rule(group.layers, group.creeps, ROOM * alpha_high, solving)
-    search = Search(both, rough[twice], np.concatenate([guess(light), alpha_high]))
-    low, high = np.split(search.middle + RANGE * search.place, 2)
-    alive = search.alive.reshape(2, -1).all(axis=0) & (high >= low)
-    centre, half = 0.5 * (low + high), 0.5 * np.maximum(high - low, 0.0) + _MARGIN
-    widest = np.exp(centre + half)
-    rows = np.flatnonzero(alive & fits(group, widest, solving))
-    if rows.size == 0:
-        return None
-    group, widest = group[rows], widest[rows]
-    rule = short_rule(group.layers, group.creeps, widest, solving)
-    check = short_rule(group.layers, group.creeps, widest, checking, rule.unit)
+    low, high = np.log(guesses[0]) - RANGE, np.log(guesses[1]) + RANGE
+    rule = short_rule(group.layers, group.creeps, np.exp(high), solving)
+    check = short_rule(group.layers, group.creeps, np.exp(high), checking, rule)
+    rows = np.arange(lowest.size)
     return _Sampler(
-        group, lowest[rows], centre[rows], half[rows], rule, check, solving.error, rows, narrow=True
+        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, solving.error, rows, narrow=True
     )
 
 
@@ -299,15 +287,15 @@ class _Sampler:
     def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
         """Curves by row; why there is none, or nothing where another way may have one."""
         found: dict[int, LoadCurve | NoSolutionError] = {}
-        n = ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
+        n = lowest_order(rtol)
         waiting = np.arange(self.rows.size)
-        for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 3 if self.narrow else None]:
+        for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 4 if self.narrow else None]:
             if waiting.size == 0:
                 break
             first = self._sample(waiting, points(degree), n)
             for row in waiting[~first.valid]:
                 found[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
-            first = first[np.flatnonzero(first.valid)]
+            first = first[np.flatnonzero(first.valid & self._enclosed(first))]
             waiting = first.rows
             if waiting.size == 0:
                 break
@@ -328,6 +316,12 @@ class _Sampler:
         contact = equilibrium(matrix, alpha, self.group.rho[every])
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
         return _Batch(rows, t.size, contact, matrix, ik, np.asarray(valid))
+
+    def _enclosed(self, first: _Batch) -> NDArray[np.bool_]:
+        """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
+        pressure = first.contact.pressure.reshape(-1, first.count)
+        highest = np.exp(self.group.target[first.rows])
+        return np.asarray((pressure[:, 0] >= highest) & (pressure[:, -1] <= self.lowest[first.rows]))
 
     def _settle(
         self, first: _Batch, miss: Array, rtol: float, found: dict[int, LoadCurve | NoSolutionError]
@@ -369,7 +363,12 @@ class _Sampler:
                 elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
                     todo.setdefault((n, False), []).append(place)
                 else:
-                    more = _order_for(n, float(error[k]), float(energy[k]), rtol)
+                    more = order_for(
+                        n,
+                        _BETWEEN * float(error[k]) / rtol,
+                        float(energy[k]) / ENERGY_OVER_ERROR / rtol,
+                        _FARTHEST,
+                    )
                     todo.setdefault((more, plain), []).append(place)
 
     def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array]:
@@ -453,14 +452,6 @@ def _exponents(batch: _Batch) -> Array:
     every = (batch.count - 1) // _FEW
     exponents: Array = np.where(lossy, beta, 0.0)[:, ::every]
     return exponents
-
-
-def _order_for(n: int, error: float, energy: float, rtol: float) -> int:
-    """The order to go on with: the error falls like n^-3 or faster, that by energy like n^-2 to n^-2.6."""
-    enough = n * max(
-        (_BETWEEN * error / rtol) ** (1.0 / 3.0), (energy / ENERGY_OVER_ERROR / rtol) ** (1.0 / 2.4)
-    )
-    return next((order for order in ORDERS if n < order >= enough), ORDERS[-1])
 
 
 def _unsettled(error: float) -> NoSolutionError:

@@ -95,9 +95,5 @@ def loss(
     total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:
         ik = ProductIK(n, contact.alpha[:, None] / creep.times) if ik is None else ik
-        products, deficit = ik.weighted(creep.weights * creep.times)
-        kernel = -products[:, 1:, 1:] * ((v[:, None] - v[None, :]) % 2 == 0)
-        index = np.arange(n)
-        kernel[:, index, index] = deficit[:, 1:]
-        total += 0.25 * np.sum((kernel @ weighted[:, :, None])[:, :, 0] * weighted, axis=1)
+        total += 0.25 * ik.quadratic(creep.weights * creep.times, weighted)
     return total

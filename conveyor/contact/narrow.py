@@ -28,7 +28,7 @@ from conveyor.contact.checks import (
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
-from conveyor.contact.orders import NARROW_ORDERS
+from conveyor.contact.orders import ORDERS, lowest_order
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import instantly_relaxed
 from conveyor.contact.short_rule import (
@@ -49,7 +49,6 @@ Index = NDArray[np.int_]
 
 _SEARCH = 8
 _ROUGH = 1e-9  # relative error of eccentricities on the way
-LOW_ORDER_FROM = 1e-5  # rtol that order 16 may meet
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
 ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
@@ -252,7 +251,7 @@ def _closed(search: Search, rtol: float) -> dict[int, Outcome]:
     error = np.ones(search.place.size)
     done: dict[int, Outcome] = {}
     waiting = np.flatnonzero(search.alive)
-    for n in NARROW_ORDERS[0 if rtol >= LOW_ORDER_FROM else 1 :]:
+    for n in [n for n in ORDERS if lowest_order(rtol) <= n <= 48]:
         rows, waiting = waiting, np.empty(0, dtype=int)
         for step in range(_CLOSING_STEPS):
             if rows.size == 0:
@@ -291,7 +290,7 @@ def _accept(
     group = search.group
     contact, ik = contacts
     grade = grades_for(rtol)[1]
-    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule.unit[rows])
+    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
     rho = group.rho[rows]
     by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
     energy = np.abs(relative_difference(by_loss, contact.friction))

@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 ORDERS = (16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
-NARROW_ORDERS = (16, 24, 32, 48)
-"""Those that are worth stacking: a higher one is the general solver's."""
+LOW_ORDER_FROM = 1e-5
+"""rtol that the first order may meet."""
 _FAR_OFF = 100.0  # of the tolerance: then a rung is left out
+
+
+def lowest_order(rtol: float) -> int:
+    """Where to begin."""
+    return ORDERS[0 if rtol >= LOW_ORDER_FROM else 1]
+
+
+def order_for(n: int, excess: float, excess_energy: float, farthest: float) -> int:
+    """The order to go on with, where error and energy exceed what is allowed by these factors.
+
+    The error falls like n^-3 or faster, that by energy like n^-2 to n^-2.6; at most `farthest` times as high.
+    """
+    enough = n * min(max(excess ** (1.0 / 3.0), excess_energy ** (1.0 / 2.4)), farthest)
+    return next((order for order in ORDERS if n < order and order >= 0.999 * enough), ORDERS[-1])
 
 
 def next_order(n: int, error: float, rtol: float) -> int:

@@ -67,19 +67,27 @@ def columns(rho: float, contact: Contact) -> Array:
 
 
 def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
-    """Relative error of friction at given load of the interpolants through every other point, shape (b,).
+    """Relative error of friction at given load of the interpolants through all points, shape (b,).
 
     `contact` holds the curves one after the other, each with its degree + 1 points. The points of half the degree are
     every other one: what the interpolant through those misses at the points between, where the error of Chebyshev
-    interpolation peaks, bounds the error of the interpolant through all.
+    interpolation peaks, squares with the degree. With m missed of a variation A, m²/A is left; four times that at
+    most, and m.
     """
     shape = (-1, degree + 1)
     drag = (contact.friction * rho / contact.alpha).reshape(shape)
     values = np.stack([np.log(contact.pressure).reshape(shape), drag], axis=-1)
-    miss = np.abs(_between(degree) @ values[:, ::2] - values[:, 1::2])
+    miss = np.abs(_between(degree) @ values[:, ::2] - values[:, 1::2]).max(axis=1)
+    left = _squared(miss, np.ptp(values, axis=1))
     smallest = np.maximum(np.abs(drag).min(axis=1), np.finfo(float).tiny)
-    worst: Array = (miss[..., 0] + miss[..., 1] / smallest[:, None]).max(axis=1)
+    worst: Array = left[:, 0] + left[:, 1] / smallest
     return worst
+
+
+def _squared(miss: Array, size: Array) -> Array:
+    """What the full degree misses of a variation of that size where half of it misses so much."""
+    left: Array = np.minimum(miss, 4.0 * miss * miss / np.maximum(size, np.finfo(float).tiny))
+    return left
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +118,7 @@ class Sampled:
     def left(self, rho: float) -> float:
         """What reading the higher order's change between its points may do to friction.
 
-        Half the degree misses m of a change of size A: its square over A is left, four times that at most, and m.
+        As in `missed`, of a change of size A.
         """
         if self.finer is None:
             return 0.0
@@ -118,10 +126,9 @@ class Sampled:
             columns(rho, self.finer) - columns(rho, self.contacts)[:: stride(self.contacts, self.finer)]
         )[:, :2]
         miss = np.abs(_between(change.shape[0] - 1) @ change[::2] - change[1::2]).max(axis=0)
-        size = np.maximum(np.abs(change).max(axis=0), np.finfo(float).tiny)
-        miss = np.minimum(miss, 4.0 * miss * miss / size)
+        left = _squared(miss, np.abs(change).max(axis=0))
         smallest = max(float(np.abs(columns(rho, self.finer)[:, 1]).min()), np.finfo(float).tiny)
-        return float(miss[0] + miss[1] / smallest)
+        return float(left[0] + left[1] / smallest)
 
 
 def stride(all_points: Contact, some: Contact) -> int:

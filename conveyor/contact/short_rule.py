@@ -1,4 +1,4 @@
-"""The correction's quadrature for narrow contacts, many scenes at once: as few nodes as the contact can tell apart.
+"""The correction's quadrature, many scenes at once: as few nodes as the contacts can tell apart.
 
 quadrature.py sums window and panels node by node. Where the contact is narrow, f = F/m turns by a few radians over the
 whole window [0, 2 m0] only, so the functional
@@ -6,7 +6,7 @@ whole window [0, 2 m0] only, so the functional
     Σ_{m≥1} χ S f  -  ∫_0^1 j f dm  +  ∫_1^{2m0} [(1-χ) S - j] f dm
 
 is carried over to K Gauss nodes by interpolation: one weight a node, the symbol's integers, window, poles and decades
-of slow retardation terms all inside the weights. On [0, 1] a term with ζ > ¼ is integrated exactly against Legendre
+of slow retardation terms all inside the weights. On [0, 1] a slow term is integrated exactly against Legendre
 polynomials, ∫ P_l/(1-imζ) dm = 2 Q_l(z)/(iζ), z = -1 - 2i/ζ (Neumann's integral, A&S 8.8.3). Beyond the window the
 layer's part S - j is left, on Gauss panels of each scene's own.
 """
@@ -28,12 +28,14 @@ from conveyor.contact.stack import Stack
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-WIDEST = 0.5  # half width α up to which the window's width below meets the alias exp(-(w(2π-2α))²/4) = 1e-17
+CAPS = (0.5, 1.0, 1.5, 2.0, 2.4)
+"""Half widths α up to which windows are made: the alias exp(-(w(2π-2α))²/4) asks for wider ones."""
+WIDEST = CAPS[0]  # where the width below meets it, 1e-17
 _RAMP = 6.5  # as in quadrature.py
-_UNIT = 10  # nodes on [0, 1]: f of half width 0.5 is a polynomial of degree 9 there to 1e-17
-_SLOW = 0.25
-_NEAR = 1.7  # |z + sqrt(z²-1)| below which Q_l is recurred upward: 1.7^18 = 1e4 units of rounding
-_DOWN = 30  # levels of the downward ratio recurrence: 1.7^-60 = 1e-14
+# Up to a cap: nodes on [0, 1], where f is a polynomial of one degree less to rounding; ζ beyond which Q_l is recurred
+# upward, where it loses r^(2·nodes) units of rounding, r = |z + sqrt(z² - 1)| = 1.7, 1.36, z = -1 - 2i/ζ; Gauss points
+# of the other terms, r^(nodes - 2·points) = 1e-15
+_UNITS = {True: (10, 7.4, 36), False: (18, 21.5, 64)}
 
 
 @dataclass(frozen=True)
@@ -68,20 +70,23 @@ def grades_for(rtol: float) -> tuple[Grade, Grade]:
 class ShortRule:
     """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,).
 
-    `unit` are the weights of ∫_0^1 j f dm, shape (b, 10), the same in every rule of a creep spectrum.
+    `unit` are the weights of ∫_0^1 j f dm on its first nodes, the same in every rule of a creep spectrum and a cap.
     """
 
     nodes: Array
     weights: ComplexArray
     half_width: Array
     unit: ComplexArray
+    cap: float = WIDEST
 
     def repeated(self, count: int) -> ShortRule:
         """One scene's rule for `count` contacts of it."""
         return self[np.zeros(count, dtype=int)]
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
-        return ShortRule(self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen])
+        return ShortRule(
+            self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen], self.cap
+        )
 
 
 def full_rule(rule: Rule) -> ShortRule:
@@ -101,80 +106,110 @@ class _Window:
     rest: Array  # 1-χ at the panels' nodes
     end: float
     coarse: Array
-    spread: Array  # (10 + integers + panels, K)
-    legendre: Array  # (10, 10): Legendre moments to weights on [0, 1]
+    spread: Array  # (unit + integers + panels, K)
+    legendre: Array  # Legendre moments to weights on [0, 1]
     unit: Array
-    unit_weights: Array
+    unit_spread: Array  # weights times values on [0, 1] to those nodes
+    slow: float
 
 
 _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
 
 
+def _width(grade: Grade, cap: float) -> float:
+    """Width w of the window that serves contacts up to a cap."""
+    return grade.width * (math.pi - WIDEST) / (math.pi - cap)
+
+
+def _edges(grade: Grade, cap: float, end: float) -> Array:
+    """Panels of the window from m = 1 on."""
+    if cap == WIDEST:
+        return np.concatenate([[1.0, 3.0], np.linspace(0.28, 1.0, 4) * end])
+    longest = min(grade.phase / (2.0 * cap), 3.0 * _width(grade, cap))
+    edges = [1.0]
+    while edges[-1] < end:
+        edges.append(min(edges[-1] + min(math.expm1(grade.stretch) * edges[-1], longest), end))
+    return np.array(edges)
+
+
 @lru_cache(maxsize=64)
-def _window(grade: Grade, count: int) -> _Window:
+def _window(grade: Grade, count: int, cap: float) -> _Window:
     """Window of a grade with `count` coarse nodes."""
-    centre = _RAMP * grade.width
+    width = _width(grade, cap)
+    centre = _RAMP * width
     end = float(math.ceil(2.0 * centre))
     integers = np.arange(1.0, end + 1.0)
     x, gauss = _gauss(grade.points)
-    edges = np.concatenate([[1.0, 3.0], np.linspace(0.28, 1.0, 4) * end])
+    edges = _edges(grade, cap, end)
     half = 0.5 * np.diff(edges)[:, None]
     panels = (edges[:-1, None] + half * (x + 1.0)).ravel()
     measure = (half * gauss).ravel()
-    unit_x, unit_gauss = _gauss(_UNIT)
-    unit, unit_weights = 0.5 * (unit_x + 1.0), 0.5 * unit_gauss
-    degrees = np.arange(_UNIT)
+    unit, slow, plain = _UNITS[cap == WIDEST]
+    unit_x, unit_gauss = _gauss(unit)
+    unit_weights = 0.5 * unit_gauss
+    plain_x, plain_gauss = _gauss(plain)
+    degrees = np.arange(unit)
     values = special.eval_legendre(degrees[:, None], unit_x)
     coarse_x, coarse_gauss = _gauss(count)
-    fine = np.concatenate([unit, integers, panels]) * (2.0 / end) - 1.0
+    fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
     spread = (special.eval_legendre(all_degrees, fine[:, None]) * (all_degrees + 0.5)) @ (
         special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
     )
     return _Window(
         integers=integers,
-        ramp=0.5 * special.erfc((integers - centre) / grade.width),
+        ramp=0.5 * special.erfc((integers - centre) / width),
         panels=panels,
         measure=measure,
-        rest=0.5 * special.erfc((centre - panels) / grade.width),
+        rest=0.5 * special.erfc((centre - panels) / width),
         end=end,
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
         legendre=(2.0 * degrees[:, None] + 1.0) * values * unit_weights,
-        unit=unit,
-        unit_weights=unit_weights,
+        unit=0.5 * (plain_x + 1.0),
+        unit_spread=(0.5 * plain_gauss * special.eval_legendre(degrees[:, None], plain_x)).T
+        @ ((2.0 * degrees[:, None] + 1.0) * values * unit_weights),
+        slow=slow,
     )
 
 
-def short_rule(
-    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, unit: ComplexArray | None = None
-) -> ShortRule:
-    """Rules of b scenes, each valid for contacts up to its half width α [-], at most 0.5.
+def cap_of(half_width: float) -> float:
+    """The window's cap that serves contacts of this half width; infinite where none does."""
+    return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
-    All scenes take as many nodes as the one that needs most: hand over like with like. `unit` are the weights of that
-    name in another rule of the same spectra.
+
+def short_rule(
+    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, like: ShortRule | None = None
+) -> ShortRule:
+    """Rules of b scenes, each valid for contacts up to its half width α [-], at most 2.4.
+
+    All scenes take as many nodes as the one that needs most: hand over like with like. `like` are rules of another
+    grade for the same spectra.
     """
-    end = float(math.ceil(2.0 * _RAMP * grade.width))
+    cap = cap_of(float(half_width.max())) if like is None else like.cap
+    end = float(math.ceil(2.0 * _RAMP * _width(grade, cap)))
     phase = float(half_width.max()) * end
     # a function that turns ±c radians is a polynomial of degree c + O(c^(1/3)) to rounding
-    count = 4 * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / 4.0)
-    window = _window(grade, count)
+    steps = 4.0 if cap == WIDEST else 16.0
+    count = int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
+    window = _window(grade, count, cap)
     inner = np.concatenate([window.integers, window.panels])
     j = creeps.compliance(inner[None, :])
     symbol = layers.symbol(inner[None, :], j)
     cut = window.integers.size
     fine = np.empty((half_width.size, window.spread.shape[0]), dtype=complex)
-    unit = _unit_weights(creeps, window) if unit is None else unit
-    fine[:, :_UNIT] = -unit
-    fine[:, _UNIT : _UNIT + cut] = window.ramp * symbol[:, :cut]
-    fine[:, _UNIT + cut :] = window.measure * (window.rest * symbol[:, cut:] - j[:, cut:])
+    unit = _unit_weights(creeps, window) if like is None else like.unit
+    first = unit.shape[1]
+    fine[:, :first] = -unit
+    fine[:, first : first + cut] = window.ramp * symbol[:, :cut]
+    fine[:, first + cut :] = window.measure * (window.rest * symbol[:, cut:] - j[:, cut:])
     weights = np.asarray((fine @ window.spread) / window.coarse, dtype=np.complex128)
     nodes = np.broadcast_to(window.coarse, weights.shape)
     beyond = _beyond(layers, creeps, half_width, grade, window.end)
     if beyond is not None:
         nodes = np.concatenate([nodes, beyond[0]], axis=1)
         weights = np.concatenate([weights, beyond[1]], axis=1)
-    return ShortRule(nodes, weights, half_width, unit)
+    return ShortRule(nodes, weights, half_width, unit, cap)
 
 
 def _beyond(
@@ -207,45 +242,29 @@ def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.i
 
 
 def _unit_weights(creeps: Creeps, window: _Window) -> ComplexArray:
-    """Weights of ∫_0^1 j f dm on the ten nodes of [0, 1], shape (b, 10)."""
-    slow = creeps.times > _SLOW
-    # Gauss points are enough for terms whose poles ±i/ζ lie four units away
+    """Weights of ∫_0^1 j f dm on the nodes of [0, 1], shape (b, u)."""
+    slow = creeps.times > window.slow
     plain = Creeps(
         creeps.instantaneous, np.where(slow, 0.0, creeps.weights), np.where(slow, 1.0, creeps.times)
     )
-    weights: ComplexArray = plain.compliance(window.unit[None, :]) * window.unit_weights
+    weights: ComplexArray = plain.compliance(window.unit[None, :]) @ window.unit_spread
     if slow.any():
         scene = np.nonzero(slow)[0]
-        moments = _moments(creeps.times[slow]) * creeps.weights[slow]
+        moments = _moments(creeps.times[slow], window.legendre.shape[0]) * creeps.weights[slow]
         ends = np.flatnonzero(np.diff(scene, prepend=-1))  # terms come scene by scene
-        total = np.zeros((creeps.times.shape[0], _UNIT), dtype=complex)
+        total = np.zeros((creeps.times.shape[0], moments.shape[0]), dtype=complex)
         total[scene[ends]] = np.add.reduceat(moments, ends, axis=1).T
         weights += total @ window.legendre
     return weights
 
 
-def _moments(zeta: Array) -> ComplexArray:
-    """∫_0^1 P_l(2m-1)/(1-imζ) dm for l = 0 … 9 and ζ > ¼, shape (10, ...)."""
+def _moments(zeta: Array, count: int) -> ComplexArray:
+    """∫_0^1 P_l(2m-1)/(1-imζ) dm for l < `count` of slow terms, shape (count, ...): upward, 2 Q_l/(iζ)."""
     z = -1.0 - 2.0j / zeta
-    first = 1j * np.log1p(-1j * zeta) / zeta  # l = 0
-    out = np.empty((_UNIT, *zeta.shape), dtype=complex)
-    out[0] = first
-    # downward: ratios Q_l/Q_{l-1} = l/((2l+1) z - (l+1) Q_{l+1}/Q_l)
-    ratio = np.zeros_like(z)
-    for level in range(_UNIT + _DOWN, 0, -1):
-        ratio = level / ((2 * level + 1) * z - (level + 1) * ratio)
-        if level < _UNIT:
-            out[level] = ratio
-    for level in range(1, _UNIT):
-        out[level] *= out[level - 1]
-    far = np.maximum(np.abs(z + np.sqrt(z * z - 1.0)), np.abs(z - np.sqrt(z * z - 1.0)))
-    near = far < _NEAR
-    if near.any():
-        at, before = z[near], first[near]
-        # Q_1 = z Q_0 - 1; in these units Q_0 = first iζ/2, so 1 is 2/(iζ)
-        present = at * before - 2.0 / (1j * zeta[near])
-        out[1][near] = present
-        for level in range(1, _UNIT - 1):
-            before, present = present, ((2 * level + 1) * at * present - level * before) / (level + 1)
-            out[level + 1][near] = present
+    out = np.empty((count, *zeta.shape), dtype=complex)
+    out[0] = 1j * np.log1p(-1j * zeta) / zeta
+    # Q_1 = z Q_0 - 1; in these units Q_0 = first iζ/2, so 1 is 2/(iζ)
+    out[1] = z * out[0] - 2.0 / (1j * zeta)
+    for level in range(1, count - 1):
+        out[level + 1] = ((2 * level + 1) * z * out[level] - level * out[level - 1]) / (level + 1)
     return out
