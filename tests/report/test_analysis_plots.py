@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conveyor.line.walk import excited_band
 from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
 
@@ -78,10 +77,10 @@ def test_breakdown_with_cema_has_a_third_bar(line):
 
 
 def test_pressure_carries_the_load_and_peaks_as_the_roll_says(result):
-    (axis,) = plots.pressure_under_rolls(result.stretches).axes
+    (axis,) = plots.pressure_under_rolls(result.contacts).axes
     for curve, strand in zip(axis.lines[:2], ("carry", "return"), strict=True):
         x, pressure = (np.asarray(values) for values in curve.get_data())
-        _, roll = plots.governing_roll(result.stretches, strand)
+        roll = plots.governing_roll(result.contacts, strand)
         load = roll.load.peak_line_load
         assert np.trapezoid(1e6 * pressure, 1e-3 * x) == pytest.approx(load, rel=PRESSURE)
         assert pressure.max() * 1e6 == pytest.approx(float(roll.peak.peak_pressure), rel=PRESSURE)
@@ -96,7 +95,7 @@ def test_pressure_carries_the_load_and_peaks_as_the_roll_says(result):
 
 def test_governing_roll_bears_the_highest_line_load(result):
     for strand in ("carry", "return"):
-        where, roll = plots.governing_roll(result.stretches, strand)
+        roll = plots.governing_roll(result.contacts, strand)
         rows = result.rolls[result.rolls["strand"] == strand]
         assert roll.load.peak_line_load == pytest.approx(rows["highest line load [N/m]"].max(), rel=1e-14)
         assert where.stretch.strand == strand
@@ -104,7 +103,7 @@ def test_governing_roll_bears_the_highest_line_load(result):
 
 def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
     figure = plots.rubber_at_work(
-        line.carry_compound, si(line.ambient.belt), result.stretches, ("carry", "return")
+        line.carry_compound, si(line.ambient.belt), result.contacts, ("carry", "return")
     )
     assert len(figure.axes) == 2
     for axis in figure.axes:
@@ -112,7 +111,7 @@ def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
         assert len(spans) == 2
         for strand in ("carry", "return"):
             span = spans[f"{strand} rolls: nine tenths of their loss"]
-            low, high = excited_band(result.stretches, strand)
+            low, high = result.contacts.excited_band(strand)
             assert (span.get_x(), span.get_x() + span.get_width()) == pytest.approx((low, high))
         assert len({p.get_hatch() for p in spans.values()}) == 2
 
@@ -122,7 +121,7 @@ def test_power_over_temperature_is_that_of_the_cases(cases):
     curves = {curve.get_label(): curve for curve in axis.lines}
     assert set(curves) == {"full", "empty"}  # "half" is at one temperature only: no line
     for name in ("full", "empty"):
-        found = [r for r in cases.results if r.case == name]
+        found = [r for r in cases.results if r.case.name == name]
         assert curves[name].get_xdata() == pytest.approx([10.0, 30.0])
         assert curves[name].get_ydata() == pytest.approx([r.motor / 1e3 for r in found])
     assert axis.get_xlabel() == "belt temperature [°C]"
@@ -130,7 +129,7 @@ def test_power_over_temperature_is_that_of_the_cases(cases):
 
 
 def test_power_over_speed_is_that_of_the_cases(cases):
-    temperature = next(r.temperature for r in cases.results if r.case == "half")
+    temperature = next(r.temperature for r in cases.results if r.case.name == "half")
     (axis,) = plots.case_power_against_speed(cases, temperature).axes
     (curve,) = (curve for curve in axis.lines if curve.get_label() == "half")
     assert curve.get_xdata() == pytest.approx([2.54, 3.048])  # 500 and 600 ft/min

@@ -5,13 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conveyor.report.case_checks import case_checks
-from conveyor.report.checks import checks
-from conveyor.report.verdicts import Check
 
 import conveyor
 from conveyor.analysis import CaseStudy, Studies, analyse_cases
 from conveyor.units import display
+from tests.report.checking import Told, case_checks, checks
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"
 CASES = [{"name": "full", "temperatures": ["-20 degC", "20 degC"]}]
@@ -23,7 +21,7 @@ def study(**changes: object) -> CaseStudy:
     return analyse_cases(line.replace(cases=CASES, drive=drive, **changes), rtol=1e-4)
 
 
-def only(found: list[Check], words: str) -> Check:
+def only(found: list[Told], words: str) -> Told:
     (one,) = [check for check in found if words in check.subject]
     return one
 
@@ -34,17 +32,17 @@ def plain() -> CaseStudy:
 
 
 def test_the_coldest_case_is_named(plain: CaseStudy) -> None:
-    most = max(plain.results, key=lambda result: result.motor_high)
+    most = max(plain.results, key=lambda result: result.motors[1])
     motor = only(list(case_checks(plain, "SI")), "motor power")
     assert display(most.temperature, "temperature").removesuffix(" degC") in motor.subject
-    assert motor.found == f"{most.motor_high / 1e3:,.0f} kW" or motor.found.startswith(
-        f"{most.motor_high / 1e3:,.4g}"[:3]
+    assert motor.found == f"{most.motors[1] / 1e3:,.0f} kW" or motor.found.startswith(
+        f"{most.motors[1] / 1e3:,.4g}"[:3]
     )
 
 
 def test_motors_between_the_cases_fail_only_with_the_cases(plain: CaseStudy) -> None:
     """Installed: more than the spec's own state needs, less than the coldest case."""
-    needed = max(result.motor_high for result in plain.results)
+    needed = max(result.motors[1] for result in plain.results)
     own = conveyor.analyse(plain.conveyor).balance.power.motor
     assert own < needed
     short = study(installed_power=f"{0.5 * (own + needed) / 1e3:.3f} kW")
@@ -57,7 +55,7 @@ def test_motors_between_the_cases_fail_only_with_the_cases(plain: CaseStudy) -> 
 
 
 def test_a_weight_for_one_temperature_fails_at_another(plain: CaseStudy) -> None:
-    least, most = sorted(result.take_up for result in plain.results)
+    least, most = sorted(result.found.balance.settled.needed for result in plain.results)
     assert least < most
     for tension, verdict in ((0.5 * (least + most), "FAIL"), (1.001 * most, "pass")):
         route = plain.conveyor.route.as_data()
@@ -72,7 +70,7 @@ def test_a_take_up_set_anew_in_each_case_is_not_a_pass(plain: CaseStudy) -> None
 def test_safety_is_the_least_of_all_cases(plain: CaseStudy) -> None:
     line = plain.conveyor
     strength = line.belt.carcass.strength.to("N/m").magnitude * line.belt.width.to("m").magnitude
-    least = min(strength / max(point.tension for point in result.balance.points) for result in plain.results)
+    least = min(strength / max(point.tension for point in result.found.balance.points) for result in plain.results)
     assert only(list(case_checks(plain, "SI")), "safety").found == f"{least:.2f}"
 
 

@@ -6,11 +6,12 @@ from operator import itemgetter
 from pathlib import Path
 
 import pytest
-from conveyor.report.checks import band_words, checks
 
 import conveyor
 from conveyor.display import unit
+from conveyor.figures import band_words
 from conveyor.report.columns import Column, Figure, Table, figures
+from tests.report.checking import checks
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 

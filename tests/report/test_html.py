@@ -7,7 +7,6 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from conveyor.report.checks import checks
 
 import conveyor
 from conveyor.analysis import studies
@@ -16,6 +15,7 @@ from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
 from conveyor.report.page_style import COLOURS
+from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 
 from conveyor.loop.belt_duty import BeltDuty, CurveCheck, PulleyCheck
-from conveyor.report import loop_tables
+from conveyor.report import tables
 
 DUTY = BeltDuty(
     largest_steady=100e3,
@@ -21,16 +23,17 @@ DUTY = BeltDuty(
     ),
     curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0),),
 )
+OF_DUTY = SimpleNamespace(belt_duty=DUTY)
 
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
-    table = loop_tables.belt(DUTY)
+    table = tables.belt_strength_table(OF_DUTY).series("belt")
     assert table["strength the splice asks for [N/mm]"] == pytest.approx(630.0)
     assert table["least diameter of drive pulleys [mm]"] == pytest.approx(725.0)
     assert table["largest tension, all states [N]"] == pytest.approx(140e3)
     assert table["safety, steady [-]"] == pytest.approx(9.0)
     assert table["classic safety asked for [-]"] == pytest.approx(8.0)
-    pulleys = loop_tables.pulleys(DUTY)
+    pulleys = tables.pulleys(OF_DUTY).frame()
     assert pulleys["diameter [mm]"].tolist() == pytest.approx([630.0, 500.0])
     assert pulleys["least [mm]"].tolist() == pytest.approx([725.0, 456.75])
     assert pulleys["of the series [mm]"].tolist() == pytest.approx([800.0, 500.0])
@@ -38,7 +41,7 @@ def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
 
 
 def test_a_curve_beside_its_least_radii():
-    (row,) = loop_tables.curves(DUTY).to_dict("records")
+    (row,) = tables.vertical_curves(OF_DUTY).frame().to_dict("records")
     assert row["radius [m]"] == pytest.approx(250.0)
     assert row["least against lift-off [m]"] == pytest.approx(255.0)
     assert row["least against overstress [m]"] == pytest.approx(70.0)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-from conveyor.report.checks import checks
 from openpyxl.utils import range_boundaries
 
 import conveyor
@@ -15,6 +14,7 @@ from conveyor.analysis import compare_compounds
 from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
+from tests.report.checking import checks
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
 ROUNDED = 1e-11  # twelve significant digits of a conversion, and one division

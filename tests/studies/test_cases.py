@@ -17,7 +17,7 @@ from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import Variant, calculate, calculate_many
 from conveyor.spec import load
-from conveyor.studies.cases import CaseStudy, analyse_cases
+from conveyor.studies.cases import CalculatedCases, analyse_cases
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -42,7 +42,7 @@ def downhill() -> Conveyor:
 
 
 @pytest.fixture(scope="module")
-def found(line) -> CaseStudy:
+def found(line) -> CalculatedCases:
     return analyse_cases(line, standard_cases(["0 degC", "20 degC"], ["4.5 m/s", "5 m/s"]))
 
 
