@@ -103,7 +103,7 @@ def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Ana
     assert mark(page) == "report page"
     for ending in (".png", ".svg", ".pdf"):
         assert mark(plots.drawn(figure, Path(f"f{ending}"))) == "figure"
-    si, us = (files.files(result, tmp_path, system=system) for system in ("SI", "US"))
+    si, us = (files.files(result.contents(system=system), tmp_path) for system in ("SI", "US"))
     assert {path: mark(content) for path, content in si.items()} == {
         path: mark(content) for path, content in us.items()
     }
