@@ -869,8 +869,8 @@ def plain(a: Calculation) -> dict[str, Any]:
     power, settled, year = found.power, found.settled, None if a.conveyor.duty else a.year
     data: dict[str, Any] = {
         "name": a.conveyor.name,
-        "forces_N": {},
-        "power_kW": {},
+        "forces_N": dict.fromkeys(asdict(found.forces)),
+        "power_kW": dict.fromkeys(("belt", "motor", "mains")),
         "tensions_N": asdict(found.tensions),
         "drives": [
             {

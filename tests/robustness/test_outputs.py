@@ -99,11 +99,11 @@ def test_all_outputs_of_a_command_or_none(tmp_path: Path) -> None:
 def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Analysis) -> None:
     figure = plots.master_curve(shelf.compound("s100"))
     book, page = tmp_path / "r.xlsx", html.build(result.contents()).encode()
-    assert mark(excel.files(result, book)[book]) == "report workbook"
+    assert mark(excel.files(result.contents(), book)[book]) == "report workbook"
     assert mark(page) == "report page"
     for ending in (".png", ".svg", ".pdf"):
         assert mark(plots.drawn(figure, Path(f"f{ending}"))) == "figure"
-    si, us = (files.files(result, tmp_path, system=system) for system in ("SI", "US"))
+    si, us = (files.files(result.contents(system=system), tmp_path) for system in ("SI", "US"))
     assert {path: mark(content) for path, content in si.items()} == {
         path: mark(content) for path, content in us.items()
     }
