@@ -49,7 +49,7 @@ RTOL = 1e-4
 _SPEED: Final[TypeAdapter[Quantity]] = TypeAdapter(BeltSpeed)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """All scenes of a comparison, in the order compound, speed, temperature.
 
@@ -82,6 +82,11 @@ class Comparison:
     coverage: tuple[Coverage, ...]
     extra_costs: Mapping[str, float]
     years: Mapping[str, DutyStudy] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        name, count = self.conveyor.name, len(self.compounds)
+        scenes = f"{len(self.scenes)} scenes, {len(self.refused)} without an answer"
+        return f'Comparison("{name}": {count} compounds, {scenes})'
 
     @cached_property
     def table(self) -> pd.DataFrame:

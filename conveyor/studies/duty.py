@@ -66,7 +66,7 @@ class DutyRow:
         return self.flow * 3600.0 * self.hours
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DutyStudy:
     """A year of a conveyor.
 
@@ -98,6 +98,9 @@ class DutyStudy:
     emission: float | None
     emission_source: str | None
     energy_per_tonne_km: float | None
+
+    def __repr__(self) -> str:
+        return f'DutyStudy("{self.conveyor.name}": {len(self.rows)} bars)'
 
     @cached_property
     def table(self) -> pd.DataFrame:
