@@ -79,7 +79,7 @@ KINDS: dict[str, Kind] = {
 }
 
 MAGNITUDES: dict[str, tuple[float, float]] = {
-    "length": (1e-6, 1e6), "thickness": (1e-6, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
+    "length": (1e-9, 1e6), "thickness": (1e-9, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
     "acceleration": (1e-6, 1e3), "mass": (1e-6, 1e9), "line mass": (1e-6, 1e6), "area mass": (1e-6, 1e6),
     "belt mass": (1e-6, 1e6), "density": (1e-3, 1e5), "force": (1e-6, 1e10), "line force": (1e-6, 1e10),
     "pressure": (1e-9, 1e15), "time": (1e-25, 1e25), "duration": (1e-3, 1e9), "frequency": (1e-25, 1e25),

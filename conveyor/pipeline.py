@@ -175,7 +175,13 @@ def calculate(conveyor: Conveyor) -> Calculation:
         A roll's contact has no answer, the tensions do not settle, or the belt lifts off with its bulk.
     RangeError
         A compound is not known at the belt's temperature.
+    InputError
+        Something else than a Conveyor.
     """
+    if not isinstance(conveyor, Conveyor):
+        raise InputError(
+            f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
+        )
     (found,) = calculate_many([Variant(conveyor)])
     if not isinstance(found, Calculation):
         raise found

@@ -110,3 +110,16 @@ def test_an_answer_for_one_file_does_not_refuse_another(tmp_path: Path) -> None:
     read = read_answered(master, answers, poisson_ratio=0.5, several=True)
     assert read.storage is not None
     assert read.storage.max() == pytest.approx(SERIES.storage(2.0 * np.pi * 1e4), rel=1e-5)
+
+
+def test_studies_show_themselves_in_one_line() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml").replace(
+        cases=[{"name": "full"}],
+        uncertainty={"roll_drag": "30 %"},
+        operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
+    )
+    made = conveyor.studies.studies(line)
+    compared = conveyor.compare_compounds(line, ["s100"])
+    for shown in map(repr, (made, made.cases, made.duty, made.uncertainty, compared)):
+        assert len(shown) < 300
+        assert "\n" not in shown

@@ -174,7 +174,7 @@ def duty(study: CalculatedYear) -> Table:
         Column("hours", "life", lambda row: 3600.0 * row.hours),
         Column("load share", "share", attrgetter("share")),
         *_AT,
-        Column("mass flow", "mass flow", attrgetter("found.line.flow")),
+        Column("mass flow", "mass flow", attrgetter("flow")),
         Column("effective tension", "force", attrgetter("effective")),
         Column("motor power", "power", attrgetter("shaft")),
         Column("mains power", "power", attrgetter("mains")),

@@ -15,7 +15,7 @@ from functools import partial
 from importlib.metadata import version
 from itertools import accumulate
 from operator import attrgetter, itemgetter
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -771,19 +771,34 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
     return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows)
 
 
+class CheckRow(NamedTuple):
+    """A check in words."""
+
+    subject: str
+    found: str
+    asked: str
+    verdict: str
+
+    @classmethod
+    def of(cls, check: Check, system: System) -> CheckRow:
+        """Write a check in a system of units."""
+        return cls(*(said.text(system) for said in (check.subject, check.found, check.asked)), check.verdict)
+
+
 def checked(rows: tuple[Check, ...], system: System) -> Table:
     """What was checked: what was found, what is asked for, pass or fail."""
+    worded = tuple(CheckRow.of(check, system) for check in rows)
     columns = (
-        Column("check", "text", lambda check: check.subject.text(system)),
-        Column("found", "text", lambda check: check.found.text(system)),
-        Column("asked for", "text", lambda check: check.asked.text(system)),
+        Column("check", "text", attrgetter("subject")),
+        Column("found", "text", attrgetter("found")),
+        Column("asked for", "text", attrgetter("asked")),
         Column("verdict", "verdict", attrgetter("verdict")),
     )
     caption = (
         "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
     )
     page = (OnPage("checks", caption),)
-    return Table("checks", "Checks and notes", "Checks", columns, rows, page)
+    return Table("checks", "Checks and notes", "Checks", columns, worded, page)
 
 
 class Remark(tuple[str, str]):

@@ -126,7 +126,7 @@ class MotorChoice:
     case: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedCases:
     """All load cases of a conveyor.
 
@@ -147,6 +147,10 @@ class CalculatedCases:
     friction_band: tuple[float, float]
     results: tuple[CaseResult, ...]
     refused: tuple[CaseRefusal, ...]
+
+    def __repr__(self) -> str:
+        name, answered = self.conveyor.name, len(self.results)
+        return f'CaseStudy("{name}": {len(self.cases)} cases, {answered} answered, {len(self.refused)} not)'
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:

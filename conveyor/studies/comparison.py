@@ -41,7 +41,7 @@ RTOL = 1e-4
 _SPEED: Final[TypeAdapter[Quantity]] = TypeAdapter(BeltSpeed)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedComparison:
     """All scenes of a comparison, in the order compound, speed, temperature.
 
@@ -74,6 +74,11 @@ class CalculatedComparison:
     coverage: tuple[Coverage, ...]
     extra_costs: Mapping[str, float]
     years: Mapping[str, CalculatedYear] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        name, count = self.conveyor.name, len(self.compounds)
+        scenes = f"{len(self.scenes)} scenes, {len(self.refused)} without an answer"
+        return f'Comparison("{name}": {count} compounds, {scenes})'
 
 
 @checked

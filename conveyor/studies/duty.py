@@ -60,7 +60,7 @@ class DutyRow:
         return self.flow * 3600.0 * self.hours
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedYear:
     """A year of a conveyor.
 
@@ -92,6 +92,9 @@ class CalculatedYear:
     emission: float | None
     emission_source: str | None
     energy_per_tonne_km: float | None
+
+    def __repr__(self) -> str:
+        return f'DutyStudy("{self.conveyor.name}": {len(self.rows)} bars)'
 
 
 @checked

@@ -64,7 +64,7 @@ class Effect:
         return abs(self.motor_high - self.motor_low)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedRanges:
     """The power with its band, and which input matters.
 
@@ -88,6 +88,11 @@ class CalculatedRanges:
     band: tuple[float, float]
     sampled: tuple[float, float]
     notes: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        low, high = (value / 1e3 for value in self.band)
+        name, motor = self.conveyor.name, self.motor / 1e3
+        return f'UncertaintyStudy("{name}": motor power {motor:.1f} kW, nine tenths from {low:.1f} to {high:.1f} kW)'
 
     @property
     def shares(self) -> tuple[float, ...]:

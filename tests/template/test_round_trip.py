@@ -52,7 +52,7 @@ def overland() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(
-    "number", ["0.30000000000000004 m", "1e-07 m", "123456789012345.67 m", "-0 m", "5e+20 m"]
+    "number", ["0.30000000000000004 m", "1e-07 m", "123456.78901234567 m", "-0 m", "5e+5 m"]
 )
 def test_numbers_keep_all_their_digits(number: str, tmp_path: Path) -> None:
     # %.16g, which workbooks are written with, loses the 17th digit of 0.1 + 0.2
