@@ -40,3 +40,15 @@ def test_beyond_the_table_of_c_the_secondary_resistances_are_itemised():
     # C is 1.03 at 5000 m, the last of the table
     one = balanced(route={"sections": short})
     assert one.classical.secondary == pytest.approx(0.03 * one.classical.main, rel=1e-11)
+
+
+def test_pulleys_of_cema_but_the_driven_ones():
+    cema = {"cema": {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}}
+    # bend at the take-up and tail on the slack side, 150 lbf each; the snub wraps little, 100 lbf; the head is driven
+    pulleys = (150.0 + 150.0 + 100.0) * 4.4482216152605
+    # 1200 t/h from 1 to 4 m/s: Tam = 2.8755e-4 (short tons an hour) (ft/min)
+    bulk = 2.8755e-4 * (1200e3 / 907.18474) * (3.0 / 0.00508) * 4.4482216152605
+    assert balanced(calculation=cema).cema.secondary == pytest.approx(pulleys + bulk, rel=1e-9)
+    # at the tail the tail is driven, and the head counts 200 lbf, on the tight side
+    found = balanced(calculation=cema, drive={"position": "tail"}).cema.secondary
+    assert found == pytest.approx(pulleys + 50.0 * 4.4482216152605 + bulk, rel=1e-9)
