@@ -34,8 +34,8 @@ def file_content(path: Path, *, largest: int, expected: str) -> bytes:
         raise InputError(f"{path}: no such file") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:  # a null byte in the name
-        raise InputError(f"{str(path)!r}: no name of a file ({error})") from None
+    except ValueError:  # a null byte in the name
+        raise InputError(f"{str(path)!r}: no name of a file") from None
     if refusal is not None:
         raise InputError(f"{path}: {refusal}")
     return content

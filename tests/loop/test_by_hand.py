@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from tests.loop.loop_lines import balanced
+from tests.loop.loop_lines import BOOSTER, balanced
 
 # 20 kg/m² of 1 m: 20 kg/m; 1200 t/h at 4 m/s: 83.33 kg/m; rolls 3·4 kg/1.2 m and 9 kg/3 m: 10 and 3 kg/m
 BELT, BULK, ROLLS, GRAVITY = 20.0, 1200.0 / 3.6 / 4.0, 13.0, 9.81
@@ -40,3 +40,36 @@ def test_beyond_the_table_of_c_the_secondary_resistances_are_itemised():
     # C is 1.03 at 5000 m, the last of the table
     one = balanced(route={"sections": short})
     assert one.classical.secondary == pytest.approx(0.03 * one.classical.main, rel=1e-11)
+
+
+def test_pulleys_of_cema_but_the_driven_ones():
+    cema = {"cema": {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}}
+    # bend at the take-up and tail on the slack side, 150 lbf each; the snub wraps little, 100 lbf; the head is driven
+    pulleys = (150.0 + 150.0 + 100.0) * 4.4482216152605
+    # 1200 t/h from 1 to 4 m/s: Tam = 2.8755e-4 (short tons an hour) (ft/min)
+    bulk = 2.8755e-4 * (1200e3 / 907.18474) * (3.0 / 0.00508) * 4.4482216152605
+    assert balanced(calculation=cema).cema.secondary == pytest.approx(pulleys + bulk, rel=1e-9)
+    # at the tail the tail is driven, and the head counts 200 lbf, on the tight side
+    found = balanced(calculation=cema, drive={"position": "tail"}).cema.secondary
+    assert found == pytest.approx(pulleys + 50.0 * 4.4482216152605 + bulk, rel=1e-9)
+
+
+def test_bearings_of_a_pulley_at_its_tensions():
+    found = balanced()
+    (turn,) = [single for single in found.singles if single.name == "bearings, tail"]
+    # 0.005 (d0/D) sqrt((T1 + T2)² + (m g)²): a shaft of 160 in 800 mm, 1 t; both strands have the tail's tension
+    return_end = found.settled.steady.ends[len(SECTIONS) - 1]
+    load = math.hypot(2.0 * return_end, 1000.0 * GRAVITY)
+    assert turn.force == pytest.approx(0.005 * 0.2 * load, rel=1e-9)
+    names = {single.name for single in found.singles if single.name.startswith("bearings")}
+    assert names == {"bearings, bend", "bearings, tail", "bearings, snub"}  # the head's are the drive's
+
+
+def test_a_booster_takes_its_force_out_behind_its_section():
+    found = balanced(drive={"further_drives": [BOOSTER]})
+    steady = found.settled.steady
+    (side,) = [drive for drive in steady.drives if drive.name == "booster"]
+    # return d, c, b, a, carry a, b, c, d: the booster stands behind b, between the sixth stretch and the seventh
+    steps = steady.starts[5:8] - steady.ends[4:7]
+    assert steps == pytest.approx([0.0, -side.force, 0.0], abs=1e-9 * side.tight)
+    assert side.force > 0.0

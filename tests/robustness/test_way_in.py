@@ -13,6 +13,8 @@ from tests.robustness.table import Outcome, recorded, row, run
 
 _BY_OTHERS = {"output", "command line"}
 """Groups whose words belong to the options of each command: the table has their rows, cases.py the heart of them."""
+_BY_PYTHON = {"JSON: a comma too many"}
+"""Python 3.13 points at the comma itself, earlier ones behind it."""
 _PLACED = {"YAML", "encoding", "JSON", "value", "field", "contradiction"}
 """Groups whose every line names file, line and column."""
 _JARGON = re.compile(r"Traceback|pydantic|ValidationError|<class|0x[0-9a-f]{6,}|NoneType|object at|Errno")
@@ -43,7 +45,7 @@ def test_one_clear_message_its_exit_code_and_no_file_changed(
     if case.group in _PLACED:
         placed = re.compile(r"(?:spec\.(?:yaml|json):[0-9]+:[0-9]+ \S+: |spec\.yaml: larger than )")
         assert all(placed.match(line) for line in said), outcome.err
-    if case.group not in _BY_OTHERS:
+    if case.group not in _BY_OTHERS and case.name not in _BY_PYTHON:
         assert rows[case.name] == row(case, outcome), "write table.md anew: python -m tests.robustness.table"
 
 
