@@ -129,9 +129,7 @@ def test_a_public_law_has_a_caller_or_a_validation():
         if not name.startswith("conveyor.laws"):
             continue
         others = "\n".join(
-            text
-            for other, text in SOURCES.items()
-            if other != name and FILES[other].name != "__init__.py"
+            text for other, text in SOURCES.items() if other != name and FILES[other].name != "__init__.py"
         )
         own = SOURCES[name]
         for node in tree.body:

@@ -782,7 +782,8 @@ class CheckRow(NamedTuple):
     @classmethod
     def of(cls, check: Check, system: System) -> CheckRow:
         """Write a check in a system of units."""
-        return cls(*(said.text(system) for said in (check.subject, check.found, check.asked)), check.verdict)
+        subject, found, asked = (said.text(system) for said in (check.subject, check.found, check.asked))
+        return cls(subject, found, asked, check.verdict)
 
 
 def checked(rows: tuple[Check, ...], system: System) -> Table:

@@ -70,7 +70,9 @@ def test_a_take_up_set_anew_in_each_case_is_not_a_pass(plain: CaseStudy) -> None
 def test_safety_is_the_least_of_all_cases(plain: CaseStudy) -> None:
     line = plain.conveyor
     strength = line.belt.carcass.strength.to("N/m").magnitude * line.belt.width.to("m").magnitude
-    least = min(strength / max(point.tension for point in result.found.balance.points) for result in plain.results)
+    least = min(
+        strength / max(point.tension for point in result.found.balance.points) for result in plain.results
+    )
     assert only(list(case_checks(plain, "SI")), "safety").found == f"{least:.2f}"
 
 

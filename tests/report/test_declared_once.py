@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from operator import attrgetter
 from pathlib import Path
 
+import numpy as np
 import openpyxl
 import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
+from conveyor import checks as criteria
+from conveyor import pipeline
+from conveyor.checks import compared
 from conveyor.cli.power_tables import show
 from conveyor.display import _KINDS, Unit, unit
+from conveyor.figures import said
+from conveyor.forces import Force
 from conveyor.report import excel, files, html, representations, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
 
@@ -33,7 +38,7 @@ def probed(result, monkeypatch):
 
     def with_column(a):
         table = sections(a)
-        more = Column("probe", "force", attrgetter("indentation"), json="probe_N", total=True)
+        more = Column("probe", "force", lambda r: r.forces["indentation"], json="probe_N", total=True)
         return replace(table, columns=(*table.columns, more))
 
     def with_figure(a):
@@ -63,7 +68,7 @@ def test_in_the_workbook(probed, result, tmp_path):
     book = openpyxl.load_workbook(excel.write(probed, tmp_path / "probe.xlsx"))
     header, *rows = cells(book, "table_sections")
     assert [row[header.index("probe [N]")] for row in rows] == pytest.approx(
-        [r.indentation for r in result.stretches]
+        [r.forces["indentation"] for r in result.stretches]
     )
     assert cells(book, "table_probes") == [("what", "size [m]"), ("abc", 3)]
     sheet, where = next(iter(book.defined_names["probing"].destinations))
@@ -92,7 +97,7 @@ def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
 def test_in_json(result):
     told = tables.plain(result)
     assert told["power_kW"]["probing"] == pytest.approx(12.345)
-    assert [row["probe_N"] for row in told["sections"]] == [r.indentation for r in result.stretches]
+    assert [row["probe_N"] for row in told["sections"]] == [r.forces["indentation"] for r in result.stretches]
 
 
 def test_the_terminal_takes_the_same_tables(probed, capsys):
@@ -121,3 +126,49 @@ def test_units_are_composed_in_one_place_and_parsed_in_none():
         assert not re.findall(r'"[^"\n]* \[(?:-|[A-Za-z%°][^\]"\n]*)\]"', code), path.name
         assert not re.findall(r"re\.compile\([^)\n]* \\\[", code), path.name
         assert path.parent.name == "studies" or not re.findall(r"\bid\(", code), path.name
+
+
+@pytest.fixture(scope="module")
+def strained():
+    """A conveyor with one more resistance and one more criterion, each put in where such a one is declared."""
+    with pytest.MonkeyPatch.context() as patch:
+        along = pipeline.along_the_belt
+
+        def with_force(line, fixed, indentation, **given):
+            more = Force("wind", "wind", "special", np.full(2 * line.count, 7.0), "a probe")
+            return (*along(line, fixed, indentation, **given), more)
+
+        def weak(found):
+            why = said("the probe bears {}", (found.line.speed, "speed"))
+            yield compared("probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why)
+
+        patch.setattr(pipeline, "along_the_belt", with_force)
+        patch.setattr(criteria, "CRITERIA", (*criteria.CRITERIA, weak))
+        made = conveyor.analyse(conveyor.load(SPECS / "in_plant_us.yaml")).in_units("SI")
+        yield made, made.contents(), made.to_dict()
+
+
+def test_a_force_is_in_sums_tables_and_json(strained):
+    made, contents, told = strained
+    sections = 2 * made.line.count
+    assert made.balance.forces.special == pytest.approx(
+        sum(force.total for force in made.balance.every if force.kind == "special")
+    )
+    assert contents["sections"].frame()["wind [N]"].tolist() == pytest.approx([7.0] * sections)
+    rows = contents["resistances"].frame().set_index("resistance")["force [N]"]
+    assert rows["wind, carry"] + rows["wind, return"] == pytest.approx(7.0 * sections)
+    assert [row["wind_N"] for row in told["sections"]] == pytest.approx([7.0] * sections)
+    assert told["forces_N"]["special"] == pytest.approx(made.balance.forces.special)
+
+
+def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
+    made, contents, told = strained
+    assert [check.key for check in made.checks if check.failed] == ["probe"]
+    row = contents["checks"].frame().set_index("check").loc["strength of the probe"]
+    assert (row["found"], row["asked for"], row["verdict"]) == ("1 N", "at least 2 N", "FAIL")
+    assert any(line.startswith("the probe bears") for line in told["warnings"])
+    book = openpyxl.load_workbook(excel.write(contents, tmp_path / "weak.xlsx"))
+    assert "strength of the probe" in {cell.value for row in book["Summary"] for cell in row}
+    page = html.write(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
+    assert "strength of the probe" in page
+    assert "strength of the probe" in representations.of_analysis(contents)

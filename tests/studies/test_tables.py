@@ -13,10 +13,10 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
-from conveyor.studies import studies
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
