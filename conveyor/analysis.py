@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from conveyor import studies as study
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks
-from conveyor.display import chosen
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.pipeline import Calculation, calculate
+from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.remarks import assumptions, warnings
 from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import uncertainty as range_study
+from conveyor.units.display import chosen
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,7 +36,7 @@ Given = ParamSpec("Given")
 Face = TypeVar("Face")
 
 
-class Analysis(Calculation):
+class Analysis(CalculatedConveyor):
     """Everything calculated for one conveyor, with tables, reports and figures.
 
     Examples

@@ -10,14 +10,14 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
-from conveyor.figures import Said, band_words, quoted, said
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import DriveUnit
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.belt_duty import BeltDuty, CurveCheck
 from conveyor.loop.starting import every_state
-from conveyor.pipeline import Calculation
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.units.sentences import Said, band_words, quoted, said
 
 Verdict = Literal["pass", "FAIL", "not checked"]
 Relation = Literal["at least", "at most"]
@@ -112,12 +112,12 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     return Check(key, name, calculated, required, kind, shown, asked, verdict(holds=holds), why)
 
 
-def checks(found: Calculation) -> tuple[Check, ...]:
+def checks(found: CalculatedConveyor) -> tuple[Check, ...]:
     """Check one calculation for every criterion, in the order of `CRITERIA`."""
     return tuple(check for criterion in CRITERIA for check in criterion(found))
 
 
-def filling(found: Calculation) -> Iterator[Check]:
+def filling(found: CalculatedConveyor) -> Iterator[Check]:
     """A spec that overfills its belt is refused; how full it is remains to be said."""
     sections = found.conveyor.cross_sections
     if sections is not None:
@@ -128,7 +128,7 @@ def filling(found: Calculation) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def motor_power(found: Calculation) -> Iterator[Check]:
+def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
     """Every drive's motors give or hold its share in steady running."""
     steady = found.balance.settled.steady
     for drive, side in zip(found.line.drives, steady.drives, strict=True):
@@ -157,7 +157,7 @@ def drive_power(who: str, drive: DriveUnit, power: float, subject: Said | None =
     )
 
 
-def take_up_tension(found: Calculation) -> Iterator[Check]:
+def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state."""
     settled = found.balance.settled
     governing = settled.condition_name(settled.governed_by)
@@ -174,7 +174,7 @@ def take_up_tension(found: Calculation) -> Iterator[Check]:
         yield replace(made, verdict=verdict(holds=not settled.short))
 
 
-def slack_belt(found: Calculation) -> Iterator[Check]:
+def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
     """The belt is nowhere slack in any state of motion; the slackest state is named, or every one that fails."""
     states = every_state(found.balance, found.motions)
     slack = [state for state in states if state.slack]
@@ -193,7 +193,7 @@ def not_slack(tension: float, subject: Said, why: Said | None = None) -> Check:
     return replace(made, asked=said("not slack: at least 0"))
 
 
-def belt_safety(found: Calculation) -> Iterator[Check]:
+def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
     """The belt's strength over its tension in steady running."""
     yield steady_safety(found.belt_duty, said("safety of the belt, steady"))
 
@@ -214,7 +214,7 @@ def steady_safety(duty: BeltDuty, subject: Said) -> Check:
     return replace(made, asked=asked)
 
 
-def belt_breakage(found: Calculation) -> Iterator[Check]:
+def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
     """The largest tension of all states is below the belt's strength; said only where it is not."""
     safety = found.belt_duty.safety
     if safety is not None and safety < 1.0:
@@ -228,7 +228,7 @@ def belt_breakage(found: Calculation) -> Iterator[Check]:
         )
 
 
-def splice_strength(found: Calculation) -> Iterator[Check]:
+def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
     """The belt is as strong as its splice asks for."""
     duty, strength = found.belt_duty, found.line.belt.strength
     if duty.safety_steady is None or duty.strength_needed is None or strength is None:
@@ -244,7 +244,7 @@ def splice_strength(found: Calculation) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def pulley_diameter(found: Calculation) -> Iterator[Check]:
+def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
     """Every pulley is as large as the carcass asks for."""
     for pulley in found.belt_duty.pulleys:
         size, figures = "", [(pulley.diameter, "thickness"), (pulley.least, "thickness")]
@@ -259,7 +259,7 @@ def pulley_diameter(found: Calculation) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def curve_radius(found: Calculation) -> Iterator[Check]:
+def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
     """On every vertical curve the belt stays down, its strips neither overstressed nor slack."""
     for curve in found.belt_duty.curves:
         for least, fine, bad in (
@@ -288,7 +288,7 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
     )
 
 
-def starting_force(found: Calculation) -> Iterator[Check]:
+def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
     """The motors give the starting force, and it overcomes the resistance after standstill."""
     start = found.motions.start
     if start.force <= 0.0:
@@ -326,7 +326,7 @@ def starting_force(found: Calculation) -> Iterator[Check]:
     )
 
 
-def comes_to_rest(found: Calculation) -> Iterator[Check]:
+def comes_to_rest(found: CalculatedConveyor) -> Iterator[Check]:
     """The conveyor stops without power, with its brakes where it has any."""
     moving, brakes = found.motions, math.fsum(found.line.brakes)
     stopping = moving.coasting_least if moving.braked is None else moving.braked
@@ -343,7 +343,7 @@ def comes_to_rest(found: Calculation) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def holding(found: Calculation) -> Iterator[Check]:
+def holding(found: CalculatedConveyor) -> Iterator[Check]:
     """A brake or backstop holds the loaded belt, and brakes give the deceleration wanted."""
     moving, line = found.motions, found.line
     given = any(drive.brake is not None for drive in line.drives)
@@ -372,7 +372,7 @@ def holding(found: Calculation) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def bulk_slip(found: Calculation) -> Iterator[Check]:
+def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
     """The bulk stays on the belt in running, stopping and starting."""
     slip = found.motions.slip
     if slip is None:
@@ -408,7 +408,7 @@ def bulk_slip(found: Calculation) -> Iterator[Check]:
         )
 
 
-def penetration(found: Calculation) -> Iterator[Check]:
+def penetration(found: CalculatedConveyor) -> Iterator[Check]:
     """No roll presses deeper into its cover than the law of small strain bears."""
     for strand in STRANDS:
         deepest, thickness = found.contacts.deepest(strand), found.contacts.covers[strand].thickness
@@ -424,7 +424,7 @@ def penetration(found: Calculation) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def roll_life(found: Calculation) -> Iterator[Check]:
+def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
     """Idler sets last as long as light series are rated for, where their bearings are given."""
     for strand in STRANDS:
         life = shortest_life(found.line.stretches, strand, found.line.speed)
@@ -444,7 +444,7 @@ def roll_life(found: Calculation) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def rubber_data(found: Calculation) -> Iterator[Check]:
+def rubber_data(found: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
     at = found.temperature
     for strand, compound in compounds_by_strand(found.conveyor).items():
@@ -474,7 +474,7 @@ def rubber_data(found: Calculation) -> Iterator[Check]:
         yield Check("rubber_data", subject, None, None, "frequency", shown, asked, covered, why)
 
 
-CRITERIA: Final[tuple[Callable[[Calculation], Iterable[Check]], ...]] = (
+CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling,
     motor_power,
     take_up_tension,

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.figures import ZERO_CELSIUS, celsius
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.answered import read_answered
 from conveyor.laboratory.findings import check_findings
@@ -37,6 +36,7 @@ from conveyor.rubber.band import METHOD
 from conveyor.rubber.shift_laws import LEAST_TEMPERATURES
 from conveyor.rubber.strain import SAME_TEMPERATURE
 from conveyor.units import quantity, si
+from conveyor.units.sentences import ZERO_CELSIUS, celsius
 
 Array = NDArray[np.float64]
 

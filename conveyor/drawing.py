@@ -9,9 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from conveyor.display import chosen
 from conveyor.errors import InputError
-from conveyor.figures import celsius
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
@@ -19,11 +17,13 @@ from conveyor.report import analysis_plots, loop_plots, plots
 from conveyor.report.tables import boundaries
 from conveyor.studies.compared import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
+from conveyor.units.display import chosen
+from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.pipeline import Calculation
+    from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.comparison import CalculatedComparison
 
@@ -44,7 +44,7 @@ class AnalysisPlots:
     >>> result.plots.tensions(system="US").savefig("tensions.png")  # doctest: +SKIP
     """
 
-    analysis: Calculation
+    analysis: CalculatedConveyor
 
     def resistances(self, *, system: System | None = None) -> Figure:
         """Every kind of resistance, the classical estimates beside their sums."""

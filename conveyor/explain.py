@@ -11,11 +11,11 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from conveyor.files.document import MOST_LINES, Document, Finding
-from conveyor.kinds import KINDS
-from conveyor.misreadings import on_one_line
+from conveyor.files.document import MOST_LINES, Document, Fault
 from conveyor.models.base import Location, field_path, real_errors
 from conveyor.units import Measure
+from conveyor.units.kinds import KINDS
+from conveyor.units.misreadings import on_one_line
 
 _OWN = {"quantity", "conflict", "compound", "price"}
 _LIMITS = {"greater_than": (">", "gt"), "greater_than_equal": (">=", "ge"), "less_than": ("<", "lt"),
@@ -35,7 +35,7 @@ _EXPECTED = {
 }
 
 
-def findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Finding]:
+def findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:
     """Return every error of a validation in the file's order, with its place; the first say what is wrong."""
     found = list(document.findings)
     known = {finding.field for finding in found}
@@ -48,7 +48,7 @@ def findings(error: ValidationError, model: type[BaseModel], document: Document)
             placed.append((place, field, item))
     placed.sort(key=lambda error: error[0])
     for count, (place, field, item) in enumerate(placed):
-        found.append(Finding(place, field, message(item, model) if count < MOST_LINES else ""))
+        found.append(Fault(place, field, message(item, model) if count < MOST_LINES else ""))
     return sorted(found, key=lambda finding: finding.place)
 
 

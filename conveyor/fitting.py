@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.figures import celsius
 from conveyor.report.plots import colour, stacked
 from conveyor.units import si, text
+from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -18,7 +18,14 @@ from typing import TypeAlias, TypeVar
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
-from conveyor.line.covers import Cover, Covers, compounds_by_strand, covers_of, rubbers, softened_covers
+from conveyor.line.covers import (
+    Covers,
+    RunningCover,
+    compounds_by_strand,
+    covers_of,
+    rubbers,
+    softened_covers,
+)
 from conveyor.line.line import Line
 from conveyor.line.stretches import Pressing, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
@@ -82,7 +89,7 @@ class StretchResult:
     """
 
     stretch: Stretch
-    cover: Cover
+    cover: RunningCover
     rolls: tuple[RollResult, ...]
     forces: Mapping[str, float]
     main: float
@@ -95,7 +102,7 @@ class StretchResult:
 
 
 @dataclass(frozen=True, eq=False)
-class Calculation:
+class CalculatedConveyor:
     """Everything calculated for one conveyor, SI.
 
     Attributes
@@ -166,7 +173,7 @@ class Calculation:
         return self.contacts.error
 
 
-def calculate(conveyor: Conveyor) -> Calculation:
+def calculate(conveyor: Conveyor) -> CalculatedConveyor:
     """Calculate one conveyor.
 
     Raises
@@ -183,14 +190,14 @@ def calculate(conveyor: Conveyor) -> Calculation:
             f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
         )
     (found,) = calculate_many([Variant(conveyor)])
-    if not isinstance(found, Calculation):
+    if not isinstance(found, CalculatedConveyor):
         raise found
     return found
 
 
 def calculate_many(
     variants: Sequence[Variant], rtol: float | None = None, progress: Progress | None = None
-) -> list[Calculation | NoAnswer]:
+) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
     Parameters
@@ -208,7 +215,7 @@ def calculate_many(
         In their order the calculations, or why a variant has none.
     """
     shared, told = _Shared(), _Told(len(variants), progress)
-    answers: dict[int, Calculation | NoAnswer] = {}
+    answers: dict[int, CalculatedConveyor | NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
     while going:
         loaded: dict[int, tuple[_Loaded, Covers]] = {}
@@ -257,18 +264,20 @@ class _Loaded:
     fixed: WithoutRubber
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> Calculation | _Step:
+def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> CalculatedConveyor | _Step:
     """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
     along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:
-        return Calculation(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
+        return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
     steady, judged = found.settled.steady, None
     if step.before is not None:
         before = step.before.settled.steady
         judged = converged(step.convergence, before, steady, loaded.line, found.tensions.largest)
         if judged.settled(loaded.line.rtol):
-            return Calculation(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed, judged)
+            return CalculatedConveyor(
+                variant.conveyor, variant.covers_at, contacts, found, loaded.fixed, judged
+            )
     return _Step(pressing_masses(loaded.line, steady), found, judged)
 
 
@@ -281,7 +290,7 @@ class _Shared:
     def __init__(self) -> None:
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
-        self._covers: list[tuple[_Worked, Covers, dict[Strand, Cover]]] = []
+        self._covers: list[tuple[_Worked, Covers, dict[Strand, RunningCover]]] = []
 
     def loaded(self, variant: Variant, pressing: Pressing) -> tuple[_Loaded, Covers]:
         """The line of a variant under what presses on its curves, and its covers at their working strain.

@@ -11,11 +11,11 @@ from typing import Any, Final
 from pydantic import BaseModel
 from ruamel.yaml import YAML
 
-from conveyor.kinds import KINDS
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.starter.write import KINDS as STARTERS
 from conveyor.starter.write import values
-from conveyor.template.layout import Group, Leaf, Part, Table, layout
+from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
+from conveyor.units.kinds import KINDS
 
 Example = str | float | bool | Sequence[Any]
 
@@ -126,11 +126,11 @@ def _fields(part: Part, path: str) -> Iterator[tuple[str, Leaf]]:
         yield path, part
         return
     for inner in _inside(part):
-        yield from _fields(inner, _joined(path + "[]" * isinstance(part, Table), inner.key))
+        yield from _fields(inner, _joined(path + "[]" * isinstance(part, FieldTable), inner.key))
 
 
-def _inside(part: Group | Table) -> tuple[Part, ...]:
-    return part.parts if isinstance(part, Group) else part.item.parts
+def _inside(part: FieldGroup | FieldTable) -> tuple[Part, ...]:
+    return part.parts if isinstance(part, FieldGroup) else part.item.parts
 
 
 def _joined(path: str, key: str) -> str:
@@ -187,13 +187,13 @@ class _Writer:
         self._depth = depth
         self._known: list[tuple[tuple[Part, ...], str]] = []
 
-    def section(self, part: Group | Table, path: str, heading: str) -> Iterator[str]:
+    def section(self, part: FieldGroup | FieldTable, path: str, heading: str) -> Iterator[str]:
         """Write a block, then the blocks in it."""
         level = self._depth + min(2, path.count(".") + 1) if path else self._depth
         yield f"{'#' * level} {heading}"
         yield ""
         doc = _sentence(part.doc)
-        if isinstance(part, Table):
+        if isinstance(part, FieldTable):
             length = part.allowed.replace("rows", "entries").replace("row", "entry")
             doc = f"{doc} A list{f', {length}' if length else ''}."
         yield f"{doc}{'' if part.required else ' May be left out.'}"
@@ -208,7 +208,7 @@ class _Writer:
         yield from _HEADINGS
         blocks = []
         for inner in inside:
-            inner_path = _joined(path, inner.key) + "[]" * isinstance(inner, Table)
+            inner_path = _joined(path, inner.key) + "[]" * isinstance(inner, FieldTable)
             if isinstance(inner, Leaf):
                 yield self._row(inner, inner_path)
             else:
@@ -221,8 +221,8 @@ class _Writer:
     def _title(self, path: str) -> str:
         return path if self._model is Conveyor else f"compound: {path}"
 
-    def _link(self, part: Group | Table, path: str) -> str:
-        what = "list" if isinstance(part, Table) else "block"
+    def _link(self, part: FieldGroup | FieldTable, path: str) -> str:
+        what = "list" if isinstance(part, FieldTable) else "block"
         title = self._title(path)
         linked = f"{what} [{title}](#{anchor(title)})"
         return _cells(f"`{part.key}`", _sentence(part.doc), linked, "", _without_block(part))
@@ -268,11 +268,11 @@ def _without(leaf: Leaf) -> str:
     return f"`{_yaml(_written(leaf.default, leaf))}`"
 
 
-def _without_block(part: Group | Table) -> str:
+def _without_block(part: FieldGroup | FieldTable) -> str:
     if part.required:
         return "**required**"
     leaves = [inner for inner in _inside(part) if isinstance(inner, Leaf)]
-    optional = isinstance(part, Group) and not any(inner.required for inner in _inside(part))
+    optional = isinstance(part, FieldGroup) and not any(inner.required for inner in _inside(part))
     given = any(leaf.default not in (*_NOTHING, False) for leaf in leaves)
     return "its defaults" if optional and given else "none of it"
 

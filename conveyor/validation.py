@@ -58,7 +58,7 @@ _IDENTITY_TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
+class ReferenceCheck:
     """One figure of this package beside the same figure from elsewhere.
 
     Parameters
@@ -147,7 +147,7 @@ def reference_cases() -> tuple[ReferenceCase, ...]:
     )
 
 
-def run() -> list[Check]:
+def run() -> list[ReferenceCheck]:
     """Compare this package with every figure it ships: contacts, closed forms, published values, identities.
 
     Returns
@@ -171,24 +171,24 @@ def run() -> list[Check]:
     return [check for group in groups for check in group]
 
 
-def _close(source: str, quantity: str, expected: float, got: float, tolerance: float) -> Check:
-    return Check(source, quantity, expected, got, abs(got / expected - 1.0), tolerance)
+def _close(source: str, quantity: str, expected: float, got: float, tolerance: float) -> ReferenceCheck:
+    return ReferenceCheck(source, quantity, expected, got, abs(got / expected - 1.0), tolerance)
 
 
-def _printed(source: str, quantity: str, figure: str, got: float, units: float = 0.5) -> Check:
+def _printed(source: str, quantity: str, figure: str, got: float, units: float = 0.5) -> ReferenceCheck:
     """Compare with a printed figure to `units` of its last digit."""
     decimals = len(figure.partition(".")[2])
     expected = float(figure)
     return _close(source, quantity, expected, got, units * 10.0**-decimals / abs(expected))
 
 
-def _reference_contacts() -> Iterator[Check]:
+def _reference_contacts() -> Iterator[ReferenceCheck]:
     worst: dict[str, tuple[float, str, float, float]] = {}
     for case in reference_cases():
         found = solve(case.problem, rtol=_RTOL, throw=False)
         if case.friction is None:
             strips = len(found.patches)
-            yield Check(
+            yield ReferenceCheck(
                 _PROTOTYPE,
                 f"strips, {case.name}",
                 "several",
@@ -205,10 +205,10 @@ def _reference_contacts() -> Iterator[Check]:
                 worst[place] = (off, case.name, expected, got)
     for place, (off, name, expected, got) in worst.items():
         quantity = f"{place.replace('_', ' ')} over R [-], worst of all: {name}"
-        yield Check(_PROTOTYPE, quantity, expected, got, off, _PLACE_TOLERANCE)
+        yield ReferenceCheck(_PROTOTYPE, quantity, expected, got, off, _PLACE_TOLERANCE)
 
 
-def _split_contacts() -> Iterator[Check]:
+def _split_contacts() -> Iterator[ReferenceCheck]:
     for radius, friction, depth, strips in _TWO_STRIPS:
         creep = CreepSpectrum(0.1, [0.9], [3.0])
         found = solve(ContactProblem("free", radius, 0.13, creep, 1.0), rtol=1e-9)
@@ -230,7 +230,7 @@ def _isolated(modulus_ratio: float, memory: float) -> tuple[ContactSolution, flo
     return solve(problem, rtol=1e-9), _SHALLOW / rho
 
 
-def _hunter() -> Iterator[Check]:
+def _hunter() -> Iterator[ReferenceCheck]:
     for ratio in (2.0, 10.0, 100.0):
         for memory in (0.1, 1.0, 10.0):
             closed = hunter_at_load(ratio, memory=memory)
@@ -245,7 +245,7 @@ def _hunter() -> Iterator[Check]:
                 yield _close(_HUNTER, f"{name} [-], {at}", expected, got, _CLOSED_FORM_TOLERANCE)
 
 
-def _contact_program() -> Iterator[Check]:
+def _contact_program() -> Iterator[ReferenceCheck]:
     """Two viscoelastic cylinders, 600 N/mm, equivalent R 50 mm, G∞ 1143 and G0 571.5 N/mm², ν 0.4."""
     modulus = composite_plane_modulus(*2 * (plane_modulus(571.5, poisson=0.4),))
     width = hertz_half_width(600.0, radius=50.0, plane_modulus=modulus)
@@ -257,7 +257,7 @@ def _contact_program() -> Iterator[Check]:
         yield _printed(_CONTACT, f"p_max [N/mm²], Vτ = {length:g} mm", figure, got, units=1.0)
 
 
-def _iso_5048() -> Iterator[Check]:
+def _iso_5048() -> Iterator[ReferenceCheck]:
     """Coal 0.85 t/m³, 2300 t/h, 4.8 m/s, 143 m level, belt 1.2 m, g 9.81 m/s²; itemised."""
     g, speed, flow = 9.81, 4.8, 2300.0 / 3.6
     bulk = loading.bulk_line_mass(flow, belt_speed=speed)
@@ -301,7 +301,7 @@ def _iso_5048() -> Iterator[Check]:
     yield _printed(_ISO, "slack side of the drive [N]", "8447.96", drive.slack)
 
 
-def _compliance_identity() -> Iterator[Check]:
+def _compliance_identity() -> Iterator[ReferenceCheck]:
     """Prony series of 21 terms over 20 decades, moduli over 3, against its own creep form at 401 frequencies."""
     times = np.logspace(-12.0, 8.0, 21)
     omega = np.logspace(-10.0, 14.0, 401)
@@ -313,4 +313,4 @@ def _compliance_identity() -> Iterator[Check]:
         product = series.creep().compliance(omega) * series.modulus(omega)
         off = float(np.max(np.abs(product - 1.0)))
         quantity = f"worst of 24 decades of ω [-], {name}"
-        yield Check(_IDENTITY, quantity, 1.0, 1.0 + off, off, _IDENTITY_TOLERANCE)
+        yield ReferenceCheck(_IDENTITY, quantity, 1.0, 1.0 + off, off, _IDENTITY_TOLERANCE)

@@ -14,8 +14,8 @@ from pydantic import BaseModel, ValidationError
 
 from conveyor import units
 from conveyor.errors import InputError
-from conveyor.kinds import KINDS, MAGNITUDES
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
+from conveyor.units.kinds import KINDS, MAGNITUDES
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
 # 9.80665 m/s² defines lbf; 1 short ton = 2000 lb; 1 hp = 550 ft lbf/s.

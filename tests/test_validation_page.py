@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from conveyor import validation
-from conveyor.validation import Check
+from conveyor.validation import ReferenceCheck
 
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "validation.md"
@@ -62,7 +62,7 @@ models leave out is in the [README](../README.md#what-it-assumes).
 
 
 @cache
-def checks() -> tuple[Check, ...]:
+def checks() -> tuple[ReferenceCheck, ...]:
     return tuple(validation.run())
 
 

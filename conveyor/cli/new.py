@@ -8,25 +8,18 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import Force, Quiet, app, examples, say
+from conveyor.cli.app import Force, Quiet, Units, app, examples, say
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files.marks import TO_FILL_IN
 
 
-class Kind(StrEnum):
+class StarterKind(StrEnum):
     """Conveyors there is a starter of."""
 
     OVERLAND = "overland"
     IN_PLANT = "in-plant"
     DOWNHILL = "downhill"
-
-
-class Units(StrEnum):
-    """Systems of units."""
-
-    SI = "SI"
-    US = "US"
 
 
 @app.command(
@@ -39,8 +32,8 @@ class Units(StrEnum):
 def new(
     spec: Annotated[Path, typer.Argument(help="Spec to write (.yaml).", show_default=False)],
     kind: Annotated[
-        Kind, typer.Option(help="Conveyor the example values belong to.", case_sensitive=False)
-    ] = Kind.OVERLAND,
+        StarterKind, typer.Option(help="Conveyor the example values belong to.", case_sensitive=False)
+    ] = StarterKind.OVERLAND,
     units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
     force: Force = False,
     quiet: Quiet = False,

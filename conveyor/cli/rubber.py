@@ -13,10 +13,10 @@ import typer
 from conveyor.cli.app import Force, Quiet, Shelves, app, examples, one_of, say
 from conveyor.cli.completion import compound_names
 from conveyor.cli.outputs import Outputs
-from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
+from conveyor.units.display import unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -166,8 +166,8 @@ def shelf(
 
     from conveyor import shelf as store
     from conveyor.errors import RangeError
-    from conveyor.figures import celsius
     from conveyor.units import quantity, si, text
+    from conveyor.units.sentences import celsius
 
     kelvin, hertz = si(quantity(at, "temperature")), si(quantity(frequency, "frequency"))
     console = Console(highlight=False)

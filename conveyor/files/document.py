@@ -49,7 +49,7 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Finding:
+class Fault:
     """Something wrong at a place of a file: the field (or what it is about) and what to change."""
 
     place: Place
@@ -61,7 +61,7 @@ class Finding:
         return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
 
 
-def listing(path: str, findings: Sequence[Finding]) -> str:
+def listing(path: str, findings: Sequence[Fault]) -> str:
     """Write findings one a line, the first hundred of them."""
     lines = [finding.line(path) for finding in findings[:MOST_LINES]]
     if len(findings) > MOST_LINES:
@@ -76,7 +76,7 @@ class Document:
     path: str
     data: Any
     root: Node
-    findings: tuple[Finding, ...]
+    findings: tuple[Fault, ...]
 
     def place(self, location: Location, *, of_key: bool = False) -> Place:
         """Return where a field is, or its nearest parent that exists.
@@ -218,7 +218,7 @@ class _Reader:
 
     def __init__(self, path: str) -> None:
         self.path = path
-        self.findings: list[Finding] = []
+        self.findings: list[Fault] = []
         self._count = 0
 
     def value(self, node: Node, location: Location) -> Any:
@@ -242,7 +242,7 @@ class _Reader:
     def _not_allowed(self, node: Node, location: Location) -> None:
         tag = str(node.tag).replace(_TAG, "!!")
         self.findings.append(
-            Finding(_place(node), _path(location), f"the tag {tag} is not allowed; write plain values")
+            Fault(_place(node), _path(location), f"the tag {tag} is not allowed; write plain values")
         )
 
     def _pairs(self, node: MappingNode, location: Location) -> Iterator[tuple[str, Any]]:
@@ -250,7 +250,7 @@ class _Reader:
         for key, value in node.value:
             if not isinstance(key, ScalarNode):
                 self.findings.append(
-                    Finding(
+                    Fault(
                         _place(key), _path(location), "expected text before the colon, got a list or fields"
                     )
                 )
@@ -259,10 +259,10 @@ class _Reader:
             field = _path((*location, name))
             if key.tag == _TAG + "merge":
                 message = "merge keys (<<) are not allowed; write the fields out"
-                self.findings.append(Finding(_place(key), field, message))
+                self.findings.append(Fault(_place(key), field, message))
             elif name in first:
                 message = f"given twice, first in line {first[name].line}; remove one"
-                self.findings.append(Finding(_place(key), field, message))
+                self.findings.append(Fault(_place(key), field, message))
             else:
                 first[name] = _place(key)
                 yield name, self.value(value, (*location, name))

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from conveyor.laboratory.read import read_dma
-from conveyor.laboratory.table import KINDS, DmaData, Isotherm, StrainSweep
+from conveyor.laboratory.table import KINDS, DmaData, IsothermRows, StrainRows
 
-__all__ = ["KINDS", "DmaData", "Isotherm", "StrainSweep", "read_dma"]
+__all__ = ["KINDS", "DmaData", "IsothermRows", "StrainRows", "read_dma"]

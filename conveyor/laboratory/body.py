@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from conveyor.laboratory.cells import Grid
+from conveyor.laboratory.cells import TextGrid
 from conveyor.laboratory.decimals import decimal_mark, is_number, why_not_a_number
-from conveyor.laboratory.layout import Column, Table
+from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.table import FloatArray, IntArray
 
 
-def check_width(table: Table) -> None:
+def check_width(table: DataTable) -> None:
     """Refuse rows longer than the header.
 
     Parameters
@@ -39,7 +39,7 @@ def check_width(table: Table) -> None:
             )
 
 
-def column_cells(table: Table, column: Column) -> list[str]:
+def column_cells(table: DataTable, column: DataColumn) -> list[str]:
     """Cells of one column, none empty.
 
     Parameters
@@ -75,7 +75,7 @@ def column_cells(table: Table, column: Column) -> list[str]:
     return found
 
 
-def table_mark(table: Table, columns: list[Column], cells: Mapping[int, list[str]]) -> str:
+def table_mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[str]]) -> str:
     """Decimal mark of all number columns together.
 
     Parameters
@@ -127,7 +127,7 @@ def table_mark(table: Table, columns: list[Column], cells: Mapping[int, list[str
     raise AssertionError(doubtful)
 
 
-def check_finite(table: Table, column: Column, numbers: FloatArray, cells: list[str]) -> None:
+def check_finite(table: DataTable, column: DataColumn, numbers: FloatArray, cells: list[str]) -> None:
     """Refuse numbers too large for a double.
 
     Parameters
@@ -156,7 +156,9 @@ def check_finite(table: Table, column: Column, numbers: FloatArray, cells: list[
         )
 
 
-def run_labels(grid: Grid, table: Table, column: Column, cells: Mapping[int, list[str]]) -> IntArray:
+def run_labels(
+    grid: TextGrid, table: DataTable, column: DataColumn, cells: Mapping[int, list[str]]
+) -> IntArray:
     """Whole numbers as they are, other labels numbered in the order of their appearance.
 
     Parameters

@@ -11,7 +11,7 @@ _LONGEST_LABEL = 60
 """Characters of a column's name shown in a message."""
 
 
-class Line(NamedTuple):
+class TextLine(NamedTuple):
     """One line of a text file or one row of a sheet."""
 
     number: int
@@ -21,7 +21,7 @@ class Line(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Grid:
+class TextGrid:
     """All lines of one text file or one sheet.
 
     Parameters
@@ -39,7 +39,7 @@ class Grid:
     """
 
     name: str
-    lines: tuple[Line, ...]
+    lines: tuple[TextLine, ...]
     notes: tuple[str, ...]
     lettered: bool = False
     sheet: str = ""

@@ -10,10 +10,10 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.laboratory.body import check_finite, check_width, column_cells, run_labels, table_mark
-from conveyor.laboratory.cells import Grid
+from conveyor.laboratory.cells import TextGrid
 from conveyor.laboratory.decimals import to_floats
-from conveyor.laboratory.factors import Unit, allowed, find_unit
-from conveyor.laboratory.layout import Column, Table
+from conveyor.laboratory.factors import ModulusUnit, allowed, find_unit
+from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.names import DIMENSIONS, Meaning
 from conveyor.laboratory.table import FloatArray, IntArray
 
@@ -26,10 +26,10 @@ FREQUENCY_AGREEMENT = 1e-2
 class Series:
     """One used column in SI; `log10` of it where `column.meaning` is a shift factor."""
 
-    column: Column
+    column: DataColumn
     meaning: Meaning
     values: FloatArray
-    unit: Unit
+    unit: ModulusUnit
     explicit: bool
 
 
@@ -38,7 +38,7 @@ class Question:
     """Something only the user can decide, with its place."""
 
     row: int
-    column: Column
+    column: DataColumn
     text: str
 
 
@@ -70,7 +70,7 @@ def remedy(dimension: str, example: str = "") -> str:
     return f'give {dimension}_unit, for example {dimension}_unit="{unit}" (--{dimension}-unit {unit})'
 
 
-def check_units(units: Mapping[str, str | None]) -> dict[str, Unit]:
+def check_units(units: Mapping[str, str | None]) -> dict[str, ModulusUnit]:
     """Units given as options.
 
     Parameters
@@ -107,7 +107,7 @@ def check_units(units: Mapping[str, str | None]) -> dict[str, Unit]:
 
 
 def read_columns(
-    table: Table, given: Mapping[str, Unit]
+    table: DataTable, given: Mapping[str, ModulusUnit]
 ) -> tuple[Mapping[str, Series], IntArray | None, list[str], list[Question]]:
     """Numbers of every known column.
 
@@ -161,7 +161,7 @@ def read_columns(
     return MappingProxyType(series), run, notes, questions
 
 
-def column_label(grid: Grid, column: Column) -> str:
+def column_label(grid: TextGrid, column: DataColumn) -> str:
     """How notes name a column.
 
     Parameters
@@ -180,9 +180,9 @@ def column_label(grid: Grid, column: Column) -> str:
     return place.split(": ", 1)[1].removesuffix(":")
 
 
-def _chosen(table: Table) -> dict[str, list[Column]]:
+def _chosen(table: DataTable) -> dict[str, list[DataColumn]]:
     """Columns by quantity; only frequency may come twice, once as an angular frequency."""
-    used: dict[str, list[Column]] = {}
+    used: dict[str, list[DataColumn]] = {}
     for column in table.columns:
         if column.meaning is None:
             continue
@@ -207,9 +207,9 @@ def _chosen(table: Table) -> dict[str, list[Column]]:
     return used
 
 
-def _unneeded(used: dict[str, list[Column]]) -> list[Column]:
+def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
     """Take out the clock of a dynamic test, and the complex modulus beside E' and E''."""
-    found: list[Column] = []
+    found: list[DataColumn] = []
     if {"storage", "loss", "complex"} & set(used) and "relaxation" not in used:
         found += used.pop("time", [])
     if {"storage", "loss"} <= set(used):
@@ -218,7 +218,11 @@ def _unneeded(used: dict[str, list[Column]]) -> list[Column]:
 
 
 def _in_si(
-    table: Table, column: Column, numbers: FloatArray, given: Mapping[str, Unit], questions: list[Question]
+    table: DataTable,
+    column: DataColumn,
+    numbers: FloatArray,
+    given: Mapping[str, ModulusUnit],
+    questions: list[Question],
 ) -> tuple[Series, list[str]]:
     meaning = column.meaning
     assert meaning is not None  # noqa: S101
@@ -234,19 +238,21 @@ def _in_si(
             f", overriding {' and '.join(differs)} of the file" if differs else ""
         )
     elif dimension in {"number", "label"} and not written:
-        unit, how = Unit("-", 1.0), ""
+        unit, how = ModulusUnit("-", 1.0), ""
     else:
         problem = _unit_problem(meaning, dimension, written, stated)
         if problem:
             questions.append(Question(table.header_row, column, problem))
-        unit = next((u for u in stated if u is not None), Unit("?", 1.0))
+        unit = next((u for u in stated if u is not None), ModulusUnit("?", 1.0))
         how = f"{unit.name} by the {'header' if meaning.unit else 'unit row'}"
     values, scale = _converted(meaning, numbers, unit)
     words = [f"{label}: {spoken(meaning)}", *([f"in {how}"] if how else []), *([scale] if scale else [])]
     return Series(column, meaning, values, unit, override is not None), [", ".join(words)]
 
 
-def _unit_problem(meaning: Meaning, dimension: str, written: list[str], stated: list[Unit | None]) -> str:
+def _unit_problem(
+    meaning: Meaning, dimension: str, written: list[str], stated: list[ModulusUnit | None]
+) -> str:
     if not written:
         which = "Hz or rad/s? " if dimension == "frequency" else ""
         return f"{which}{spoken(meaning)} has no unit; {remedy(dimension)}"
@@ -282,7 +288,7 @@ def spoken(meaning: Meaning) -> str:
     return f"{words} (peak to peak)" if meaning.peak_to_peak else words
 
 
-def _converted(meaning: Meaning, numbers: FloatArray, unit: Unit) -> tuple[FloatArray, str]:
+def _converted(meaning: Meaning, numbers: FloatArray, unit: ModulusUnit) -> tuple[FloatArray, str]:
     """SI values, for shift factors their log10; and how they were converted."""
     base = meaning.log_base
     if meaning.quantity in {"a_T", "b_T"} and base is not None:
@@ -302,7 +308,7 @@ def _converted(meaning: Meaning, numbers: FloatArray, unit: Unit) -> tuple[Float
     return values, ", ".join(words)
 
 
-def _agreed(table: Table, read: list[Series]) -> Series:
+def _agreed(table: DataTable, read: list[Series]) -> Series:
     """Frequency in Hz where the file has an angular frequency too; refused where they contradict."""
     cyclic, angular = read
     apart = np.abs(angular.values - cyclic.values) - FREQUENCY_AGREEMENT * np.abs(cyclic.values)

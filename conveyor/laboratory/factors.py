@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 
-class Unit(NamedTuple):
+class ModulusUnit(NamedTuple):
     """SI value = factor * (number + offset)."""
 
     name: str
@@ -24,11 +24,11 @@ _STANDARD_GRAVITY = 9.80665
 _RADIAN_PER_SECOND = 1.0 / (2.0 * math.pi)
 
 
-def _units(table: Mapping[str, tuple[float, str] | tuple[float, str, float]]) -> dict[str, Unit]:
+def _units(table: Mapping[str, tuple[float, str] | tuple[float, str, float]]) -> dict[str, ModulusUnit]:
     units = {}
     for name, (factor, spellings, *offset) in table.items():
         for spelling in (name, *spellings.split()):
-            units[spelling] = Unit(name, factor, *offset)
+            units[spelling] = ModulusUnit(name, factor, *offset)
     return units
 
 
@@ -95,7 +95,7 @@ _LOOKS = str.maketrans(
 )
 
 
-def find_unit(dimension: str, text: str) -> Unit | None:
+def find_unit(dimension: str, text: str) -> ModulusUnit | None:
     """The unit behind a spelling.
 
     Parameters

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from conveyor.laboratory.cells import Grid, Line
+from conveyor.laboratory.cells import TextGrid, TextLine
 from conveyor.laboratory.decimals import is_number
 from conveyor.laboratory.factors import is_any_unit
 from conveyor.laboratory.names import Meaning, meaning
@@ -16,7 +16,7 @@ EXAMPLE = "a header row such as 'frequency_Hz,storage_MPa,loss_MPa'"
 
 
 @dataclass(frozen=True)
-class Column:
+class DataColumn:
     """One column of the file, by the text of its header and of the unit row."""
 
     index: int
@@ -26,20 +26,20 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Table:
+class DataTable:
     """Header and rows of the one table of a grid."""
 
-    grid: Grid
+    grid: TextGrid
     header_row: int
-    columns: tuple[Column, ...]
-    rows: tuple[Line, ...]
+    columns: tuple[DataColumn, ...]
+    rows: tuple[TextLine, ...]
     blocks: tuple[int, ...]
     metadata: dict[str, str]
     metadata_rows: dict[str, int]
     notes: tuple[str, ...]
 
 
-def has_table(grid: Grid) -> bool:
+def has_table(grid: TextGrid) -> bool:
     """Whether some line names two or more known quantities and rows of numbers follow.
 
     Parameters
@@ -56,7 +56,7 @@ def has_table(grid: Grid) -> bool:
     return bool(headers) and any(_is_data(line) for line in grid.lines[headers[0] + 1 :])
 
 
-def find_table(grid: Grid) -> Table:
+def find_table(grid: TextGrid) -> DataTable:
     """Split a grid into header, unit row and rows.
 
     Parameters
@@ -85,7 +85,7 @@ def find_table(grid: Grid) -> Table:
         raise _no_table(grid, headers)
     first = grid.lines[starts[0]]
     columns, unit_line = _columns(grid, starts[0])
-    rows: list[Line] = []
+    rows: list[TextLine] = []
     blocks: list[int] = []
     notes = [f"row {first.number} is the header"]
     if unit_line is not None:
@@ -118,7 +118,7 @@ def find_table(grid: Grid) -> Table:
             f"{len(silent)} row(s) of numbers are marked as remarks and not read, first row {silent[0]}"
         )
     said = list(_metadata(grid, starts[0]))
-    return Table(
+    return DataTable(
         grid,
         first.number,
         columns,
@@ -130,7 +130,7 @@ def find_table(grid: Grid) -> Table:
     )
 
 
-def _headers(grid: Grid) -> list[int]:
+def _headers(grid: TextGrid) -> list[int]:
     found = []
     for position, line in enumerate(grid.lines):
         if len(line.cells) < 2 or _is_data(line) or any(map(is_number, line.cells)):
@@ -141,11 +141,11 @@ def _headers(grid: Grid) -> list[int]:
     return found
 
 
-def _is_data(line: Line) -> bool:
+def _is_data(line: TextLine) -> bool:
     return not line.comment and bool(line.cells) and sum(map(is_number, line.cells)) >= 2
 
 
-def _columns(grid: Grid, position: int) -> tuple[tuple[Column, ...], int | None]:
+def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int | None]:
     """Columns of the header at `position`, and the position of its unit row if there is one."""
     header = grid.lines[position]
     names = header.cells
@@ -167,7 +167,7 @@ def _columns(grid: Grid, position: int) -> tuple[tuple[Column, ...], int | None]
             " give each column one name and one unit",
         )
     columns = tuple(
-        Column(
+        DataColumn(
             index,
             text,
             meaning(text) if text else None,
@@ -178,7 +178,7 @@ def _columns(grid: Grid, position: int) -> tuple[tuple[Column, ...], int | None]
     return columns, where
 
 
-def _same_columns(grid: Grid, start: int, columns: tuple[Column, ...]) -> None:
+def _same_columns(grid: TextGrid, start: int, columns: tuple[DataColumn, ...]) -> None:
     here, _ = _columns(grid, start)
     for index in range(max(len(here), len(columns))):
         now = here[index] if index < len(here) else None
@@ -193,7 +193,7 @@ def _same_columns(grid: Grid, start: int, columns: tuple[Column, ...]) -> None:
             )
 
 
-def _body(grid: Grid, start: int, end: int, *, last_block: bool) -> tuple[list[Line], list[Line]]:
+def _body(grid: TextGrid, start: int, end: int, *, last_block: bool) -> tuple[list[TextLine], list[TextLine]]:
     """Rows between two positions, and the words before the next block."""
     lines = [line for line in grid.lines[start:end] if not line.comment]
     stop = len(lines)
@@ -203,7 +203,7 @@ def _body(grid: Grid, start: int, end: int, *, last_block: bool) -> tuple[list[L
     return lines[:stop], lines[stop:]
 
 
-def _metadata(grid: Grid, header: int) -> Iterator[tuple[str, str, int]]:
+def _metadata(grid: TextGrid, header: int) -> Iterator[tuple[str, str, int]]:
     """`key: value` (or `=`) of remark lines anywhere and of lines before the header, rows of two cells there; line."""
     for position, line in enumerate(grid.lines):
         if not line.comment and position >= header:
@@ -217,7 +217,7 @@ def _metadata(grid: Grid, header: int) -> Iterator[tuple[str, str, int]]:
             yield line.cells[0].rstrip(": "), line.cells[1], line.number
 
 
-def _no_table(grid: Grid, headers: Sequence[int]) -> Exception:
+def _no_table(grid: TextGrid, headers: Sequence[int]) -> Exception:
     data = next((position for position, line in enumerate(grid.lines) if _is_data(line)), None)
     if data is None:
         row = grid.lines[headers[0]].number if headers else (grid.lines[0].number if grid.lines else 1)

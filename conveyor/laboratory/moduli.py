@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from conveyor.laboratory.columns import Series, column_label
-from conveyor.laboratory.layout import Table
+from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.table import FloatArray
 
 TAN_DELTA_AGREEMENT = 0.05
@@ -35,7 +35,7 @@ class Moduli:
     notes: tuple[str, ...]
 
 
-def dynamic_moduli(table: Table, series: Mapping[str, Series]) -> Moduli | None:
+def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | None:
     r"""E' and E'', still with the letter of the file (see `to_tensile`).
 
     Parameters
@@ -89,7 +89,7 @@ def dynamic_moduli(table: Table, series: Mapping[str, Series]) -> Moduli | None:
     return None
 
 
-def _agrees(table: Table, storage: Series, loss: Series, angle: Series, tangent: FloatArray) -> str:
+def _agrees(table: DataTable, storage: Series, loss: Series, angle: Series, tangent: FloatArray) -> str:
     apart = np.abs(loss.values / storage.values - tangent) - TAN_DELTA_AGREEMENT * tangent
     worst = int(np.argmax(apart))
     if apart[worst] > TAN_DELTA_DIGIT:
@@ -103,7 +103,7 @@ def _agrees(table: Table, storage: Series, loss: Series, angle: Series, tangent:
     return f"{column_label(table.grid, angle.column)} agrees with E''/E' and is not needed"
 
 
-def to_tensile(table: Table, used: tuple[Series, ...], poisson_ratio: float) -> tuple[float, str]:
+def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float) -> tuple[float, str]:
     """Factor from the moduli of the file to tensile ones.
 
     Parameters

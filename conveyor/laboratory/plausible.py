@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.laboratory.columns import Question, Series, remedy, spoken
-from conveyor.laboratory.layout import Table
+from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.moduli import Moduli
 
 STORAGE_RANGE = (1.0e4, 1.0e11)
@@ -39,7 +39,7 @@ _POSITIVE = {
 }
 
 
-def check_possible(table: Table, series: Mapping[str, Series]) -> None:
+def check_possible(table: DataTable, series: Mapping[str, Series]) -> None:
     """Refuse what cannot be in any unit.
 
     Parameters
@@ -79,7 +79,7 @@ def check_possible(table: Table, series: Mapping[str, Series]) -> None:
             )
 
 
-def _refuse(table: Table, found: Series, bad: NDArray[np.bool_], what: str) -> None:
+def _refuse(table: DataTable, found: Series, bad: NDArray[np.bool_], what: str) -> None:
     rows = np.flatnonzero(bad)
     if rows.size:
         line = table.rows[rows[0]]
@@ -91,7 +91,7 @@ def _refuse(table: Table, found: Series, bad: NDArray[np.bool_], what: str) -> N
         )
 
 
-def doubts(table: Table, series: Mapping[str, Series], moduli: Moduli | None) -> Iterator[Question]:
+def doubts(table: DataTable, series: Mapping[str, Series], moduli: Moduli | None) -> Iterator[Question]:
     """Values that are possible, but not in the unit the file states.
 
     Parameters
@@ -126,13 +126,13 @@ def doubts(table: Table, series: Mapping[str, Series], moduli: Moduli | None) ->
             )
 
 
-def _question(table: Table, found: Series, row: int, text: str) -> Question:
+def _question(table: DataTable, found: Series, row: int, text: str) -> Question:
     line = table.rows[row]
     value = line.cells[found.column.index]
     return Question(line.number, found.column, f"{spoken(found.meaning)} = {value} {text}")
 
 
-def _modulus_doubts(table: Table, series: Mapping[str, Series]) -> Iterator[Question]:
+def _modulus_doubts(table: DataTable, series: Mapping[str, Series]) -> Iterator[Question]:
     low, high = STORAGE_RANGE
     for quantity in ("storage", "complex", "relaxation"):
         found = series.get(quantity)
@@ -150,7 +150,7 @@ def _modulus_doubts(table: Table, series: Mapping[str, Series]) -> Iterator[Ques
             )
 
 
-def _loss_doubts(table: Table, moduli: Moduli) -> Iterator[Question]:
+def _loss_doubts(table: DataTable, moduli: Moduli) -> Iterator[Question]:
     tangent = moduli.loss / moduli.storage
     rows = np.flatnonzero(tangent > HIGHEST_TAN_DELTA)
     swapped = np.median(tangent) > USUAL_TAN_DELTA
@@ -168,7 +168,7 @@ def _loss_doubts(table: Table, moduli: Moduli) -> Iterator[Question]:
     )
 
 
-def _temperature_doubts(table: Table, found: Series) -> Iterator[Question]:
+def _temperature_doubts(table: DataTable, found: Series) -> Iterator[Question]:
     low, high = TEMPERATURE_RANGE
     impossible = np.flatnonzero(found.values <= 0.0)
     if impossible.size:

@@ -14,11 +14,11 @@ import numpy as np
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
 from conveyor.laboratory.arrange import Arrangement, arrange
-from conveyor.laboratory.cells import Grid, refusal
+from conveyor.laboratory.cells import TextGrid, refusal
 from conveyor.laboratory.columns import Question, Series, check_units, column_label, read_columns
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
-from conveyor.laboratory.layout import EXAMPLE, Table, find_table, has_table
+from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table
 from conveyor.laboratory.moduli import Moduli, dynamic_moduli, equivalent_strain, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
@@ -125,7 +125,7 @@ def read_dma(
     return replace(_assembled(Path(path), table, decision.kind, columns, found), understood=tuple(notes))
 
 
-def _grid(path: Path, sheet: str | None) -> Grid:
+def _grid(path: Path, sheet: str | None) -> TextGrid:
     """The text, or the one sheet with a table."""
     data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
     if not data.startswith(MAGIC):
@@ -161,7 +161,7 @@ def _grid(path: Path, sheet: str | None) -> Grid:
 
 
 def _quantities(
-    table: Table,
+    table: DataTable,
     series: Mapping[str, Series],
     questions: list[Question],
     poisson_ratio: float,
@@ -197,7 +197,7 @@ def _quantities(
     return columns, notes
 
 
-def _ask(table: Table, questions: list[Question]) -> None:
+def _ask(table: DataTable, questions: list[Question]) -> None:
     if not questions:
         return
     first, *others = questions
@@ -216,7 +216,7 @@ def _dimension(question: Question) -> str:
 
 
 def _tensile(
-    table: Table, series: Mapping[str, Series], moduli: Moduli | None, poisson_ratio: float
+    table: DataTable, series: Mapping[str, Series], moduli: Moduli | None, poisson_ratio: float
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """Tensile moduli by their names in `DmaData`, and how they were derived."""
     used: list[Series] = []
@@ -237,7 +237,7 @@ def _tensile(
 
 
 def _decision(
-    table: Table,
+    table: DataTable,
     columns: dict[str, FloatArray],
     labels: IntArray | None,
     series: Mapping[str, Series],
@@ -265,7 +265,7 @@ def _decision(
     return decision
 
 
-def _missing(table: Table, present: set[str], what: str) -> InputError:
+def _missing(table: DataTable, present: set[str], what: str) -> InputError:
     unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
     named = {c.meaning.quantity for c in table.columns if c.meaning is not None}
     have = ", ".join(sorted(present | named))
@@ -280,7 +280,7 @@ def _missing(table: Table, present: set[str], what: str) -> InputError:
     )
 
 
-def _order_notes(table: Table, kind: str, found: Arrangement) -> list[str]:
+def _order_notes(table: DataTable, kind: str, found: Arrangement) -> list[str]:
     """Sentences on sorting, duplicate runs and the number of sweeps."""
     notes = []
     rows = _rows(table)
@@ -300,7 +300,7 @@ def _order_notes(table: Table, kind: str, found: Arrangement) -> list[str]:
 
 
 def _assembled(
-    path: Path, table: Table, kind: str, columns: dict[str, FloatArray], found: Arrangement
+    path: Path, table: DataTable, kind: str, columns: dict[str, FloatArray], found: Arrangement
 ) -> DmaData:
     """Sorted, frozen, without the notes."""
     order = found.order
@@ -335,7 +335,7 @@ def _assembled(
     )
 
 
-def _rows(table: Table) -> IntArray:
+def _rows(table: DataTable) -> IntArray:
     return np.array([line.number for line in table.rows], dtype=np.int64)
 
 

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from contextlib import suppress
 
-from conveyor.laboratory.cells import Grid, Line
+from conveyor.laboratory.cells import TextGrid, TextLine
 from conveyor.laboratory.decimals import is_number
 
 _SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
@@ -16,7 +16,7 @@ _SAMPLE = 400
 """Lines looked at to find the separator; every other line is checked when it is read."""
 
 
-def text_grid(text: str, name: str, notes: tuple[str, ...]) -> Grid:
+def text_grid(text: str, name: str, notes: tuple[str, ...]) -> TextGrid:
     r"""Split a text into cells.
 
     Parameters
@@ -57,8 +57,8 @@ def text_grid(text: str, name: str, notes: tuple[str, ...]) -> Grid:
         cells = _split(body, separator)
         if (comment or len(cells) != width) and not any(map(is_number, cells)):
             cells = _split_text(body, separator, width)
-        lines.append(Line(number, cells, body.strip(), comment is not None))
-    return Grid(name, tuple(lines), (*notes, f"separator: {_SEPARATORS[separator]}"))
+        lines.append(TextLine(number, cells, body.strip(), comment is not None))
+    return TextGrid(name, tuple(lines), (*notes, f"separator: {_SEPARATORS[separator]}"))
 
 
 def _separator(lines: list[str]) -> tuple[str, int]:

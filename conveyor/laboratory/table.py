@@ -27,7 +27,7 @@ KINDS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm:
+class IsothermRows:
     """One frequency sweep at one temperature, by ascending frequency.
 
     Parameters
@@ -58,7 +58,7 @@ class Isotherm:
 
 
 @dataclass(frozen=True, eq=False)
-class StrainSweep:
+class StrainRows:
     """One strain sweep at one temperature and frequency, by ascending strain.
 
     Parameters
@@ -148,7 +148,7 @@ class DmaData:
     understood: tuple[str, ...]
     source: str
 
-    def isotherms(self) -> tuple[Isotherm, ...]:
+    def isotherms(self) -> tuple[IsothermRows, ...]:
         """Frequency sweeps by ascending temperature, duplicate runs apart.
 
         Returns
@@ -182,7 +182,7 @@ class DmaData:
                     f" {np.ptp(inside):.3g} K, not one temperature; a column 'set' can tell isotherms apart"
                 )
             found.append(
-                Isotherm(
+                IsothermRows(
                     float(np.mean(inside)),
                     float(np.ptp(inside)),
                     self.frequency[rows],
@@ -194,7 +194,7 @@ class DmaData:
             )
         return tuple(sorted(found, key=lambda isotherm: isotherm.temperature))
 
-    def strain_sweeps(self) -> tuple[StrainSweep, ...]:
+    def strain_sweeps(self) -> tuple[StrainRows, ...]:
         """Strain sweeps by ascending temperature, duplicate runs apart.
 
         Returns
@@ -210,7 +210,7 @@ class DmaData:
         if self.kind != "strain sweep" or self.strain is None or self.storage is None or self.loss is None:
             raise InputError(f"{self.source}: holds a {self.kind}, not a strain sweep; give kind (--kind)")
         return tuple(
-            StrainSweep(
+            StrainRows(
                 None if self.temperature is None else float(np.mean(self.temperature[rows])),
                 None if self.frequency is None else float(np.mean(self.frequency[rows])),
                 self.strain[rows],

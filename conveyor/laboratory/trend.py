@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from conveyor.laboratory.arrange import SWEPT, Arrangement
-from conveyor.laboratory.layout import Table
+from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.table import FloatArray
 
 SCATTER = 0.8
 """A modulus that changes the wrong way by less than this factor may be flat with scatter [-]."""
 
 
-def check_trend(table: Table, kind: str, columns: dict[str, FloatArray], found: Arrangement) -> None:
+def check_trend(table: DataTable, kind: str, columns: dict[str, FloatArray], found: Arrangement) -> None:
     """Compare both ends of a sorted series.
 
     Parameters
@@ -78,7 +78,7 @@ def check_trend(table: Table, kind: str, columns: dict[str, FloatArray], found: 
         )
 
 
-def _refuse(table: Table, row: int, quantity: str, other: str, what: str) -> None:
+def _refuse(table: DataTable, row: int, quantity: str, other: str, what: str) -> None:
     column = next(
         (
             c

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from conveyor.errors import InputError
-from conveyor.laboratory.cells import Grid, Line, refusal
+from conveyor.laboratory.cells import TextGrid, TextLine, refusal
 from conveyor.laboratory.decimals import DATE_MARK, PERCENT_MARK
 
 MAGIC = b"PK\x03\x04"
@@ -40,7 +40,7 @@ _DAMAGE = (
 """What openpyxl raises for archives that are cut, encrypted or not a workbook; XML errors are SyntaxErrors."""
 
 
-def workbook_grids(data: bytes, name: str) -> tuple[Grid, ...]:
+def workbook_grids(data: bytes, name: str) -> tuple[TextGrid, ...]:
     """Read every worksheet.
 
     Parameters
@@ -104,13 +104,13 @@ def _unpacked(data: bytes) -> int:
         return 0
 
 
-def _grid(sheet: Any, name: str) -> Grid:
+def _grid(sheet: Any, name: str) -> TextGrid:
     with sheet._get_source() as source:  # noqa: SLF001
         if source.read().count(b"<c") > MOST_CELLS:
             raise refusal(
                 name, 1, 0, f"more than {MOST_CELLS:,} cells; save the one table as CSV", lettered=True
             )
-    lines: list[Line] = []
+    lines: list[TextLine] = []
     for number, found in _rows(sheet):
         if not (lines[-1].number if lines else 0) < number <= LAST_ROW:
             raise refusal(
@@ -135,8 +135,10 @@ def _grid(sheet: Any, name: str) -> Grid:
         comment = cells[0].startswith("#")
         if comment:
             cells[0] = cells[0].lstrip("# ")
-        lines.append(Line(number, tuple(cells), " ".join(filter(None, cells)), comment))
-    return Grid(name, tuple(lines), (f"workbook, sheet '{sheet.title}'",), lettered=True, sheet=sheet.title)
+        lines.append(TextLine(number, tuple(cells), " ".join(filter(None, cells)), comment))
+    return TextGrid(
+        name, tuple(lines), (f"workbook, sheet '{sheet.title}'",), lettered=True, sheet=sheet.title
+    )
 
 
 def _rows(sheet: Any) -> Iterator[tuple[int, list[Any]]]:

@@ -18,7 +18,7 @@ from conveyor.units import si
 
 
 @dataclass(frozen=True, eq=False)
-class Cover:
+class RunningCover:
     """A cover that rolls run on: thickness [m], rubber at its temperature, Poisson's ratio.
 
     `strain` is what the rubber was softened for; None where it is that of the master curve.
@@ -29,7 +29,7 @@ class Cover:
     poisson: float
     strain: WorkingStrain | None = None
 
-    def like(self, other: Cover) -> bool:
+    def like(self, other: RunningCover) -> bool:
         """Whether it is as thick and of the very same rubber."""
         return self.rubber is other.rubber and (self.thickness, self.poisson) == (
             other.thickness,
@@ -37,7 +37,7 @@ class Cover:
         )
 
 
-Covers = Mapping[Strand, Cover]
+Covers = Mapping[Strand, RunningCover]
 """The cover under each strand."""
 
 
@@ -60,7 +60,7 @@ def rubbers(conveyor: Conveyor, temperature: float) -> dict[Strand, PronySeries]
     return {"carry": series, "return": series if same else back.series(temperature)}
 
 
-def covers_of(conveyor: Conveyor, rubber: Mapping[Strand, PronySeries]) -> dict[Strand, Cover]:
+def covers_of(conveyor: Conveyor, rubber: Mapping[Strand, PronySeries]) -> dict[Strand, RunningCover]:
     """The cover under each strand, of given rubber."""
     thickness = {
         "carry": si(conveyor.belt.bottom_cover.thickness),
@@ -68,14 +68,14 @@ def covers_of(conveyor: Conveyor, rubber: Mapping[Strand, PronySeries]) -> dict[
     }
     compounds = compounds_by_strand(conveyor)
     return {
-        strand: Cover(thickness[strand], rubber[strand], compounds[strand].poisson_ratio)
+        strand: RunningCover(thickness[strand], rubber[strand], compounds[strand].poisson_ratio)
         for strand in STRANDS
     }
 
 
 def softened_covers(
     line: Line, covers: Covers, conveyor: Conveyor, temperature: float
-) -> dict[Strand, Cover]:
+) -> dict[Strand, RunningCover]:
     """The covers at the strain their rolls work them at, where the compounds' sweeps know them at a temperature [K].
 
     Raises
@@ -95,8 +95,8 @@ def softened_covers(
 
 
 def _softened(
-    line: Line, strand: Strand, cover: Cover, factors: AmplitudeFactors | None, temperature: float
-) -> Cover:
+    line: Line, strand: Strand, cover: RunningCover, factors: AmplitudeFactors | None, temperature: float
+) -> RunningCover:
     if factors is None:
         return cover
     kinds = [kind for kind in line.kinds if kind.strand == strand]
@@ -107,7 +107,7 @@ def _softened(
     return replace(cover, rubber=series, strain=strain)
 
 
-def roll_contact(line: Line, kind: RollKind, cover: Cover) -> RollContact:
+def roll_contact(line: Line, kind: RollKind, cover: RunningCover) -> RollContact:
     """The contact of a kind of roll under a cover."""
     return RollContact(
         radius=kind.radius,

@@ -13,7 +13,7 @@ from conveyor.line.line import Line
 from conveyor.loop.estimates import Classical, cema, classical
 from conveyor.loop.frame import Frame
 from conveyor.loop.settled import Settled, settle
-from conveyor.loop.tensions import Loop, State
+from conveyor.loop.tensions import Loop, MotionState
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def balance(frame: Frame, along: tuple[Force, ...], unit_main: float) -> Balance
     return Balance(along, unit_main, settle(Loop(frame, along, further)))
 
 
-def _points(settled: Settled, state: State) -> Iterator[TensionPoint]:
+def _points(settled: Settled, state: MotionState) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
     line, shape = settled.loop.line, settled.loop.line.loop
     way: list[float] = shape.way.tolist()

@@ -9,7 +9,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
 from conveyor.line.stretches import Strand, Stretch
-from conveyor.loop.tensions import State
+from conveyor.loop.tensions import MotionState
 
 MOST_STEPS = 40
 
@@ -40,7 +40,9 @@ class Convergence:
         return self.steps > 1 and self.ratio < 1.0 and max(self.change, self.bound) <= rtol
 
 
-def converged(last: Convergence | None, before: State, now: State, line: Line, largest: float) -> Convergence:
+def converged(
+    last: Convergence | None, before: MotionState, now: MotionState, line: Line, largest: float
+) -> Convergence:
     """Judge one more step of the iteration.
 
     Parameters
@@ -72,12 +74,12 @@ def converged(last: Convergence | None, before: State, now: State, line: Line, l
     return found
 
 
-def curve_tensions(line: Line, steady: State) -> list[tuple[Stretch, float, float]]:
+def curve_tensions(line: Line, steady: MotionState) -> list[tuple[Stretch, float, float]]:
     """Stretches on vertical curves with their radius [m] and mean tension in steady running [N]."""
     return list(_curve_tensions(line, steady))
 
 
-def _curve_tensions(line: Line, steady: State) -> Iterator[tuple[Stretch, float, float]]:
+def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, float, float]]:
     radii = {section.name: section.radius for section in line.sections if section.curve is not None}
     means = (0.5 * (steady.starts + steady.ends)).tolist()
     for stretch, tension in zip(line.loop.stretches, means, strict=True):
@@ -85,7 +87,7 @@ def _curve_tensions(line: Line, steady: State) -> Iterator[tuple[Stretch, float,
             yield stretch, radii[stretch.section], tension
 
 
-def pressing_masses(line: Line, steady: State) -> dict[tuple[str, Strand], float]:
+def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     """Mass per length like which tension presses on the rolls of every curve [kg/m]; negative where it lifts."""
     pressing = {}
     for stretch, radius, tension in curve_tensions(line, steady):

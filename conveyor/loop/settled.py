@@ -9,7 +9,7 @@ from functools import cached_property
 
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
-from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, Singles, State
+from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, MotionState, Singles
 
 _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
@@ -67,17 +67,17 @@ class Settled:
     governed_by: Condition
 
     @cached_property
-    def states(self) -> dict[str, State]:
+    def states(self) -> dict[str, MotionState]:
         """Tensions in every state that decides the setting."""
         return {motion.name: self.loop.state(motion, self.setting) for motion in self.motions}
 
     @property
-    def steady(self) -> State:
+    def steady(self) -> MotionState:
         """Steady running."""
         return self.states[STEADY]
 
     @property
-    def unsteady(self) -> State:
+    def unsteady(self) -> MotionState:
         """Start, or a regenerative conveyor's braking, at the start factor."""
         return self.states[START if self.force >= 0.0 else BRAKING]
 

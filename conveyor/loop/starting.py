@@ -12,7 +12,7 @@ from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.settled import braked, coasting
-from conveyor.loop.tensions import State
+from conveyor.loop.tensions import MotionState
 
 COASTING = "drives off"
 
@@ -92,7 +92,7 @@ class Motions:
     brake_to_hold: float
     rolls_back: bool
     slip: SlipLimits | None
-    states: dict[str, State]
+    states: dict[str, MotionState]
 
     @cached_property
     def hardest(self) -> tuple[float, float]:
@@ -142,7 +142,7 @@ def motions(found: Balance) -> Motions:
     )
 
 
-def every_state(found: Balance, moving: Motions) -> tuple[State, ...]:
+def every_state(found: Balance, moving: Motions) -> tuple[MotionState, ...]:
     """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
     return (*found.settled.states.values(), *moving.states.values())
 

@@ -46,7 +46,7 @@ class DriveSide:
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class MotionState:
     """A state of motion with the tensions in it.
 
     Attributes
@@ -280,12 +280,12 @@ class Loop:
             for k, needed in enumerate(motion.sagging):
                 yield Condition("sag", (motion.name, k), needed - motion.shifts[k] + motion.anchor)
 
-    def state(self, motion: Motion, setting: float) -> State:
+    def state(self, motion: Motion, setting: float) -> MotionState:
         """The tensions of a state at a setting of the take-up."""
         level = setting - motion.anchor
         along = self.along(motion.friction, motion.acceleration)
         shifts = level + np.repeat(motion.shifts[:-1], self.frame.runs)
-        return State(
+        return MotionState(
             name=motion.name,
             force=motion.force,
             acceleration=motion.acceleration,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from conveyor.checks import Check
-from conveyor.figures import Said, quoted, said
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor
-from conveyor.pipeline import Calculation
+from conveyor.pipeline import CalculatedConveyor
 from conveyor.remarks.rolls import roll_assumptions, roll_warnings
 from conveyor.units import text
+from conveyor.units.sentences import Said, quoted, said
 
 
 def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
@@ -43,7 +43,7 @@ def _energy(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def warnings(found: Calculation, checked: Iterable[Check]) -> tuple[Said, ...]:
+def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said, ...]:
     """Where an assumption is strained, a default stands in, a criterion is not met, or a figure needs a second look."""
     conveyor = found.conveyor
     return tuple(
@@ -76,7 +76,7 @@ def _rubber(conveyor: Conveyor) -> Iterator[Said]:
             yield said(f'compound "{name}": not known are {quoted("; ".join(compound.missing))}')
 
 
-def _strain(found: Calculation) -> Iterator[Said]:
+def _strain(found: CalculatedConveyor) -> Iterator[Said]:
     """At which strain the moduli were taken, where the compound knows what strain does to it."""
     for strand, compound in compounds_by_strand(found.conveyor).items():
         known, name = compound.strain_dependence, quoted(compound.name)
@@ -109,7 +109,7 @@ def _contact(conveyor: Conveyor) -> Iterator[Said]:
         )
 
 
-def _left_out(found: Calculation) -> Iterator[Said]:
+def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
     line = found.line
     if line.secondary == "itemised":
         if not line.pulleys:
@@ -124,7 +124,7 @@ def _left_out(found: Calculation) -> Iterator[Said]:
         yield said("route.cleaners not given: no cleaner in the figures")
 
 
-def _drive(found: Calculation) -> Iterator[Said]:
+def _drive(found: CalculatedConveyor) -> Iterator[Said]:
     drive, balance = found.conveyor.drive, found.balance
     if balance.settled.least_force < 0.0:
         given = "least_friction" in drive.model_fields_set

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from conveyor.figures import Said, said
 from conveyor.files.libraries import widest_spacings
 from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR
 from conveyor.line.roll_drags import bearing_viscosity, running_drag
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
-from conveyor.pipeline import Calculation
+from conveyor.pipeline import CalculatedConveyor
 from conveyor.units import quantity, same, text
+from conveyor.units.sentences import Said, said
 
 COLD_OIL = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
@@ -108,7 +108,7 @@ def _entries(conveyor: Conveyor) -> Iterator[str]:
             yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
 
 
-def roll_warnings(found: Calculation) -> tuple[Said, ...]:
+def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
     conveyor = found.conveyor
     return (
@@ -205,7 +205,7 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
             )
 
 
-def _set_warnings(found: Calculation) -> Iterator[Said]:
+def _set_warnings(found: CalculatedConveyor) -> Iterator[Said]:
     widest, idlers_of = widest_spacings(), found.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in found.line.stretches if stretch.strand == strand]

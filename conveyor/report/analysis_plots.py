@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.contact import solve
-from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
 from conveyor.units import System
+from conveyor.units.display import unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

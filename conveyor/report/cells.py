@@ -16,10 +16,10 @@ from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.display import unit
 from conveyor.printable import printable
 from conveyor.report.columns import NAMED, OF_ROW, Table
 from conveyor.units import System
+from conveyor.units.display import unit
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)

@@ -15,11 +15,11 @@ from openpyxl.drawing.line import LineProperties
 from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphProperties, RegularTextRun
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.display import headed
 from conveyor.report.cells import ACCENT, legible
 from conveyor.report.columns import Table
-from conveyor.report.places import Place
+from conveyor.report.places import TablePlace
 from conveyor.units import System
+from conveyor.units.display import headed
 
 _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
@@ -81,7 +81,7 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     return chart
 
 
-def power_over_temperature(sheet: Worksheet, place: Place, shown: Table, system: System) -> ScatterChart:
+def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, system: System) -> ScatterChart:
     """Motor power of compounds (all columns but the first) over temperature; the speed is the table's note.
 
     The power axis begins below the least, at a round figure: differences between compounds are what is looked for.
@@ -104,7 +104,7 @@ def power_over_temperature(sheet: Worksheet, place: Place, shown: Table, system:
     return chart
 
 
-def tension(sheet: Worksheet, place: Place) -> ScatterChart:
+def tension(sheet: Worksheet, place: TablePlace) -> ScatterChart:
     """Tension and least tension for sag against the way round the loop."""
     chart = _curves(
         sheet, place, "distance_from_drive", ("tension", "least_for_sag"), title="Tension round the loop"
@@ -114,7 +114,7 @@ def tension(sheet: Worksheet, place: Place) -> ScatterChart:
     return chart
 
 
-def profile(sheet: Worksheet, place: Place, system: System) -> ScatterChart:
+def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
     """Height over the horizontal distance from the tail."""
     words = tuple(headed(name, "length", system) for name in ("horizontal distance from the tail", "height"))
     chart = _curves(sheet, place, "horizontal", ("height",), title="Profile of the route", words=words)
@@ -125,7 +125,7 @@ def profile(sheet: Worksheet, place: Place, system: System) -> ScatterChart:
     return chart
 
 
-def indentation(sheet: Worksheet, shown: Table, place: Place) -> ScatterChart:
+def indentation(sheet: Worksheet, shown: Table, place: TablePlace) -> ScatterChart:
     """Indentation against line load, a curve for each of the first blocks of rows with one label."""
     across, up = place.column("line_load"), place.column("indentation")
     chart = _scatter(
@@ -153,7 +153,7 @@ def _ends(row: Any, following: Any) -> bool:
     return bool(row[0] != following[0] or row[1] > following[1])
 
 
-def moduli(sheet: Worksheet, name: str, place: Place, system: System) -> ScatterChart:
+def moduli(sheet: Worksheet, name: str, place: TablePlace, system: System) -> ScatterChart:
     """E' and E'' against frequency, both axes logarithmic."""
     words = headed("frequency", "frequency", system), headed("modulus", "pressure", system)
     chart = _curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
@@ -166,7 +166,7 @@ def moduli(sheet: Worksheet, name: str, place: Place, system: System) -> Scatter
 
 def _curves(
     sheet: Worksheet,
-    place: Place,
+    place: TablePlace,
     across: str,
     up: Sequence[str],
     *,

@@ -1,6 +1,6 @@
 """Columns, figures and tables of reports: what a number is and where it appears; their names with units are made here.
 
-Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.display`).
+Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.units.display`).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from typing import Any, Final
 
 import pandas as pd
 
-from conveyor.display import Unit, headed, unit
 from conveyor.models.report import Paper
 from conveyor.units import System
+from conveyor.units.display import Unit, headed, unit
 
 OF_ROW: Final = "of row"
 """Kind of a column whose values have the kind of their row's figure."""
@@ -281,7 +281,7 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class Document:
+class ReportHead:
     """What a report is of.
 
     Attributes
@@ -318,7 +318,7 @@ class Document:
 class Contents:
     """What a report holds: its tables in their order, none of them empty, its drawings, the system they are in."""
 
-    document: Document
+    document: ReportHead
     parts: tuple[Table, ...]
     system: System
     drawings: tuple[Drawing, ...] = ()

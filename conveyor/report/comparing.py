@@ -9,8 +9,6 @@ from itertools import combinations
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
-from conveyor.display import MONEY, unit
-from conveyor.figures import celsius
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import earns_nothing
 from conveyor.markup import Html, joined
@@ -20,6 +18,8 @@ from conveyor.report.representations import folded, of_table
 from conveyor.report.tables import Remark, bands, document, provenance
 from conveyor.spec import fingerprint
 from conveyor.units import System
+from conveyor.units.display import MONEY, unit
+from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:
     from conveyor.studies.comparison import CalculatedComparison, ComparedScene

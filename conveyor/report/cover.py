@@ -11,7 +11,6 @@ from openpyxl.styles import Alignment, Border, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.display import headed, unit
 from conveyor.report import charts
 from conveyor.report.cells import (
     ACCENT,
@@ -28,8 +27,9 @@ from conveyor.report.cells import (
     put,
     table,
 )
-from conveyor.report.columns import CHECKS_AND_NOTES, Document, Figure, Table
+from conveyor.report.columns import CHECKS_AND_NOTES, Figure, ReportHead, Table
 from conveyor.report.places import Page
+from conveyor.units.display import headed, unit
 
 _COLUMNS: Final = "ABCDEFG"
 _WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}
@@ -73,7 +73,7 @@ def _gap(sheet: Worksheet, row: int) -> int:
     return row + 1
 
 
-def _head(sheet: Worksheet, about: Document) -> int:
+def _head(sheet: Worksheet, about: ReportHead) -> int:
     put(sheet["A1"], about.title, TITLE)
     sheet.row_dimensions[1].height = 24.0
     made = f"conveyor {version('conveyor')}, spec {about.fingerprint[:16]}"

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.display import unit
 from conveyor.report.plots import colour, grouped, plain, stacked, titled
 from conveyor.units import System
+from conveyor.units.display import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from conveyor.display import unit
 from conveyor.markup import Html, element, escaped, joined
 from conveyor.models.report import Paper
 from conveyor.report.columns import NAMED, OF_ROW, Column, Figure, Table
 from conveyor.report.page_style import style
 from conveyor.units import System
+from conveyor.units.display import unit
 
 _WIDE = 8  # columns beyond which a table is set smaller on paper
 _SHORT = 12  # rows up to which a table is kept on one page

@@ -36,7 +36,7 @@ def define(sheet: Worksheet, name: str, cells: str) -> None:
 
 
 @dataclass(frozen=True)
-class Place:
+class TablePlace:
     """Rows of a table's header and of its last row, its columns by name; whole if no row is left out."""
 
     header: int
@@ -81,7 +81,7 @@ class Page:
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
-    ) -> Place:
+    ) -> TablePlace:
         """Write a table, its heading at (row, column) and its header in the row below; name it and its figures."""
         part = self.contents[key].on_sheet()
         top = row
@@ -94,7 +94,7 @@ class Page:
             put(self.sheet.cell(row, column + 2), words, GREY)
             shown = replace(part, rows=part.rows[:SHOWN_ROWS])
         last = table(self.sheet, shown, self.contents.system, top, column, widest=widest)
-        place = Place(top, last, column, tuple(each.key for each in part.columns), whole)
+        place = TablePlace(top, last, column, tuple(each.key for each in part.columns), whole)
         if whole:
             define(self.sheet, f"table_{key}", place.cells)
             if part.links:
@@ -105,7 +105,7 @@ class Page:
                 total(self.sheet, last + 1, part, self.contents.system)
         return place
 
-    def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> Place:
+    def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> TablePlace:
         """Write the one table of a sheet: its header stays in view and is printed on each page."""
         place = self.place(key, 1, widest=widest)
         self.sheet.freeze_panes = frozen
@@ -114,7 +114,7 @@ class Page:
             self.sheet.auto_filter.ref = place.cells
         return place
 
-    def stacked(self, keys: Iterable[str], row: int = 1) -> dict[str, Place]:
+    def stacked(self, keys: Iterable[str], row: int = 1) -> dict[str, TablePlace]:
         """Write tables under one another, those that there are, each with its note; where each stands."""
         places = {}
         for key in keys:
@@ -129,6 +129,6 @@ class Page:
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
 
-    def below(self, place: Place, keys: Iterable[str]) -> None:
+    def below(self, place: TablePlace, keys: Iterable[str]) -> None:
         """Write further tables below one, under one another."""
         self.stacked(keys, place.last + 4)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
-from conveyor.display import unit
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks, saving
 from conveyor.printable import printable
 from conveyor.units import System
+from conveyor.units.display import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from conveyor.display import headed
 from conveyor.markup import Html, element, grid, joined, listing
 from conveyor.report.columns import NAMED, Column, Contents, Figure, Table
 from conveyor.units import System
+from conveyor.units.display import headed
 
 _ROWS = 40  # of a table that a notebook is shown
 

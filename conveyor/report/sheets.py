@@ -11,10 +11,10 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.display import unit
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, put
 from conveyor.report.places import Page, define
+from conveyor.units.display import unit
 
 _CHART_COLUMN = "F"
 _CURVES_COLUMN = "H"

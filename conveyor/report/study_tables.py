@@ -7,13 +7,13 @@ from dataclasses import replace
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
 
-from conveyor.display import MONEY
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.markup import Html, element, joined
 from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
+from conveyor.units.display import MONEY
 
 if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies

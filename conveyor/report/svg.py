@@ -8,10 +8,10 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
-from conveyor.figures import RAISED
 from conveyor.markup import Html, element
 from conveyor.printable import printable
 from conveyor.report.plots import colour, drawing
+from conveyor.units.sentences import RAISED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -20,8 +20,6 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from conveyor.checks import Check, checks
-from conveyor.display import MONEY, strength_of, unit
-from conveyor.figures import band_words
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.take_up import mean_tension, take_up_mass
 from conveyor.line.covers import compounds_by_strand
@@ -30,7 +28,7 @@ from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import Classical
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.pipeline import Calculation, StretchResult
+from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, warnings
 from conveyor.report import analysis_plots, loop_plots
 from conveyor.report.columns import (
@@ -38,10 +36,10 @@ from conveyor.report.columns import (
     OF_ROW,
     Column,
     Contents,
-    Document,
     Drawing,
     Figure,
     OnPage,
+    ReportHead,
     Table,
     figures,
 )
@@ -50,6 +48,8 @@ from conveyor.report.study_tables import of_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.units import Quantity, System, text
+from conveyor.units.display import MONEY, strength_of, unit
+from conveyor.units.sentences import band_words
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -58,7 +58,7 @@ _HOUR: Final = 3600.0
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def of_analysis(analysis: Calculation, studies: CalculatedStudies | None = None) -> Contents:
+def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system, found = analysis.conveyor.report.units, checks(analysis)
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
@@ -101,13 +101,13 @@ def of_analysis(analysis: Calculation, studies: CalculatedStudies | None = None)
 
 def document(
     conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()
-) -> Document:
+) -> ReportHead:
     """What a report of a conveyor is of."""
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
     own, paper = conveyor.belt_speed, report.sheet(system)
-    return Document(conveyor.name, kind, said, fingerprint(conveyor), paper, own, facts)
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, own, facts)
 
 
 def identity(conveyor: Conveyor, system: System) -> Table:
@@ -140,7 +140,7 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: Calculation) -> Table:
+def results(a: CalculatedConveyor) -> Table:
     """Figures of the whole conveyor."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
@@ -205,7 +205,7 @@ def inputs(conveyor: Conveyor) -> Table:
     return Table("inputs", "Inputs", "Inputs as entered and in SI", columns, entered(conveyor), page)
 
 
-def sections(a: Calculation) -> Table:
+def sections(a: CalculatedConveyor) -> Table:
     """One row a stretch: geometry, masses, forces; both strands, in running direction."""
     columns = (
         Column("section", "text", attrgetter("stretch.section"), json="section"),
@@ -243,7 +243,7 @@ def _set_life(r: StretchResult) -> float | None:
     return life.hours * _HOUR if life is not None and life.whole else None
 
 
-def resistances(a: Calculation) -> Table:
+def resistances(a: CalculatedConveyor) -> Table:
     """Every newton and the law it comes from; the rows add up to the effective tension."""
     by_strand = [
         (f"{force.name}, {strand}", force.kind, newtons, force.source)
@@ -269,7 +269,7 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole else math.nan
 
 
-def breakdown(a: Calculation) -> Table:
+def breakdown(a: CalculatedConveyor) -> Table:
     """Sums of the forces by what they are, and their share."""
     forces = a.balance.forces
     columns = (
@@ -281,7 +281,7 @@ def breakdown(a: Calculation) -> Table:
     return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts))
 
 
-def classical(a: Calculation) -> Table:
+def classical(a: CalculatedConveyor) -> Table:
     """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
     found, forces = a.balance, a.balance.forces
     estimates = [("classical, given f", found.classical), ("CEMA classic, given Ky", found.cema)]
@@ -316,7 +316,7 @@ def _nth(i: int) -> Getter:
     return lambda figure: figure.value[i]
 
 
-def rolls(a: Calculation) -> Table:
+def rolls(a: CalculatedConveyor) -> Table:
     """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
     columns = (
         Column("section", "text", lambda row: row[0].stretch.section),
@@ -350,7 +350,7 @@ def rolls(a: Calculation) -> Table:
     return Table("rolls", "Rolls", "Rolls of a set, contact at the highest line load", columns, rows)
 
 
-def highest_rolls(a: Calculation) -> Table:
+def highest_rolls(a: CalculatedConveyor) -> Table:
     """The highest loaded roll of every section; on the page only."""
     every = rolls(a)
     by_stretch: dict[tuple[str, str], list[Any]] = {}
@@ -363,7 +363,7 @@ def highest_rolls(a: Calculation) -> Table:
     return Table("highest_rolls", "", caption, every.columns, highest, page, note)
 
 
-def tensions(a: Calculation) -> Table:
+def tensions(a: CalculatedConveyor) -> Table:
     """Tension round the loop in steady running, from the drive back to it."""
     columns = (
         Column("place", "text", attrgetter("place")),
@@ -375,7 +375,7 @@ def tensions(a: Calculation) -> Table:
     return Table("tensions", "Tensions", heading, columns, a.balance.points)
 
 
-def profile(a: Calculation) -> Table:
+def profile(a: CalculatedConveyor) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
     sections = a.line.sections
     along = accumulate((section.length for section in sections), initial=0.0)
@@ -399,7 +399,7 @@ def boundaries(line: Line) -> list[tuple[float, float]]:
     return found
 
 
-def section_ends(a: Calculation) -> Table:
+def section_ends(a: CalculatedConveyor) -> Table:
     """One row a stretch: steady running and the state of the highest tension; on the page only."""
     settled, shape = a.balance.settled, a.line.loop
     columns = [
@@ -421,7 +421,7 @@ def _of(values: Any) -> Getter:
     return lambda i: float(values[i])
 
 
-def tension_states(a: Calculation) -> Table:
+def tension_states(a: CalculatedConveyor) -> Table:
     """Tension at both ends of every stretch in every state, in loop order from the head."""
     settled, shape = a.balance.settled, a.line.loop
     columns = [
@@ -443,7 +443,7 @@ def _of_end(state: Any) -> Getter:
     return lambda at: float((state.starts, state.ends)[at[1]][at[0]])
 
 
-def drives(a: Calculation) -> Table:
+def drives(a: CalculatedConveyor) -> Table:
     """One row a drive and state: force, power, tensions before and behind, grip used."""
     motor, states = a.balance.frame.motor, a.balance.settled.states
     columns = (
@@ -469,7 +469,7 @@ def drives(a: Calculation) -> Table:
     )
 
 
-def take_up(a: Calculation) -> Table:
+def take_up(a: CalculatedConveyor) -> Table:
     """Setting of the take-up, what asks for it, its mass or pull."""
     settled = a.balance.settled
     unit_of, gravity = a.line.take_up, a.line.gravity
@@ -490,7 +490,7 @@ def take_up(a: Calculation) -> Table:
     return figures("take_up", "Loop", "Take-up", rows, page=page, note=note, prefix="take_up_")
 
 
-def conditions(a: Calculation) -> Table:
+def conditions(a: CalculatedConveyor) -> Table:
     """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
     settled = a.balance.settled
     columns = (
@@ -505,7 +505,7 @@ def conditions(a: Calculation) -> Table:
     return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
 
 
-def start_stop(a: Calculation) -> Table:
+def start_stop(a: CalculatedConveyor) -> Table:
     """Start, stop, brakes and the limits of the bulk."""
     moving = a.motions
     start, slip = moving.start, moving.slip
@@ -542,7 +542,7 @@ def start_stop(a: Calculation) -> Table:
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
 
 
-def belt_strength_table(a: Calculation) -> Table:
+def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
@@ -558,7 +558,7 @@ def belt_strength_table(a: Calculation) -> Table:
     return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
 
 
-def pulleys(a: Calculation) -> Table:
+def pulleys(a: CalculatedConveyor) -> Table:
     """One row a pulley: its diameter beside the least one."""
     columns = (
         Column("pulley", "text", attrgetter("name")),
@@ -574,7 +574,7 @@ def pulleys(a: Calculation) -> Table:
     )
 
 
-def vertical_curves(a: Calculation) -> Table:
+def vertical_curves(a: CalculatedConveyor) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones."""
     columns = (
         Column("section", "text", attrgetter("section")),
@@ -591,7 +591,7 @@ def vertical_curves(a: Calculation) -> Table:
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
 
 
-def convergence(a: Calculation) -> Table:
+def convergence(a: CalculatedConveyor) -> Table:
     """How tensions and roll loads settled on the curves; empty without curves."""
     found = a.convergence
     rows = () if found is None else (
@@ -604,12 +604,12 @@ def convergence(a: Calculation) -> Table:
     return figures("convergence", "Loop", heading, rows, page=(OnPage("belt", f"{heading} on the curves"),))
 
 
-def _contacts(a: Calculation) -> dict[Any, Any]:
+def _contacts(a: CalculatedConveyor) -> dict[Any, Any]:
     """Every distinct load curve and the last stretch that runs on it."""
     return {roll.curve: r for r in a.stretches for roll in r.rolls}
 
 
-def contact_solutions(a: Calculation) -> Table:
+def contact_solutions(a: CalculatedConveyor) -> Table:
     """One row a distinct contact: its range of loads, what the curve cost, its errors."""
     columns = (
         Column("strand", "text", lambda row: row[1].stretch.strand),
@@ -633,7 +633,7 @@ def contact_solutions(a: Calculation) -> Table:
     return Table("contact_solutions", "Indentation", heading, columns, rows, page)
 
 
-def indentation(a: Calculation) -> Table:
+def indentation(a: CalculatedConveyor) -> Table:
     """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
     seen: dict[Any, str] = {}
     for r in a.stretches:
@@ -658,7 +658,7 @@ def indentation(a: Calculation) -> Table:
     return Table("indentation", "Indentation", heading, declared, tuple(rows))
 
 
-def rubber(a: Calculation) -> Table:
+def rubber(a: CalculatedConveyor) -> Table:
     """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
     at, rows = a.temperature, []
     for strand, compound in compounds_by_strand(a.conveyor).items():
@@ -705,7 +705,7 @@ def _words(get: Getter) -> Getter:
     return words
 
 
-def compounds(a: Calculation, system: System) -> Iterator[Table]:
+def compounds(a: CalculatedConveyor, system: System) -> Iterator[Table]:
     """What is known of the rubber of each strand, its relaxation spectrum, its moduli."""
     at, seen = a.temperature, set()
     for strand, compound in compounds_by_strand(a.conveyor).items():
@@ -810,7 +810,7 @@ class Remark(tuple[str, str]):
     text = property(itemgetter(1))
 
 
-def remarks(a: Calculation, found: tuple[Check, ...], system: System) -> Table:
+def remarks(a: CalculatedConveyor, found: tuple[Check, ...], system: System) -> Table:
     """Warnings, assumptions, and the notes of the spec."""
     columns = (
         Column("kind", "text", attrgetter("kind")),
@@ -839,7 +839,7 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drawings(a: Calculation, system: System) -> Iterator[Drawing]:
+def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
@@ -879,7 +879,7 @@ def drawings(a: Calculation, system: System) -> Iterator[Drawing]:
         )
 
 
-def plain(a: Calculation) -> dict[str, Any]:
+def plain(a: CalculatedConveyor) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key."""
     found = a.balance
     power, settled, year = found.power, found.settled, None if a.conveyor.duty else a.year

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.common_curve import KNOT_SPACING, MAX_KNOTS, ORDER, Basis, Curve, Smoother, basis
-from conveyor.rubber.overlap import Sheet, reach
+from conveyor.rubber.overlap import LogIsotherm, reach
 
 Curves = tuple[Curve, ...]
 """One of each modulus that counts."""
@@ -98,7 +98,7 @@ class JointShift:
     without an overlap nothing contradicts.
     """
 
-    def __init__(self, sheets: list[Sheet], *, moduli: tuple[int, ...], vertical: bool) -> None:
+    def __init__(self, sheets: list[LogIsotherm], *, moduli: tuple[int, ...], vertical: bool) -> None:
         self.moduli = moduli
         self.count = len(sheets)
         self.x = np.concatenate([s.x for s in sheets])

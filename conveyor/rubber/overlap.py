@@ -22,7 +22,7 @@ END_ROWS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class LogIsotherm:
     """One isotherm in logarithms, by ascending frequency.
 
     Parameters
@@ -74,14 +74,14 @@ class Overlap:
     loss: float
 
 
-def differences(cold: Sheet, hot: Sheet, shift: FloatArray) -> FloatArray:
+def differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> FloatArray:
     """Difference of the moduli, cold less hot, at every row of both; NaN outside the overlap.
 
     Parameters
     ----------
-    cold : Sheet
+    cold : LogIsotherm
         The colder isotherm.
-    hot : Sheet
+    hot : LogIsotherm
         The hotter one.
     shift : numpy.ndarray
         log10 a_T of the cold one less that of the hot one, shape `(m,)` [decades].
@@ -106,14 +106,14 @@ def differences(cold: Sheet, hot: Sheet, shift: FloatArray) -> FloatArray:
     )
 
 
-def reach(cold: Sheet, hot: Sheet, share: float = LEAST_OVERLAP) -> tuple[float, float]:
+def reach(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERLAP) -> tuple[float, float]:
     """Shifts between which a share of the shorter isotherm lies in the overlap.
 
     Parameters
     ----------
-    cold : Sheet
+    cold : LogIsotherm
         The colder isotherm.
-    hot : Sheet
+    hot : LogIsotherm
         The hotter one.
     share : float
         Of the shorter isotherm [-].
@@ -127,14 +127,16 @@ def reach(cold: Sheet, hot: Sheet, share: float = LEAST_OVERLAP) -> tuple[float,
     return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
 
 
-def first_guess(cold: Sheet, hot: Sheet, *, moduli: tuple[int, ...], vertical: bool) -> tuple[float, float]:
+def first_guess(
+    cold: LogIsotherm, hot: LogIsotherm, *, moduli: tuple[int, ...], vertical: bool
+) -> tuple[float, float]:
     """Shift that makes the mean square difference in the overlap smallest, on a grid.
 
     Parameters
     ----------
-    cold : Sheet
+    cold : LogIsotherm
         The colder isotherm.
-    hot : Sheet
+    hot : LogIsotherm
         The hotter one.
     moduli : tuple of int
         Those that count: 0 is E', 1 is E'' [-].
@@ -166,14 +168,14 @@ def first_guess(cold: Sheet, hot: Sheet, *, moduli: tuple[int, ...], vertical: b
     return float(grid[best]), float(offset[best])
 
 
-def overlap(cold: Sheet, hot: Sheet, shift: float, offset: float, *, held: bool) -> Overlap:
+def overlap(cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool) -> Overlap:
     """Sum up the overlap of two neighbours.
 
     Parameters
     ----------
-    cold : Sheet
+    cold : LogIsotherm
         The colder isotherm.
-    hot : Sheet
+    hot : LogIsotherm
         The hotter one.
     shift : float
         log10 a_T of the cold one less that of the hot one [decades].
@@ -193,7 +195,7 @@ def overlap(cold: Sheet, hot: Sheet, shift: float, offset: float, *, held: bool)
     return Overlap(cold.temperature, hot.temperature, float(decades), held, float(rms[0]), float(rms[1]))
 
 
-def _check_common_modulus(cold: Sheet, hot: Sheet) -> None:
+def _check_common_modulus(cold: LogIsotherm, hot: LogIsotherm) -> None:
     """Refuse neighbours without a common E': where one ends the other has not begun."""
     for low, high in ((hot, cold), (cold, hot)):
         gap = float(high.y[0].min() - low.y[0].max())
@@ -204,7 +206,7 @@ def _check_common_modulus(cold: Sheet, hot: Sheet) -> None:
             raise _gap(cold, hot, gap / slope if slope > 0.0 else float("inf"))
 
 
-def _gap(cold: Sheet, hot: Sheet, missing: float) -> InputError:
+def _gap(cold: LogIsotherm, hot: LogIsotherm, missing: float) -> InputError:
     return InputError(
         f"the isotherms at {celsius(cold.temperature)} and {celsius(hot.temperature)} do not overlap: no E' is"
         f" common to both, about {missing:.2g} decades of frequency are missing between them; measure a"

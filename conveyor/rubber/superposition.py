@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
 from conveyor.rubber.joint_shift import JointShift, Placed
-from conveyor.rubber.overlap import Overlap, Sheet, first_guess, overlap
+from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
 
 LEAST_ROWS = 3
@@ -216,7 +216,7 @@ def superpose(
     return _result(sheets, t_ref, moduli, joint.minimum(np.array(start).T))
 
 
-def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[Sheet], float]:
+def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[LogIsotherm], float]:
     if len(isotherms) < 2:
         raise InputError(f"a superposition needs >= 2 isotherms; got {len(isotherms)}")
     ordered = sorted(isotherms, key=lambda one: one.temperature)
@@ -231,11 +231,14 @@ def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[Shee
             f" {celsius(float(t[-1]))}; shifts are not extrapolated: choose a reference inside"
         )
     return [
-        Sheet(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss])) for one in ordered
+        LogIsotherm(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss]))
+        for one in ordered
     ], t_ref
 
 
-def _result(sheets: list[Sheet], t_ref: float, moduli: tuple[int, ...], placed: Placed) -> Superposition:
+def _result(
+    sheets: list[LogIsotherm], t_ref: float, moduli: tuple[int, ...], placed: Placed
+) -> Superposition:
     """Move the zero to the reference, and lay the rows out."""
     t = np.array([s.temperature for s in sheets])
     shift, offset = placed.shift, placed.offset

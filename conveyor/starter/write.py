@@ -12,11 +12,11 @@ from typing import Any, Final, Literal, get_args
 
 from ruamel.yaml import YAML
 
-from conveyor.kinds import KINDS as QUANTITIES
-from conveyor.misreadings import on_one_line
 from conveyor.models import Conveyor
-from conveyor.template.layout import Group, Leaf, Part, Table, layout
+from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.units import System, quantity, text
+from conveyor.units.kinds import KINDS as QUANTITIES
+from conveyor.units.misreadings import on_one_line
 
 Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
@@ -143,7 +143,7 @@ class _Writer:
         self._units: System = units
         self._words = _read("words.yaml")
 
-    def group(self, group: Group, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    def group(self, group: FieldGroup, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
         """Write the fields of a model that the data have, in the model's order."""
         for part in group.parts:
             if part.key in data:
@@ -161,12 +161,12 @@ class _Writer:
             yield from _beside(f"{indent}{part.key}: {_scalar(value)}", self._comment(part, path, value))
             return
         yield from _beside(f"{indent}{part.key}:", self._comment(part, path))
-        if isinstance(part, Group):
+        if isinstance(part, FieldGroup):
             yield from self.group(part, data, path)
         else:
             yield from self._table(part, data, path)
 
-    def _table(self, table: Table, data: list[dict[str, Any]], path: tuple[str, ...]) -> Iterator[str]:
+    def _table(self, table: FieldTable, data: list[dict[str, Any]], path: tuple[str, ...]) -> Iterator[str]:
         """Write what the fields of a row mean, then the rows."""
         indent = "  " * len(path)
         shown = dict.fromkeys(key for row in data for key in row)

@@ -15,13 +15,13 @@ from typing import Final
 from conveyor.arguments import checked
 from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
 from conveyor.errors import InputError
-from conveyor.figures import Said, quoted, said
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
 from conveyor.loop.settled import holds
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
-from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.units import display
+from conveyor.units.sentences import Said, quoted, said
 
 MOTOR_RESERVE: Final = 1.1
 """Rated power over the largest needed one [-]; general knowledge (10 to 15 % is customary), not a source."""
@@ -43,7 +43,7 @@ class CaseResult:
     """
 
     case: LoadCase
-    found: Calculation
+    found: CalculatedConveyor
     friction_band: tuple[float, float]
 
     @property
@@ -238,7 +238,7 @@ def analyse_cases(
     answers = calculate_many([Variant(variant) for _, _, variant in made], rtol, progress)
     results = []
     for (case, setting, _), found in zip(made, answers, strict=True):
-        if isinstance(found, Calculation):
+        if isinstance(found, CalculatedConveyor):
             results.append(CaseResult(case, found, band))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))

@@ -18,7 +18,7 @@ from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
-from conveyor.pipeline import Calculation, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
@@ -147,15 +147,15 @@ def of_compound(
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
     answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
-    found: list[Calculation] = []
+    found: list[CalculatedConveyor] = []
     refused = []
     for setting in settings:
         answer = next(answers) if isinstance(setting.conveyor, Conveyor) else setting.conveyor
-        if isinstance(answer, Calculation):
+        if isinstance(answer, CalculatedConveyor):
             found.append(answer)
         else:
             refused.append(Refusal(compound.name, setting.temperature, setting.speed, str(answer)))
-    by_temperature: dict[float, list[Calculation]] = {}
+    by_temperature: dict[float, list[CalculatedConveyor]] = {}
     for one in found:
         by_temperature.setdefault(one.temperature, []).append(one)
     bands = {at: _band(compound, at, ones, strands) for at, ones in by_temperature.items()}
@@ -177,7 +177,7 @@ def _strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
 
 
 def _scene(
-    name: str, one: Calculation, strands: frozenset[Strand], band: tuple[float, float] | None
+    name: str, one: CalculatedConveyor, strands: frozenset[Strand], band: tuple[float, float] | None
 ) -> ComparedScene:
     balance, year = one.balance, one.year
     forces, power = balance.forces, balance.power
@@ -205,7 +205,7 @@ def _scene(
     )
 
 
-def _heaviest(found: Calculation, strands: frozenset[Strand]) -> RollResult | None:
+def _heaviest(found: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
     """The roll that loses most, of the strands whose cover is compared."""
     pairs = zip(found.line.stretches, found.contacts.rolls, strict=True)
     rolls = [roll for stretch, several in pairs if stretch.strand in strands for roll in several]
@@ -215,7 +215,7 @@ def _heaviest(found: Calculation, strands: frozenset[Strand]) -> RollResult | No
 def _band(
     compound: RubberCompound,
     temperature: float,
-    found: Sequence[Calculation],
+    found: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
 ) -> tuple[float, float] | None:
     """Factors on the indentation between which nine tenths of the fit's replicas lie, by the roll that loses most.
@@ -236,7 +236,10 @@ def _band(
 
 
 def _coverage(
-    compound: RubberCompound, temperature: float, found: Sequence[Calculation], strands: Iterable[Strand]
+    compound: RubberCompound,
+    temperature: float,
+    found: Sequence[CalculatedConveyor],
+    strands: Iterable[Strand],
 ) -> Coverage | None:
     """What the rolls excite from the slowest speed to the fastest; None without loss."""
     slowest, fastest = min(found, key=lambda one: one.line.speed), max(found, key=lambda one: one.line.speed)

@@ -11,7 +11,7 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import Calculation, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.units import quantity
 
 
@@ -138,7 +138,7 @@ def analyse_duty(
     rows = []
     answers = calculate_many([Variant(variant) for variant in variants], rtol, progress)
     for i, (entry, found) in enumerate(zip(entries, answers, strict=True)):
-        if not isinstance(found, Calculation):
+        if not isinstance(found, CalculatedConveyor):
             raise NoSolutionError(f"operation.duty[{i}] ({entry}): {found}")
         rows.append(_row(entry, found))
     year = duty_sums([row.step for row in rows])
@@ -173,7 +173,7 @@ def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
         raise InputError(f"operation.duty[{place}] ({entry}): {error}") from None
 
 
-def _row(entry: DutyEntry, found: Calculation) -> DutyRow:
+def _row(entry: DutyEntry, found: CalculatedConveyor) -> DutyRow:
     power = found.balance.power
     return DutyRow(
         hours=entry.seconds / 3600.0,

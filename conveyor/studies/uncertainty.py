@@ -23,7 +23,7 @@ from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_belt_temperature_changed
-from conveyor.pipeline import Calculation, NoAnswer, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.rubber import PronySeries
 from conveyor.units import Quantity, display, from_si, text
 
@@ -190,8 +190,8 @@ def study(
     )
 
 
-def _power(found: Calculation | NoAnswer) -> float:
-    if not isinstance(found, Calculation):
+def _power(found: CalculatedConveyor | NoAnswer) -> float:
+    if not isinstance(found, CalculatedConveyor):
         raise found
     return found.balance.power.motor
 

@@ -18,9 +18,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, print_set_up, put
 from conveyor.template.entries import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
-from conveyor.template.fill import Sheets
-from conveyor.template.layout import Group, Leaf
-from conveyor.template.plan import Column, Form, Row, Sheet, label
+from conveyor.template.fill import FilledSheets
+from conveyor.template.layout import FieldGroup, Leaf
+from conveyor.template.plan import FieldColumn, Form, ListSheet, Row, label
 from conveyor.template.rules import Rules, default_text, said
 
 _HEADERS: Final = {"Field": 26, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
@@ -61,7 +61,7 @@ class Book:
         self.book, self.title, self.rules = Workbook(), title, Rules(compounds)
         self.book.remove(self.book.worksheets[0])
 
-    def draw(self, every: Sequence[Sheets]) -> Workbook:
+    def draw(self, every: Sequence[FilledSheets]) -> Workbook:
         """Draw all sheets: every form, after it the lists of its part, last those of no part."""
         for sheets in every:
             for drawn in _in_order(sheets):
@@ -77,7 +77,7 @@ class Book:
 
     # -- forms
 
-    def _form(self, form: Form, sheets: Sheets) -> None:
+    def _form(self, form: Form, sheets: FilledSheets) -> None:
         sheet = self.book.create_sheet(form.name)
         optional = "" if form.required else " May be left empty as a whole."
         _title(sheet, form.name, f"{form.doc}{optional}")
@@ -97,7 +97,7 @@ class Book:
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         for line in form.rows:
             row += 1
-            if isinstance(line.part, Group):
+            if isinstance(line.part, FieldGroup):
                 _heading(sheet, row, line)
             else:
                 self._field(sheet, row, line, sheets.cells.get(line.path, (None, None)))
@@ -142,7 +142,7 @@ class Book:
 
     # -- lists
 
-    def _table(self, table: Sheet, sheets: Sheets) -> None:
+    def _table(self, table: ListSheet, sheets: FilledSheets) -> None:
         sheet = self.book.create_sheet(table.name)
         allowed = f" ({table.table.allowed})" if table.table.allowed else ""
         _title(sheet, table.name, f"{table.table.doc}{allowed}")
@@ -177,7 +177,7 @@ class Book:
     def _column(
         self,
         sheet: Worksheet,
-        of: Column,
+        of: FieldColumn,
         cells: list[tuple[Any, str | None] | None],
         *,
         column: int,
@@ -212,7 +212,7 @@ class Book:
 
     # -- first sheet
 
-    def _how_to(self, sheet: Worksheet, every: Sequence[Sheets]) -> None:
+    def _how_to(self, sheet: Worksheet, every: Sequence[FilledSheets]) -> None:
         """Say how to fill in, and link every sheet, below the fields of the first one."""
         put(sheet.cell(1, 1), f"{self.title}: input", TITLE)
         row = int(sheet.max_row) + 2
@@ -252,7 +252,7 @@ def _lines(text: str, width: int) -> int:
     return sum(max(1, -(-len(line) // width)) for line in text.split("\n"))
 
 
-def _in_order(sheets: Sheets) -> Iterator[Form | Sheet]:
+def _in_order(sheets: FilledSheets) -> Iterator[Form | ListSheet]:
     """Give every form and, after the form of its part, every list; a list's own lists follow it."""
     tables = {table.name: table for table in sheets.plan.tables}
     tops = {name: table for name, table in tables.items() if table.parent is None}

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from conveyor.template.layout import Leaf, Path
-from conveyor.template.plan import Form, Plan, Sheet
-from conveyor.template.workbook import Found, Grid, address
+from conveyor.template.plan import Form, ListSheet, Plan
+from conveyor.template.workbook import CellGrid, CellValue, address
 
 KEY, VALUE, UNIT = "Key", "Value", "Unit"
 """Headers by which the columns of a form are found."""
@@ -23,12 +23,12 @@ _HEADER_ROWS: Final = 60
 
 
 @dataclass(frozen=True)
-class Entry:
+class FieldEntry:
     """The cells of one field."""
 
     place: str
-    value: Found | None
-    unit: Found | None
+    value: CellValue | None
+    unit: CellValue | None
     unit_place: str
 
 
@@ -39,7 +39,7 @@ class Item:
     place: str
     number: int | None
     parent: int | None
-    entries: dict[Path, Entry]
+    entries: dict[Path, FieldEntry]
 
 
 @dataclass
@@ -47,15 +47,15 @@ class Content:
     """The entries of all sheets of a plan, and where each sheet begins."""
 
     plan: Plan
-    entries: dict[Path, Entry] = field(default_factory=dict)
+    entries: dict[Path, FieldEntry] = field(default_factory=dict)
     items: dict[str, list[Item]] = field(default_factory=dict)
     places: dict[str, str] = field(default_factory=dict)
 
 
-class Sheets:
+class SheetReader:
     """Reads the sheets of a plan and notes every problem it meets."""
 
-    def __init__(self, path: str, grids: dict[str, Grid]) -> None:
+    def __init__(self, path: str, grids: dict[str, CellGrid]) -> None:
         self.path, self.grids = path, grids
         self.problems: list[str] = []
 
@@ -85,7 +85,7 @@ class Sheets:
                 self._check_parents(content, sheet, sheet.parent)
         return content
 
-    def _sheet(self, name: str, *, required: bool) -> Grid | None:
+    def _sheet(self, name: str, *, required: bool) -> CellGrid | None:
         """Return a sheet; one that may be empty may be missing too, unless another looks like it."""
         if name in self.grids:
             return self.grids[name]
@@ -100,7 +100,7 @@ class Sheets:
             )
         return None
 
-    def _form(self, grid: Grid, form: Form, content: Content) -> None:
+    def _form(self, grid: CellGrid, form: Form, content: Content) -> None:
         top, columns = self._header(grid, (KEY, VALUE, UNIT))
         if not columns:
             return
@@ -121,9 +121,9 @@ class Sheets:
             else:
                 first[key] = row
                 unit_place = address(grid.name, row, columns[UNIT])
-                content.entries[wanted[key]] = Entry(place, value, unit, unit_place)
+                content.entries[wanted[key]] = FieldEntry(place, value, unit, unit_place)
 
-    def _table(self, grid: Grid, sheet: Sheet, content: Content) -> list[Item]:
+    def _table(self, grid: CellGrid, sheet: ListSheet, content: Content) -> list[Item]:
         top, columns = self._header(grid, (NUMBER,))
         if not columns:
             return []
@@ -149,7 +149,7 @@ class Sheets:
                 self._refuse_strays(grid, row, set(columns.values()))
         return items
 
-    def _header(self, grid: Grid, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
+    def _header(self, grid: CellGrid, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
         """Find the row that names the columns, and its names; no names where there is none."""
         for row in range(1, _HEADER_ROWS + 1):
             columns: dict[str, int] = {}
@@ -175,21 +175,21 @@ class Sheets:
         guess = f'; did you mean "{near[0]}"?' if near else ""
         self.refuse(place, f'unknown key "{key[:80]}"{guess}')
 
-    def _refuse_merged(self, grid: Grid, top: int, columns: set[int]) -> None:
+    def _refuse_merged(self, grid: CellGrid, top: int, columns: set[int]) -> None:
         for first_row, first, last_row, last in grid.merged:
             if last_row > top and any(first <= column <= last for column in columns):
                 begin = address(grid.name, first_row, first)
                 end = address(grid.name, last_row, last).rpartition("!")[2]
                 self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
 
-    def _refuse_strays(self, grid: Grid, row: int, columns: set[int]) -> None:
+    def _refuse_strays(self, grid: CellGrid, row: int, columns: set[int]) -> None:
         """Refuse what stands beside the columns of a list in a row that gives no item."""
         for (r, column), found in grid.cells.items():
             if r == row and column not in columns and found.value is not None:
                 place = address(grid.name, row, column)
                 self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
 
-    def _whole(self, grid: Grid, row: int, column: int) -> int | None:
+    def _whole(self, grid: CellGrid, row: int, column: int) -> int | None:
         found = grid.cells.get((row, column))
         if found is None:
             return None
@@ -200,7 +200,7 @@ class Sheets:
         self.refuse(address(grid.name, row, column), message)
         return None
 
-    def _check_parents(self, content: Content, sheet: Sheet, parent: str) -> None:
+    def _check_parents(self, content: Content, sheet: ListSheet, parent: str) -> None:
         above = [item.number for item in content.items[parent]]
         for item in content.items[sheet.name]:
             count = above.count(item.parent) if item.parent is not None else 0
@@ -210,7 +210,7 @@ class Sheets:
                 self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {found}')
 
 
-def _entry(grid: Grid, row: int, column: int, of_unit: int | None) -> Entry:
+def _entry(grid: CellGrid, row: int, column: int, of_unit: int | None) -> FieldEntry:
     unit = None if of_unit is None else grid.cells.get((row, of_unit))
     unit_place = "" if of_unit is None else address(grid.name, row, of_unit)
-    return Entry(address(grid.name, row, column), grid.cells.get((row, column)), unit, unit_place)
+    return FieldEntry(address(grid.name, row, column), grid.cells.get((row, column)), unit, unit_place)

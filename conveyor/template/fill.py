@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.template.layout import Group, Leaf, Part, Path, Table
+from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, Path
 from conveyor.template.plan import Plan, references, whole, written_out
 from conveyor.template.values import Value, to_cells
 
@@ -28,7 +28,7 @@ class FilledRow:
 
 
 @dataclass
-class Sheets:
+class FilledSheets:
     """The cells of all sheets of a plan."""
 
     plan: Plan
@@ -38,7 +38,7 @@ class Sheets:
     items: dict[str, list[FilledRow]] = field(default_factory=dict)
 
 
-def filled(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> list[Sheets]:
+def filled(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> list[FilledSheets]:
     """Return the cells of a model: its own sheets first, then those of its written-out compounds.
 
     A compound that is on the shelf under its name, with the same content, is given by name.
@@ -58,7 +58,7 @@ def stated(model: BaseModel) -> dict[str, Any]:
 class _At:
     """Where filling in stands: the sheets, the cells of a form or row, the path among them, the row's number."""
 
-    sheets: Sheets
+    sheets: FilledSheets
     cells: Cells
     path: Path
     number: int | None
@@ -72,15 +72,15 @@ class _Filler:
         self._stems = {model: stem for stem, model in references(plan.root).items()}
         self.shelves = shelves
         self._taken = set(shelf.names(shelves))
-        self.written: dict[str, Sheets] = {}
+        self.written: dict[str, FilledSheets] = {}
         self._contents: dict[str, dict[str, Any]] = {}
 
-    def fill(self, plan: Plan, data: dict[str, Any], called: str = "") -> Sheets:
-        sheets = Sheets(plan, called, items={sheet.name: [] for sheet in plan.tables})
+    def fill(self, plan: Plan, data: dict[str, Any], called: str = "") -> FilledSheets:
+        sheets = FilledSheets(plan, called, items={sheet.name: [] for sheet in plan.tables})
         self._group(plan.root, data, _At(sheets, sheets.cells, (), None))
         return sheets
 
-    def _group(self, group: Group, data: dict[str, Any], at: _At) -> None:
+    def _group(self, group: FieldGroup, data: dict[str, Any], at: _At) -> None:
         written = [
             self._part(part, data[part.key], at.down(part.key)) for part in group.parts if part.key in data
         ]
@@ -96,14 +96,14 @@ class _Filler:
         if isinstance(part, Leaf):
             given = self._reference(part.model, data) if part.model is not None else data
             at.cells[at.path] = to_cells(part, given)
-        elif isinstance(part, Group):
+        elif isinstance(part, FieldGroup):
             self._group(part, data, at)
         else:
             self._rows(part, data, at)
             return bool(data)
         return len(at.cells) > before
 
-    def _rows(self, table: Table, data: list[Any], at: _At) -> None:
+    def _rows(self, table: FieldTable, data: list[Any], at: _At) -> None:
         name = next(sheet.name for sheet in at.sheets.plan.tables if sheet.table is table)
         rows = at.sheets.items[name]
         for item in data:

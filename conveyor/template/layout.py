@@ -12,9 +12,9 @@ from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
 from pydantic import BaseModel, StringConstraints, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from conveyor.kinds import KINDS
 from conveyor.models.compound import CompoundReference
 from conveyor.units import Bounds, Measure
+from conveyor.units.kinds import KINDS
 
 LeafKind = Literal[
     "quantity", "number", "count", "switch", "choice", "text", "list", "reference", "json"
@@ -51,7 +51,7 @@ class Leaf:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Group:
+class FieldGroup:
     """A nested model."""
 
     key: str
@@ -61,17 +61,17 @@ class Group:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Table:
+class FieldTable:
     """A list of models: one row an item."""
 
     key: str
     doc: str
     required: bool
-    item: Group
+    item: FieldGroup
     allowed: str = ""
 
 
-Part: TypeAlias = Leaf | Group | Table
+Part: TypeAlias = Leaf | FieldGroup | FieldTable
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +84,7 @@ class _About:
     default: Any = None
 
 
-def layout(model: type[BaseModel]) -> Group:
+def layout(model: type[BaseModel]) -> FieldGroup:
     """Return the fields of a model, in its order, nested models and lists included.
 
     Parameters
@@ -99,7 +99,7 @@ def layout(model: type[BaseModel]) -> Group:
     >>> [(part.key, part.required, part.allowed) for part in layout(Cleaner).parts][1]
     ('width', True, '> 0 m, ≤ 5 m')
     """
-    return Group(key="", doc=first_line(model.__doc__), required=True, parts=_parts(model, ()))
+    return FieldGroup(key="", doc=first_line(model.__doc__), required=True, parts=_parts(model, ()))
 
 
 def first_line(text: str | None) -> str:
@@ -112,7 +112,7 @@ def leaves(part: Part) -> Iterator[Leaf]:
     if isinstance(part, Leaf):
         yield part
     else:
-        for inner in part.parts if isinstance(part, Group) else part.item.parts:
+        for inner in part.parts if isinstance(part, FieldGroup) else part.item.parts:
             yield from leaves(inner)
 
 
@@ -168,8 +168,8 @@ def _built(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[Ba
     items = _items(base)
     if items is not None:
         inner = _built(_About(key=about.key), *_unwrapped(items, ()), seen)
-        if isinstance(inner, Group):
-            return Table(
+        if isinstance(inner, FieldGroup):
+            return FieldTable(
                 key=about.key,
                 doc=about.doc or inner.doc,
                 required=about.required,
@@ -184,7 +184,7 @@ def _built(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[Ba
 
 def _group(
     about: _About, models: list[Any], marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]
-) -> Group | None:
+) -> FieldGroup | None:
     """Lay out one model, or the fields of all models that a tag chooses between."""
     tag = next((mark.discriminator for mark in marks if isinstance(mark, FieldInfo)), None)
     if len(models) == 1:
@@ -195,7 +195,7 @@ def _group(
         doc = about.doc or "; ".join(first_line(model.__doc__) for model in models)
     else:
         return None
-    return Group(key=about.key, doc=doc, required=about.required, parts=parts)
+    return FieldGroup(key=about.key, doc=doc, required=about.required, parts=parts)
 
 
 def _variants(every: list[tuple[Part, ...]], tag: str) -> tuple[Part, ...]:

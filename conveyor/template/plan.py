@@ -9,7 +9,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from conveyor.template.layout import Group, Leaf, Part, Path, Table, layout, leaves
+from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, Path, layout, leaves
 
 LONGEST_NAME: Final = 31
 """Characters of a sheet's name (Excel specifications and limits)."""
@@ -23,7 +23,7 @@ class Row:
 
     path: Path
     depth: int
-    part: Leaf | Group
+    part: Leaf | FieldGroup
     certain: bool
     """Whether a required field is needed whatever else is filled in."""
 
@@ -40,7 +40,7 @@ class Form:
 
 
 @dataclass(frozen=True)
-class Column:
+class FieldColumn:
     """A column of a list: a field of its items."""
 
     path: Path
@@ -49,14 +49,14 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Sheet:
+class ListSheet:
     """A sheet of a list, one row an item."""
 
     name: str
-    table: Table
+    table: FieldTable
     path: Path
     """From the root, or from the item of the list that holds it."""
-    columns: tuple[Column, ...]
+    columns: tuple[FieldColumn, ...]
     parent: str | None
     """Sheet of the list whose items hold this one."""
 
@@ -65,9 +65,9 @@ class Sheet:
 class Plan:
     """All sheets of a model."""
 
-    root: Group
+    root: FieldGroup
     forms: tuple[Form, ...]
-    tables: tuple[Sheet, ...]
+    tables: tuple[ListSheet, ...]
 
 
 @dataclass
@@ -113,12 +113,14 @@ def whole(model: type[BaseModel]) -> Plan:
     """
     root = layout(model)
     names = _Names()
-    own = Group(
+    own = FieldGroup(
         key="", doc=root.doc, required=True, parts=tuple(p for p in root.parts if isinstance(p, Leaf))
     )
     forms = [_form(names.new((model.__name__,)), own, ())]
     forms += [
-        _form(names.new((part.key,)), part, (part.key,)) for part in root.parts if isinstance(part, Group)
+        _form(names.new((part.key,)), part, (part.key,))
+        for part in root.parts
+        if isinstance(part, FieldGroup)
     ]
     return Plan(root, tuple(forms), tuple(_tables(root, (), None, names)))
 
@@ -157,38 +159,38 @@ def references(part: Part) -> dict[str, type[BaseModel]]:
     return {reference_stem(model): model for model in models}
 
 
-def _form(name: str, group: Group, path: Path) -> Form:
+def _form(name: str, group: FieldGroup, path: Path) -> Form:
     return Form(name, group.doc, path, tuple(_rows(group, path, 0, certain=group.required)), group.required)
 
 
-def _rows(group: Group, path: Path, depth: int, *, certain: bool) -> Iterator[Row]:
-    for part in sorted(group.parts, key=lambda part: isinstance(part, Group)):
+def _rows(group: FieldGroup, path: Path, depth: int, *, certain: bool) -> Iterator[Row]:
+    for part in sorted(group.parts, key=lambda part: isinstance(part, FieldGroup)):
         here = (*path, part.key)
         if isinstance(part, Leaf):
             yield Row(here, depth, part, certain and part.required)
-        elif isinstance(part, Group):
+        elif isinstance(part, FieldGroup):
             needed = certain and part.required
             yield Row(here, depth, part, needed)
             yield from _rows(part, here, depth + 1, certain=needed)
 
 
-def _tables(group: Group, path: Path, parent: str | None, names: _Names) -> Iterator[Sheet]:
+def _tables(group: FieldGroup, path: Path, parent: str | None, names: _Names) -> Iterator[ListSheet]:
     """Place every list below a group, lists inside lists after the list that holds them."""
     for part in group.parts:
         here = (*path, part.key)
-        if isinstance(part, Table):
+        if isinstance(part, FieldTable):
             name = names.new(here)
             columns = tuple(_columns(part.item, (), certain=True))
-            yield Sheet(name, part, here, columns, parent)
+            yield ListSheet(name, part, here, columns, parent)
             yield from _tables(part.item, (), name, names)
-        elif isinstance(part, Group):
+        elif isinstance(part, FieldGroup):
             yield from _tables(part, here, parent, names)
 
 
-def _columns(group: Group, path: Path, *, certain: bool) -> Iterator[Column]:
+def _columns(group: FieldGroup, path: Path, *, certain: bool) -> Iterator[FieldColumn]:
     for part in group.parts:
         here = (*path, part.key)
         if isinstance(part, Leaf):
-            yield Column(here, part, certain and part.required)
-        elif isinstance(part, Group):
+            yield FieldColumn(here, part, certain and part.required)
+        elif isinstance(part, FieldGroup):
             yield from _columns(part, here, certain=certain and part.required)

@@ -13,8 +13,8 @@ from pydantic import BaseModel
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.models.base import Location, field_path
-from conveyor.template.entries import NAMED, Content, Entry, Item, Sheets
-from conveyor.template.layout import Group, Leaf, Path, Table
+from conveyor.template.entries import NAMED, Content, FieldEntry, Item, SheetReader
+from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Path
 from conveyor.template.plan import Plan, references, whole, written_out
 from conveyor.template.values import from_cells
 from conveyor.template.workbook import grids, read_workbook
@@ -70,7 +70,7 @@ def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None =
     InputError
         As `read_template`.
     """
-    sheets = Sheets(str(where), read_workbook(where) if content is None else grids(where, content))
+    sheets = SheetReader(str(where), read_workbook(where) if content is None else grids(where, content))
     plan = whole(model)
     held = sheets.content(plan)
     reader = _Reader(sheets, {} if sheets.problems else _written_out(plan, sheets))
@@ -84,7 +84,7 @@ def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None =
     return Filled(str(where), data, reader.cells)
 
 
-def _written_out(plan: Plan, sheets: Sheets) -> dict[str, Content]:
+def _written_out(plan: Plan, sheets: SheetReader) -> dict[str, Content]:
     """Read what references may stand for, by the names they are referred to."""
     by_name: dict[str, Content] = {}
     for stem, model in references(plan.root).items():
@@ -108,7 +108,7 @@ class _At:
     """Where reading stands: the sheets, the fields of a form or row, the path among them, the place in the data."""
 
     content: Content
-    entries: dict[Path, Entry]
+    entries: dict[Path, FieldEntry]
     path: Path
     location: Location
     item: Item | None
@@ -120,11 +120,11 @@ class _At:
 class _Reader:
     """Puts entries together to data and remembers the cell of each."""
 
-    def __init__(self, sheets: Sheets, by_name: dict[str, Content]) -> None:
+    def __init__(self, sheets: SheetReader, by_name: dict[str, Content]) -> None:
         self._sheets, self._by_name = sheets, by_name
         self.cells: dict[Location, str] = {}
 
-    def group(self, group: Group, at: _At) -> tuple[dict[str, Any], bool]:
+    def group(self, group: FieldGroup, at: _At) -> tuple[dict[str, Any], bool]:
         """Return the data of a nested model, and whether any of it was filled in."""
         data: dict[str, Any] = {}
         any_filled = False
@@ -132,7 +132,7 @@ class _Reader:
             here = at.down(part.key)
             if isinstance(part, Leaf):
                 filled = self._leaf(part, here, data)
-            elif isinstance(part, Group):
+            elif isinstance(part, FieldGroup):
                 self._place(here)
                 inner, filled = self.group(part, here)
                 if filled or part.required:
@@ -154,7 +154,7 @@ class _Reader:
         if place is not None:
             self.cells[at.location] = place
 
-    def _rows(self, table: Table, at: _At) -> list[dict[str, Any]]:
+    def _rows(self, table: FieldTable, at: _At) -> list[dict[str, Any]]:
         name = next(sheet.name for sheet in at.content.plan.tables if sheet.table is table)
         self.cells[at.location] = at.content.places[name]
         data: list[dict[str, Any]] = []
@@ -192,7 +192,7 @@ class _Reader:
         return True
 
     @staticmethod
-    def _refused(entry: Entry) -> tuple[str, str] | None:
+    def _refused(entry: FieldEntry) -> tuple[str, str] | None:
         """Return the place and the reason why the cells of a field cannot be taken."""
         for found, place in ((entry.value, entry.place), (entry.unit, entry.unit_place)):
             if found is not None and found.problem:

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import Any, Final, TypeAlias
 
 from conveyor.errors import InputError
-from conveyor.misreadings import NUMBER, NUMBER_UNIT
 from conveyor.template.layout import Leaf, LeafKind
+from conveyor.units.misreadings import NUMBER, NUMBER_UNIT
 
 Value: TypeAlias = str | int | float | bool | None
 

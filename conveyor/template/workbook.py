@@ -48,7 +48,7 @@ _DAMAGED: Final = (
 
 
 @dataclass(frozen=True)
-class Found:
+class CellValue:
     """A cell that is not empty: its value, or why it has none."""
 
     value: Value
@@ -58,11 +58,11 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Grid:
+class CellGrid:
     """The cells of a sheet that are not empty, by row and column (both from 1), and its merged ranges."""
 
     name: str
-    cells: dict[tuple[int, int], Found]
+    cells: dict[tuple[int, int], CellValue]
     merged: tuple[tuple[int, int, int, int], ...]
     """First row, first column, last row, last column."""
 
@@ -88,7 +88,7 @@ def address(sheet: str, row: int, column: int) -> str:
     return f"{quoted}!{get_column_letter(column)}{row}"
 
 
-def read_workbook(path: Path) -> dict[str, Grid]:
+def read_workbook(path: Path) -> dict[str, CellGrid]:
     """Read every sheet of a workbook.
 
     Raises
@@ -100,7 +100,7 @@ def read_workbook(path: Path) -> dict[str, Grid]:
     return grids(path, _content(path))
 
 
-def grids(path: Path, content: bytes) -> dict[str, Grid]:
+def grids(path: Path, content: bytes) -> dict[str, CellGrid]:
     """Read every sheet of a workbook whose bytes are given; the path is for messages.
 
     Raises
@@ -136,7 +136,7 @@ def _content(path: Path) -> bytes:
     return content
 
 
-def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[Grid]:
+def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[CellGrid]:
     for sheet in formulas.worksheets:
         rows, columns = sheet.max_row, sheet.max_column
         if rows * columns > MOST_CELLS:
@@ -146,10 +146,10 @@ def _grids(path: Path, formulas: Workbook, results: Workbook) -> Iterator[Grid]:
             )
         shown = results[sheet.title]
         merged = tuple((r.min_row, r.min_col, r.max_row, r.max_col) for r in sheet.merged_cells.ranges)
-        yield Grid(sheet.title, dict(_found(sheet, shown)), merged)
+        yield CellGrid(sheet.title, dict(_found(sheet, shown)), merged)
 
 
-def _found(formulas: Worksheet, results: Worksheet) -> Iterator[tuple[tuple[int, int], Found]]:
+def _found(formulas: Worksheet, results: Worksheet) -> Iterator[tuple[tuple[int, int], CellValue]]:
     for row in formulas.iter_rows():
         for cell in row:
             if cell.value is not None:
@@ -159,23 +159,23 @@ def _found(formulas: Worksheet, results: Worksheet) -> Iterator[tuple[tuple[int,
                     yield where, found
 
 
-def _one(cell: Any, result: Any) -> Found:
+def _one(cell: Any, result: Any) -> CellValue:
     value = result.value
     if cell.data_type == "f" and value is None:
-        return Found(
+        return CellValue(
             None,
             "holds a formula without a result; open the workbook in a spreadsheet program, let it calculate "
             "and save it, or type the value",
         )
     if result.data_type == "e":
-        return Found(None, f"holds the error {value}; correct its formula or type the value")
+        return CellValue(None, f"holds the error {value}; correct its formula or type the value")
     if isinstance(value, float) and not math.isfinite(value):
-        return Found(None, "holds a number that is not finite")
+        return CellValue(None, "holds a number that is not finite")
     if isinstance(value, str):
-        return Found(value if value.strip() else None)
+        return CellValue(value if value.strip() else None)
     if isinstance(value, bool | int | float):
-        return Found(value, percent="%" in str(result.number_format))
-    return Found(
+        return CellValue(value, percent="%" in str(result.number_format))
+    return CellValue(
         None,
         f"holds a date or time ({value}): the spreadsheet program took the number for one; "
         "format the cell as a number and type it again",

@@ -15,7 +15,7 @@ from conveyor.line.stretches import Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.frame import Frame
 from conveyor.models import Conveyor
-from conveyor.pipeline import Calculation
+from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -108,7 +108,7 @@ def along(found: Balance) -> tuple[OnStretch, ...]:
 
 def told(conveyor: Conveyor, found: Balance) -> list[str]:
     """What every criterion that needs no contact says where it is not met."""
-    given = Calculation(
+    given = CalculatedConveyor(
         conveyor=conveyor,
         temperature=conveyor.temperature,
         contacts=Contacts(found.line, {}, (), ()),

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from conveyor.loop.balance import Balance
-from conveyor.loop.tensions import State
+from conveyor.loop.tensions import MotionState
 from conveyor.spec import from_data
 from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, along, closed, line
 
@@ -87,7 +87,7 @@ NAMES = {
 }
 
 
-def walk(met: list[str], found: Balance, taken: dict[str, float], state: State) -> float:
+def walk(met: list[str], found: Balance, taken: dict[str, float], state: MotionState) -> float:
     """Walk from the head back to it, held to the tensions reported on the way; returns what is left over [N]."""
     near = CLOSED * state.largest
     sides = {side.name: side for side in state.drives}

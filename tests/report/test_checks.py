@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.display import unit
-from conveyor.figures import band_words
 from conveyor.report.columns import Column, Figure, Table, figures
+from conveyor.units.display import unit
+from conveyor.units.sentences import band_words
 from tests.report.checking import checks
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

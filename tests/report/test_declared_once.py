@@ -16,11 +16,11 @@ from conveyor import checks as criteria
 from conveyor import pipeline
 from conveyor.checks import compared
 from conveyor.cli.power_tables import show
-from conveyor.display import _KINDS, Unit, unit
-from conveyor.figures import said
 from conveyor.forces import Force
 from conveyor.report import excel, files, html, representations, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
+from conveyor.units.display import _KINDS, Unit, unit
+from conveyor.units.sentences import said
 
 PACKAGE = Path(conveyor.__file__).parent
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -9,11 +9,11 @@ import pytest
 
 import conveyor
 from conveyor.analysis import Studies, analyse_cases, compare_compounds
-from conveyor.display import headed
 from conveyor.models import LoadCase
 from conveyor.report.comparing import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build
 from conveyor.report.tables import of_analysis
+from conveyor.units.display import headed
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"

@@ -11,9 +11,9 @@ from openpyxl.utils import range_boundaries
 
 import conveyor
 from conveyor.analysis import compare_compounds
-from conveyor.display import unit
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
+from conveyor.units.display import unit
 from tests.report.checking import checks
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))

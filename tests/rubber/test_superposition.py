@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.rubber.overlap import Sheet, overlap
+from conveyor.rubber.overlap import LogIsotherm, overlap
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import WLF, ShiftTable
 from conveyor.rubber.superposition import Isotherm, Superposition, superpose
@@ -222,7 +222,9 @@ def test_published_master_curve_unshifted_and_superposed_again() -> None:
 
 
 def rms_storage(cold: Isotherm, hot: Isotherm, step: float) -> float:
-    sheets = [Sheet(i.temperature, np.log10(i.frequency), np.log([i.storage, i.loss])) for i in (cold, hot)]
+    sheets = [
+        LogIsotherm(i.temperature, np.log10(i.frequency), np.log([i.storage, i.loss])) for i in (cold, hot)
+    ]
     return overlap(sheets[0], sheets[1], float(step), 0.0, held=False).storage
 
 

@@ -20,7 +20,14 @@ from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.template import read
 from conveyor.template.read import read_template
-from conveyor.template.workbook import LARGEST_CONTENT, LARGEST_FILE, MOST_PARTS, Found, Grid, read_workbook
+from conveyor.template.workbook import (
+    LARGEST_CONTENT,
+    LARGEST_FILE,
+    MOST_PARTS,
+    CellGrid,
+    CellValue,
+    read_workbook,
+)
 from conveyor.template.write import write_template
 
 
@@ -61,12 +68,12 @@ Edit = Callable[[str, Any, Any], str]
 
 
 @pytest.fixture(scope="session")
-def sheets(pristine: Path) -> dict[str, Grid]:
+def sheets(pristine: Path) -> dict[str, CellGrid]:
     return read_workbook(pristine)
 
 
 @pytest.fixture
-def retype(path: Path, sheets: dict[str, Grid], monkeypatch: pytest.MonkeyPatch) -> Edit:
+def retype(path: Path, sheets: dict[str, CellGrid], monkeypatch: pytest.MonkeyPatch) -> Edit:
     """Type a value and a unit over those of a field; gives the place of its value cell."""
     grids = {name: replace(grid, cells=dict(grid.cells)) for name, grid in sheets.items()}
     monkeypatch.setattr(read, "read_workbook", lambda _: grids)
@@ -75,7 +82,7 @@ def retype(path: Path, sheets: dict[str, Grid], monkeypatch: pytest.MonkeyPatch)
         for grid in grids.values():
             row = next((row for row in grid.rows() if grid.text(row, 7) == key), None)
             if row is not None:
-                grid.cells[row, 2], grid.cells[row, 3] = Found(value), Found(unit)
+                grid.cells[row, 2], grid.cells[row, 3] = CellValue(value), CellValue(unit)
                 for column, given in ((2, value), (3, unit)):
                     if given is None or not str(given).strip():
                         del grid.cells[row, column]

@@ -9,7 +9,7 @@ import pytest
 
 from conveyor import validation
 from conveyor.contact import solve
-from conveyor.validation import Check, reference_cases, run
+from conveyor.validation import ReferenceCheck, reference_cases, run
 
 CASES = reference_cases()
 SINGLE = [case for case in CASES if not case.split]
@@ -100,7 +100,7 @@ def test_shipped_checks_name_source_and_quantity():
 
 @pytest.mark.parametrize(("deviation", "passed"), [(0.9e-6, True), (1e-6, True), (1.1e-6, False)])
 def test_a_check_fails_beyond_its_tolerance(deviation, passed):
-    check = Check("s", "q", expected=1.0, got=1.0 + deviation, deviation=deviation, tolerance=1e-6)
+    check = ReferenceCheck("s", "q", expected=1.0, got=1.0 + deviation, deviation=deviation, tolerance=1e-6)
     assert check.passed is passed
 
 

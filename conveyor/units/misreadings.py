@@ -7,7 +7,7 @@ import math
 import re
 import sys
 
-from conveyor.kinds import KINDS, SPELLINGS, Kind
+from conveyor.units.kinds import KINDS, SPELLINGS, Kind
 
 NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 NUMBER_UNIT = re.compile(rf"\s*({NUMBER})\s*([^\s0-9.,+-](?:.*\S)?|)\s*")

@@ -19,8 +19,8 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError
-from conveyor.kinds import KINDS, MAGNITUDES, SPELLINGS
-from conveyor.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
+from conveyor.units.kinds import KINDS, MAGNITUDES, SPELLINGS
+from conveyor.units.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
 
 System = Literal["SI", "US"]
 
@@ -74,7 +74,7 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     value : str or Quantity
         ``"number unit"``; for a fraction a plain number too.
     kind : str, optional
-        A key of `conveyor.kinds.KINDS`; without it every unit of the table is taken.
+        A key of `conveyor.units.kinds.KINDS`; without it every unit of the table is taken.
 
     Raises
     ------

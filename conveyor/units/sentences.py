@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.units import System, display
+from conveyor.units.quantities import System, display
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""

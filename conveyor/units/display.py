@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
-from conveyor.figures import belt_strength
-from conveyor.units import Quantity, System, quantity, si
+from conveyor.units.quantities import Quantity, System, quantity, si
+from conveyor.units.sentences import belt_strength
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 MONEY: Final = "money "
