@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.contact.general import by_strips
-from conveyor.contact.narrow import solve_narrow
+from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.quadrature import RuleTooLongError
 from conveyor.contact.scene import Scene
@@ -100,7 +100,7 @@ def solve_many(
 ) -> list[ContactSolution]:
     """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised.
 
-    Narrow contacts, those of conveyors, are solved side by side: scenes of one support share every step.
+    Scenes of one support share every step, as far as one strip is the answer.
 
     Raises
     ------
@@ -111,7 +111,9 @@ def solve_many(
     """
     _within(rtol)
     return [
-        _solution(problem, outcome, throw) if outcome is not None else _solved(Scene.of(problem), rtol, throw)
+        _solution(problem, outcome, throw)
+        if isinstance(outcome, Outcome)
+        else _solved(Scene.of(problem), rtol, throw, split=outcome is Left.STRIPS)
         for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
     ]
 
@@ -121,10 +123,10 @@ def _within(rtol: float) -> None:
         raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")
 
 
-def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:
+def _solved(scene: Scene, rtol: float, throw: bool, *, split: bool = False) -> ContactSolution:
     """One strip by its half width; any number of strips where that is not the answer."""
     try:
-        outcome = by_half_width(scene, rtol) or by_strips(scene, rtol)
+        outcome = (None if split else by_half_width(scene, rtol)) or by_strips(scene, rtol)
     except RuleTooLongError:
         outcome = Outcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")
