@@ -26,7 +26,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     rtol : float
         Relative error of friction asked for [-], in [1e-12, 1e-2].
     throw : bool
-        Raise on any status but OK; False returns it for batches.
+        Raise where there is no contact to the tolerance; False returns the status, for batches.
 
     Returns
     -------
@@ -147,6 +147,6 @@ def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> Contact
         outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
     )
     solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
-    if throw and solution.status is not Status.OK:
+    if throw and outcome.status is not Status.OK:
         raise NoSolutionError(solution.message)
     return solution
