@@ -76,7 +76,7 @@ class Tally:
         """Solutions in order, counted."""
         found = solve_many(problems, RTOL)
         for solution in found:
-            if solution.status is not Status.OK:
+            if solution.status not in {Status.OK, Status.TOO_DEEP}:
                 self.refused += 1
             elif len(solution.patches) > 1:
                 self.split += 1
@@ -98,7 +98,7 @@ class Line:
         cls, x: ArrayLike, solutions: Sequence[ContactSolution], value: Callable[[ContactSolution], float]
     ) -> Line:
         """Values of the solutions at x."""
-        answered = np.array([s.status is Status.OK for s in solutions])
+        answered = np.array([s.status in {Status.OK, Status.TOO_DEEP} for s in solutions])
         y = [value(s) if good else 0.0 for s, good in zip(solutions, answered, strict=True)]
         split = [good and len(s.patches) > 1 for s, good in zip(solutions, answered, strict=True)]
         return cls(np.asarray(x, dtype=float), np.ma.masked_array(y, mask=~answered), np.array(split))
@@ -207,7 +207,7 @@ def figure_4(points: int) -> tuple[Figure, Tally]:
             found = tally.solved([scene(radius, thickness, 0.13, z) for z in zeta])
             line = Line.of(zeta, found, lambda s: s.friction)
             line.draw(ax, colour, lw=1.0, ls=(0, (2, 1.2)))
-            shallow = [s if s.status is Status.OK and s.penetration <= 1.0 else None for s in found]
+            shallow = [s if s.status is Status.OK else None for s in found]
             hidden = np.ma.getmaskarray(line.y) | np.array([s is None for s in shallow])
             ax.plot(zeta, np.ma.masked_array(line.y.data, mask=hidden), color=colour, lw=1.9)
             top = int(np.argmax(line.y))

@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 _FAR_DOWN = 2
 _SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
-_UPWARD = 0.125  # times order²: rounding grows e⁸ upward from there
-_DAMPED = 21.0  # exponent of the damping: 8e-10 of the start's error, itself below 1e-3
+_UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
+_DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
 
 
 def bessel_j(order: int, x: Array) -> Array:

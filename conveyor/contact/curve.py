@@ -6,6 +6,7 @@ at Chebyshev-Lobatto points (sampling.py) and inverted by Newton.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -137,19 +138,29 @@ class LoadCurve:
 
     @cached_property
     def excitation_widest(self) -> Array:
-        """Harmonics below which the shares 5, 50 and 95 % of the widest contact's loss lie; empty without loss."""
-        return self._excitation(0)
+        """Harmonics below which 5, 50 and 95 % of the loss under the highest load lie; empty without loss."""
+        return self._excitation(self.highest)
 
     @cached_property
     def excitation_narrowest(self) -> Array:
-        """The same of the narrowest contact."""
-        return self._excitation(-1)
+        """The same under the lowest load."""
+        return self._excitation(self.lowest)
 
-    def _excitation(self, k: int) -> Array:
-        contacts = self._sampled.best
-        if not (contacts.friction > 0.0).all():
+    def _excitation(self, pressure: float) -> Array:
+        if not (self._sampled.contacts.friction > 0.0).all():
             return np.empty(0)
-        strip = float(contacts.eps[k]), float(contacts.alpha[k]), contacts.c[k]
+        order = self._sampled.best.c.shape[1]
+
+        def scaled(contact: Contact) -> Array:
+            c = np.zeros((contact.alpha.size, order))
+            c[:, : contact.c.shape[1]] = contact.c / contact.alpha[:, None]
+            return c
+
+        there = self.at(pressure)
+        alpha = float(there.half_width) * self.problem.rho
+        t = (math.log(alpha) - self._centre) / self._half
+        c: Array = alpha * np.asarray(chebyshev.chebval(t, self._sampled.interpolated(scaled)))
+        strip = float(there.eccentricity) * self.problem.rho, alpha, c
         return excited_harmonics(self.problem.layer, instantly_relaxed(self.problem.creep), [strip])
 
     @cached_property

@@ -30,8 +30,9 @@ _SETTLED = 1e-3  # change of friction below which tension is no longer the order
 _POLISHES = 3  # grids whose strips are tried
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
-_LIMIT_STEPS, _LIMIT_FINER = 16, 4  # bisections over ten decades: to 4e-4; times the coarsest grid
-_LIMIT_DECADES = 10.0
+_LIMIT_FINER = 1 << _FIRST_POLISH  # times the coarsest grid
+_FAR_BEYOND = 1.5  # times the limit of a coarse grid: no finer one will carry the load
+_LIMIT_STRIDE, _LIMIT_WIDTH, _LIMIT_DECADES = 1.0, 4e-3, 12.0  # of ln p; decades that are searched
 _ON_GRID = "the strips are known on a grid of {} nodes only"
 
 
@@ -48,8 +49,9 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
         except NoSolutionError as unsettled:
             failure = str(unsettled)
             break
-        if grids[-1].at_roll_end and doubling >= _WRAP_LEVEL:
-            break
+        limit = _limit_passed(scene, grids[-1], doubling)
+        if limit is not None:
+            return _overloaded(grids[-1], limit)
         steady = doubling >= _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
         if steady and polishes < _POLISHES and _seen(grids[-1]):
             polishes += 1
@@ -60,7 +62,7 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
     if not grids:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        return Outcome(Status.WRAP_LIMIT, grid=grids[-1].points, way="grid", remarks=_limit(scene))
+        return _overloaded(grids[-1], _limit(scene, grids[-1]))
     return _on_grid(scene, grids, rtol)
 
 
@@ -167,21 +169,49 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
     )
 
 
-def _limit(scene: Scene) -> tuple[str, ...]:
-    """The load that brings the contact to the last of 256 nodes on the roll; nothing where a grid does not settle."""
-    problem = scene.problem
-    grid = Grid(problem, _LIMIT_FINER * _coarsest(problem.rho))
-    try:
-        contact = grid.contact(problem.pressure, depth=scene.depth)
-        high = math.log(contact.mean_pressure)
-        low = high - _LIMIT_DECADES * math.log(10.0)
-        for _ in range(_LIMIT_STEPS):
-            middle = 0.5 * (low + high)
-            contact = grid.contact(math.exp(middle), contact)
-            low, high = (low, middle) if contact.at_roll_end else (middle, high)
-    except NoSolutionError:
-        return ()
-    return (_LIMIT.format(math.exp(low)),)
+def _overloaded(grid: GridContact, limit: float) -> Outcome:
+    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
+
+
+def _limit_passed(scene: Scene, grid: GridContact, doubling: int) -> float | None:
+    """The limit of a load that wraps the roll: seen on a fine grid, or on a coarse one far beyond its limit."""
+    if not grid.at_roll_end or not (doubling == _FIRST_POLISH or doubling >= _WRAP_LEVEL):
+        return None
+    limit = _limit(scene, grid)
+    return limit if doubling >= _WRAP_LEVEL or grid.mean_pressure > _FAR_BEYOND * limit else None
+
+
+def _limit(scene: Scene, wrapped: GridContact) -> float:
+    """The mean pressure that brings the contact to the last of 256 nodes on the roll.
+
+    Where a grid does not settle from the contact before, it starts anew, and counts as wrapped where it never does.
+    """
+    grid = Grid(scene.problem, _LIMIT_FINER * _coarsest(scene.problem.rho))
+
+    def wraps(log_pressure: float, start: GridContact | None) -> GridContact | None:
+        for begin in (start, None):
+            try:
+                return grid.contact(math.exp(log_pressure), begin)
+            except NoSolutionError:
+                continue
+        return None
+
+    high, contact = math.log(wrapped.mean_pressure), wrapped
+    low = high - _LIMIT_STRIDE
+    while high - low < _LIMIT_DECADES * math.log(10.0):
+        found = wraps(low, contact)
+        if found is not None and not found.at_roll_end:
+            contact = found
+            break
+        high, low = low, low - 2.0 * _LIMIT_STRIDE
+    while high - low > _LIMIT_WIDTH:
+        middle = 0.5 * (low + high)
+        found = wraps(middle, contact)
+        if found is None or found.at_roll_end:
+            high = middle
+        else:
+            low, contact = middle, found
+    return math.exp(low)
 
 
 def _coarsest(rho: float) -> int:

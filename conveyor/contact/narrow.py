@@ -1,15 +1,15 @@
-"""Narrow contacts, many scenes at once: what real conveyors are, without a Python loop over scenes.
+"""One strip by its half width, many scenes at once, without a Python loop over scenes.
 
-One strip by its half width, as in single.py, with stacked linear algebra and the short rules: the half width is found
-at order 8 and closed at the order that meets rtol. Whatever is not plainly a narrow single strip (wide or wrapped
-contacts, pressure that may turn negative, orders above 48, extremely thin layers) is handed back as None for the
-general ways.
+Stacked linear algebra and the short rules: the half width is found at order 8 and closed at the order that meets rtol.
+What is not found this way (loads near the roll's half circle, extremely thin layers) or is not one strip is left to the
+other ways.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from enum import Enum
 from functools import lru_cache
 
 import numpy as np
@@ -22,26 +22,30 @@ from conveyor.contact.checks import (
     WRAPPED,
     may_touch_elsewhere,
     order_error,
+    overlaps,
     pulling_and_pressing,
     relative_difference,
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
-from conveyor.contact.orders import ORDERS, lowest_order
+from conveyor.contact.orders import ORDERS, lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
-from conveyor.contact.scene import instantly_relaxed
+from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.short_rule import (
+    CAPS,
+    FINE_FROM,
     WIDEST,
     Grade,
     ShortRule,
+    cap_of,
     grades_for,
     panels_beyond,
     short_rule,
 )
-from conveyor.contact.single import LOAD_FLOOR
+from conveyor.contact.single import EDGE_LAYER, LOAD_FLOOR, SIGN_ORDER
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, assemble, equilibrium
+from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
 from conveyor.contact.stack import Stack, kind, stacked
 
 Array = NDArray[np.float64]
@@ -53,10 +57,17 @@ _SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of th
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
 ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
 _NEWTON_STEPS = 3  # of the nearly straight cubic; every move goes on from the last
-_CLOSING_STEPS = 5
+_CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: mismatch of load that may be left; friction feels a third of it
+_LOAD_FELT = 1.5  # times β, whose value of order 8 is good to a tenth
 _TIMES = 1e100  # squares of larger retardation numbers overflow
 _MOST_PANELS = 12
+_ROLL = 0.98  # of its radius: the widest half width
+_WIDE_CHUNK = 16  # wide ones have several times the nodes
+_MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
+_FARTHEST = 2.0  # times the order, in one step
+_GUESSES_TRIED = 4
+_FLATTEST, _FARTHEST_GUESS = 0.1, 1.5  # d ln p over the search's half range; ln of half widths
 CHUNK = 100  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
 _GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
@@ -96,26 +107,53 @@ class Group:
         )
 
 
-def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | None]:
-    """Outcome of every scene that is a plain narrow contact, None of the others; in their order."""
-    outcomes: list[Outcome | None] = [None] * len(problems)
+class Left(Enum):
+    """What the batch leaves undone of a scene."""
+
+    ANY = "its half width was not found"
+    STRIPS = "one strip is not the answer"
+
+
+def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Left]:
+    """Outcome of every scene whose single strip is found by its half width, what is left of the others."""
+    outcomes: list[Outcome | Left] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    grades = grades_for(rtol)
-    for members in alike(problems, creeps):
+    grade = grades_for(rtol)[0]
+    for members in alike(problems, creeps) if rtol >= FINE_FROM else []:
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
+        widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
         alpha = guess(group)
-        half_width = ROOM * alpha
-        narrow = np.flatnonzero(fits(group, half_width, grades[0]))
-        panels = panels_beyond(group.layers.reach(grades[0].depth), half_width, grades[0])
-        narrow = narrow[np.lexsort((half_width[narrow], panels[narrow]))]
-        for start in range(0, narrow.size, CHUNK):
-            chosen = narrow[start : start + CHUNK]
-            part = group[chosen]
-            rule = short_rule(part.layers, part.creeps, half_width[chosen], grades[0])
-            search = Search(part, rule, alpha[chosen])
-            for row, outcome in _closed(search, rtol).items():
-                outcomes[members[chosen[row]]] = outcome
+        rows = np.arange(alpha.size)
+        for _ in range(_GUESSES_TRIED):
+            alpha = np.minimum(alpha, widest)
+            strayed = []
+            for chosen in _chunks(group, alpha, rows, grade):
+                part = group[chosen]
+                search = Search(
+                    part, short_rule(part.layers, part.creeps, ROOM * alpha[chosen], grade), alpha[chosen]
+                )
+                for row, outcome in _Closing(search, rtol).outcomes().items():
+                    outcomes[members[chosen[row]]] = outcome
+                strayed.append(chosen[search.stray])
+                alpha[chosen] = search.extrapolated
+            rows = np.concatenate(strayed) if strayed else rows[:0]
+            if rows.size == 0:
+                break
     return outcomes
+
+
+def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[Index]:
+    """Like with like, few enough for the cache; without those whose rules would be too long."""
+    half_width = ROOM * alpha[rows]
+    caps = np.array([cap_of(width) for width in half_width])
+    panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
+    order = np.lexsort((half_width, panels, caps))
+    order = order[panels[order] <= _MOST_PANELS]
+    for cap in np.unique(caps[order]):
+        same = rows[order[caps[order] == cap]]
+        step = CHUNK if cap == WIDEST else _WIDE_CHUNK
+        for start in range(0, same.size, step):
+            yield same[start : start + step]
 
 
 def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
@@ -198,9 +236,19 @@ class Search:
         self.lossy = lossy
         self.place = np.zeros(size)
         self.offset = np.zeros(size)
+        self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
         self.alive = np.array(good, dtype=bool)
         self.matrices = np.ones(size, dtype=int)
         self.move(np.flatnonzero(good))
+        self.stray = good & ~self.alive
+
+    @property
+    def extrapolated(self) -> Array:
+        """Half widths where a straight line through the middle meets the load: for those far outside."""
+        rise = np.where(self.load[:, 1] > _FLATTEST, self.load[:, 1], _FLATTEST)
+        away = RANGE * (self.group.target - self.load[:, 0]) / rise
+        found: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
+        return found
 
     def move(self, rows: Index) -> None:
         """Newton on the cubic and its offset, to the place where the load is met; rows far outside are given up."""
@@ -240,88 +288,124 @@ class Search:
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
         miss = np.log(np.where(good, contact.pressure, 1.0)) - self.group.target[rows]
-        self.offset[rows] += np.where(good, miss, 0.0)
+        # where the slope at this order is 1 - q of the cubic's, a miss comes back as its q-th part
+        again = (self._order[rows] == n) & (np.abs(miss) < 0.5 * np.abs(self._miss[rows]))
+        back = np.where(again, miss / np.where(again, self._miss[rows], 1.0), 0.0)
+        share = self._share[rows] + back * (1.0 - self._share[rows])
+        self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
+        self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
         return contact, matrix, miss, ik
 
 
-def _closed(search: Search, rtol: float) -> dict[int, Outcome]:
-    """Raise the order until each scene meets rtol."""
-    tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
-    error = np.ones(search.place.size)
-    done: dict[int, Outcome] = {}
-    waiting = np.flatnonzero(search.alive)
-    for n in [n for n in ORDERS if lowest_order(rtol) <= n <= 48]:
-        rows, waiting = waiting, np.empty(0, dtype=int)
+class _Closing:
+    """Raises the order until each scene meets rtol, and checks what it finds."""
+
+    def __init__(self, search: Search, rtol: float) -> None:
+        self.search, self.rtol = search, rtol
+        self.tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
+        self.error = np.ones(search.place.size)
+        self.wanted = np.full(search.place.size, lowest_order(rtol))
+        self.done: dict[int, Outcome | Left] = {}
+
+    def outcomes(self) -> dict[int, Outcome | Left]:
+        """By row; none of those that are left to other ways."""
+        waiting = np.flatnonzero(self.search.alive)
+        while waiting.size:
+            n = int(self.wanted[waiting].min())
+            same = np.flatnonzero(self.wanted[waiting] == n)[: max(1, _MOST_ENTRIES // (n * n))]
+            self._close(waiting[same], n)
+            # those that were neither closed nor are to be raised did not meet their load
+            open_ = (self.wanted[waiting] > n) | ~np.isin(np.arange(waiting.size), same)
+            waiting = waiting[open_ & self.search.alive[waiting]]
+        return self.done
+
+    def _close(self, rows: Index, n: int) -> None:
+        """Meet the load at order n."""
+        search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
-            if rows.size == 0:
-                break
             exponent = search.exponent(rows)
             contact, matrix, miss, ik = search.evaluate(rows, n)
             if step == 0:
-                error[rows] = order_error(contact, matrix, search.group.rho[rows], exponent)
+                self.error[rows] = order_error(contact, matrix, search.group.rho[rows], exponent)
             alive = search.alive[rows]
-            fine = (error[rows] <= rtol) & alive
-            near = fine & (np.abs(miss) <= tight)
-            missed = np.zeros(rows.size, dtype=bool)
+            fine = ((self.error[rows] <= rtol) | (n == ORDERS[-1])) & alive
+            near = fine & (np.abs(miss) <= self.tight)
             at = np.flatnonzero(near)
             if at.size:
-                left = np.abs(miss[at]) * np.where(search.lossy[rows[at]], np.abs(exponent[at]), 1.0)
-                accepted = _accept(
-                    search, rows[at], (chosen_rows(contact, at), ik[at]), error[rows[at]] + left, rtol
-                )
-                done.update(accepted)
-                missed[at] = [r not in accepted for r in rows[at].tolist()]
-            waiting = np.append(waiting, rows[(alive & ~fine) | missed])
+                felt = np.where(search.lossy[rows[at]], np.abs(exponent[at]), 1.0)
+                left = _LOAD_FELT * np.abs(miss[at]) * felt
+                self._accept(rows[at], chosen_rows(contact, at), ik[at], self.error[rows[at]] + left)
+            for row in rows[alive & ~fine]:
+                self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
-        if waiting.size == 0:
-            break
-    return done
+            if rows.size == 0:
+                return
 
+    def _raise(self, row: int, n: int, energy: float) -> None:
+        if n < ORDERS[-1]:
+            excess, excess_energy = float(self.error[row]) / self.rtol, energy / ENERGY_OVER_ERROR / self.rtol
+            self.wanted[row] = order_for(n, excess, excess_energy, _FARTHEST)
 
-def _accept(
-    search: Search,
-    rows: Index,
-    contacts: tuple[Contact, ProductIK],
-    error: Array,
-    rtol: float,
-) -> dict[int, Outcome]:
-    """Check energy, sign and place of contacts whose order and load suffice; the good ones by their row."""
-    group = search.group
-    contact, ik = contacts
-    grade = grades_for(rtol)[1]
-    check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
-    rho = group.rho[rows]
-    by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
-    energy = np.abs(relative_difference(by_loss, contact.friction))
-    estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), grade.error)
-    _, pressing = pulling_and_pressing(contact, rtol)
-    good = (estimate <= rtol) & pressing & ~may_touch_elsewhere(contact, rho)
-    n = int(contact.c.shape[1])
-    done: dict[int, Outcome] = {}
-    for k in np.flatnonzero(good):
-        row = int(rows[k])
-        one = chosen_rows(contact, np.array([k]))
-        alpha, eps = float(one.alpha[0]), float(one.eps[0])
-        done[row] = Outcome(
-            Status.OK,
+    def _accept(self, rows: Index, contact: Contact, ik: ProductIK, error: Array) -> None:
+        """Check energy, sign and place of contacts whose order and load suffice."""
+        search, group, rtol = self.search, self.search.group, self.rtol
+        grade = grades_for(rtol)[1]
+        check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
+        rho = group.rho[rows]
+        by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
+        energy = np.abs(relative_difference(by_loss, contact.friction))
+        estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), grade.error)
+        pulling, pressing = pulling_and_pressing(contact, rtol)
+        outside = may_touch_elsewhere(contact, rho)
+        n = int(contact.c.shape[1])
+        for k, row in enumerate(rows.tolist()):
+            last = n == ORDERS[-1]
+            if pulling[k]:
+                self.done[row] = Left.STRIPS
+            elif estimate[k] > rtol and last and not pressing[k]:
+                self.done[row] = Left.ANY
+            elif (estimate[k] > rtol and not last) or not (pressing[k] or n >= SIGN_ORDER):
+                self._raise(row, n, float(energy[k]))
+            else:
+                one = chosen_rows(contact, np.array([k]))
+                flags = bool(pressing[k]), bool(outside[k])
+                self.done[row] = self._found(row, one, (float(estimate[k]), float(energy[k])), flags)
+
+    def _found(
+        self, row: int, contact: Contact, errors: tuple[float, float], flags: tuple[bool, bool]
+    ) -> Outcome | Left:
+        """The contact as an outcome, where the layer does not touch the roll elsewhere."""
+        search, group = self.search, self.search.group
+        problem, creep = group.problems[row], group.given[row]
+        alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
+        pressing, outside = flags
+        remarks = () if pressing else (EDGE_LAYER,)
+        depth = None
+        if outside:
+            scene = Scene(problem, creep)
+            depth = float(penetration(scene.rule(alpha), creep, contact, problem.rho)[0])
+            if overlaps(scene, contact, depth):
+                return Left.STRIPS
+        return Outcome(
+            Status.OK if errors[0] <= self.rtol else Status.NOT_CONVERGED,
             Found(
-                friction=float(one.friction[0]),
-                mean_pressure=float(one.pressure[0]),
+                friction=float(contact.friction[0]),
+                mean_pressure=float(contact.pressure[0]),
                 half_width=alpha,
                 centre=eps,
                 strips=np.array([[eps - alpha, eps + alpha]]),
-                energy_error=float(energy[k]),
-                error_estimate=float(estimate[k]),
-                fields=SpectralFields(group.problems[row].layer, group.given[row], one, float(rho[k])),
+                energy_error=errors[1],
+                error_estimate=errors[0],
+                fields=SpectralFields(problem.layer, creep, contact, problem.rho, depth),
             ),
-            order=n,
+            order=int(contact.c.shape[1]),
             matrices=int(search.matrices[row]),
             nodes=int(search.rule.nodes.shape[1]),
-            terms=group.given[row].weights.size,
-            way="narrow",
+            terms=creep.weights.size,
+            way="one strip" if outside else "narrow",
+            remarks=remarks,
         )
-    return done
 
 
 def chosen_rows(contact: Contact, at: Index) -> Contact:

@@ -39,6 +39,10 @@ class Status(Enum):
     """Why a solve stopped; the value says what to change."""
 
     OK = "converged to the tolerance asked for"
+    TOO_DEEP = (
+        "converged, but the roll sinks in deeper than its radius, far outside small strain: figures are those of the "
+        "linear problem; lower the load, tighten or thicken the layer"
+    )
     WRAP_LIMIT = (
         "the load presses the roll in beyond its half circle: no contact with an edge inside the roll "
         "carries it; lower the load, or enlarge the radius"

@@ -58,7 +58,7 @@ class Grade:
 # to rounding, and to 1e-9 of the largest entry; the rules of a pair have no node in common
 FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11))
 COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8))
-COARSE_FROM = 1e-7  # rtol down to which the coarse pair serves
+COARSE_FROM, FINE_FROM = 1e-7, 1e-10  # rtol down to which the pairs serve
 
 
 def grades_for(rtol: float) -> tuple[Grade, Grade]:

@@ -25,7 +25,7 @@ LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
-_EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
+EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
 
 def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
@@ -64,7 +64,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
 
 def remarks(pressing: Sign) -> tuple[str, ...]:
     """What a reader of the solution must know of its pressure."""
-    return (_EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
+    return (EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
 def _converged(scene: Scene, rtol: float) -> tuple[State, float, float] | None:

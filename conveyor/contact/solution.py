@@ -14,6 +14,7 @@ from conveyor.contact.belt import Belt
 from conveyor.contact.energy import belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
+from conveyor.contact.layers import Confined, HalfSpace
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.errors import NoSolutionError
 
@@ -23,6 +24,7 @@ _FIGURES = (
     "friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation", "energy_error",
     "error_estimate",
 )  # fmt: skip
+_SHALLOW = 0.5
 _DEEP = "the penetration is {:.2f} R, far outside small strain"
 
 
@@ -88,8 +90,8 @@ class Outcome:
 class ContactSolution:
     """Result of `solve`.
 
-    Figures exist where a contact was found (status OK or NOT_CONVERGED, the latter with its error); reading one of a
-    refused problem raises NoSolutionError with the status' advice.
+    Figures exist where a contact was found (status OK, TOO_DEEP or NOT_CONVERGED, the last with its error); reading
+    one of a refused problem raises NoSolutionError with the status' advice.
 
     Attributes
     ----------
@@ -102,7 +104,7 @@ class ContactSolution:
     """
 
     problem: ContactProblem
-    status: Status
+    _ended: Status
     stats: SolveStats
     _remarks: tuple[str, ...] = ()
     _found: Found | None = field(default=None, repr=False)
@@ -113,9 +115,24 @@ class ContactSolution:
         return self._found
 
     @cached_property
+    def status(self) -> Status:
+        """Why the solve stopped; of a converged contact whether it is within what the linear problem can mean."""
+        deep = self._ended is Status.OK and not self._plainly_shallow and self.penetration > 1.0
+        return Status.TOO_DEEP if deep else self._ended
+
+    @property
+    def _plainly_shallow(self) -> bool:
+        """Whether |S| ≤ 1 and |p̂_m| ≤ p̃_m alone keep Δ far below R: W ≤ 2 p̃_m (ln 1/α + 2), and the roll's own drop."""
+        found = self._need()
+        if not isinstance(self.problem.layer, (HalfSpace, Confined)):
+            return False
+        sunk = 2.0 * found.mean_pressure * (2.0 + max(math.log(1.0 / found.half_width), 0.0))
+        return sunk + self.outer_edge**2 < _SHALLOW
+
+    @cached_property
     def advice(self) -> tuple[str, ...]:
         """Remarks on validity, e.g. a penetration beyond small strain."""
-        if self._found is None or self.penetration <= 1.0:
+        if self._found is None or self._plainly_shallow or self.penetration <= 1.0:
             return self._remarks
         return (_DEEP.format(self.penetration), *self._remarks)
 

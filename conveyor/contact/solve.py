@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from conveyor.arguments import checked
 from conveyor.contact.general import by_strips
-from conveyor.contact.narrow import solve_narrow
+from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
 from conveyor.contact.scene import Scene
@@ -32,7 +32,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     rtol : float
         Relative error of friction asked for [-], in [1e-12, 1e-2].
     throw : bool
-        Raise on any status but OK; False returns it for batches.
+        Raise where there is no contact to the tolerance; False returns the status, for batches.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def solve_many(
 ) -> list[ContactSolution]:
     """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised.
 
-    Narrow contacts, those of conveyors, are solved side by side: scenes of one support share every step.
+    Scenes of one support share every step, as far as one strip is the answer.
 
     Raises
     ------
@@ -121,15 +121,17 @@ def solve_many(
     """
     check_rtol(rtol)
     return [
-        _solution(problem, outcome, throw) if outcome is not None else _solved(Scene.of(problem), rtol, throw)
+        _solution(problem, outcome, throw)
+        if isinstance(outcome, Outcome)
+        else _solved(Scene.of(problem), rtol, throw, split=outcome is Left.STRIPS)
         for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
     ]
 
 
-def _solved(scene: Scene, rtol: float, throw: bool) -> ContactSolution:
+def _solved(scene: Scene, rtol: float, throw: bool, *, split: bool = False) -> ContactSolution:
     """One strip by its half width; any number of strips where that is not the answer."""
     try:
-        outcome = by_half_width(scene, rtol) or by_strips(scene, rtol)
+        outcome = (None if split else by_half_width(scene, rtol)) or by_strips(scene, rtol)
     except RuleTooLongError:
         outcome = Outcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")
@@ -150,6 +152,6 @@ def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> Contact
         outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
     )
     solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
-    if throw and solution.status is not Status.OK:
+    if throw and outcome.status is not Status.OK:
         raise NoSolutionError(solution.message)
     return solution

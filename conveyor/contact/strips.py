@@ -35,6 +35,7 @@ _CHUNK = 4_000_000
 _NEWTON_STEPS = 12
 _SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
 _ROUNDING = 1e-13  # of each strip's force, at a condition number of 100
+_STALLED = 100.0  # times the tolerance: steps that shrink no more are rounding
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP = 0.5  # of the narrowest half width
 
@@ -98,7 +99,7 @@ def settle(
     """
     count, rho = alpha.size, scene.problem.rho
     place = np.concatenate([centre, np.log(alpha)])
-    before = math.inf
+    before = last = math.inf
     for _ in range(_NEWTON_STEPS):
         x, a = place[:count], np.exp(place[count:])
         if np.any(a + np.abs(x) >= rho) or smallest_gap(x, a) <= 0.0 or too_close(x, a):
@@ -114,8 +115,9 @@ def settle(
             jacobian = ((residual[1:] - residual[0]) / steps[:, None]).T
         step = np.linalg.solve(jacobian, residual[0])
         largest = float(np.abs(step / unit).max())
-        if largest <= tolerance:
+        if largest <= tolerance or (largest <= _STALLED * tolerance and largest > _SHRINKS * last):
             return trial.strips(jacobian)
+        last = largest
         if largest > _SHRINKS * before:
             jacobian, before = None, math.inf
             continue

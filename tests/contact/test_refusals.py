@@ -182,3 +182,25 @@ def test_a_layer_too_thin_for_memory_is_a_status_not_an_exception():
 def test_radius_must_be_a_number(value):
     with pytest.raises(InputError, match=r"radius = .*: a number is needed"):
         ContactProblem("confined", value, 1e-3, CreepSpectrum(1.0))
+
+
+def test_deeper_than_the_radius_is_a_status_of_its_own():
+    # free, R/λ 0.1: the contact exists and converges, Δ/R 1.41 is far outside small strain
+    deep = ContactProblem("free", 0.1, 0.13, CreepSpectrum(0.1, [0.9], [1.0]), 1.0)
+    found = solve(deep)
+    assert found.status is Status.TOO_DEEP
+    assert found.penetration > 1.0
+    assert found.friction == pytest.approx(0.86352368, rel=1e-6)
+    assert "1.41 R" in found.message
+    assert solve(ContactProblem("free", 0.1, 0.01, CreepSpectrum(0.1, [0.9], [1.0]), 1.0)).status is Status.OK
+
+
+def test_a_load_far_beyond_the_limit_is_refused_on_a_coarse_grid():
+    # 15 s on grids of up to 4096 nodes on the roll before; the limit was not always named
+    thin = ContactProblem(
+        "free", 0.00112, 0.239, CreepSpectrum(8.5e-6, [1.0 - 8.5e-6], [16.92]), 0.00166, 0.49
+    )
+    found = solve(thin, throw=False)
+    assert found.status is Status.WRAP_LIMIT
+    assert float(found.message.rsplit(" ", 1)[1]) == pytest.approx(7e-6, rel=0.2)
+    assert found.stats.grid == 256 * 512
