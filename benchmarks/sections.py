@@ -1,4 +1,4 @@
-"""The loop of tensions by number of sections: time of one load case after the forces along the belt are known.
+"""The whole calculation by number of sections, and the loop of tensions alone: forces along the belt are known.
 
     python benchmarks/sections.py
 
@@ -17,9 +17,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import conveyor
-from conveyor.line.walk import Track, indented, surfaces
-from conveyor.loop.balance import balance
+from conveyor.loop.balance import Balance, balance
 from conveyor.models import Conveyor
+from conveyor.pipeline import calculate
 
 ROOT = Path(__file__).resolve().parents[1]
 COUNTS = (1, 10, 100, 1000)
@@ -53,22 +53,18 @@ def fastest(work: Callable[[], object], runs: int = RUNS) -> float:
 
 def main() -> None:
     line = conveyor.load(ROOT / "examples" / "specs" / "overland.yaml")
-    print("sections   forces along the belt [ms]   first loop [ms]   each further loop [ms]   18 loops [ms]")
+    print("sections   whole calculation [ms]   loop alone [ms]   18 loops [ms]")
     for count in COUNTS:
         made = with_sections(line, count)
-        track, covers = Track(made), surfaces(made)
-        began = time.perf_counter()
-        (results,) = indented([track], [covers])
-        along = time.perf_counter() - began
-        if not isinstance(results, tuple):
-            raise results
-        began = time.perf_counter()
-        balance(made, results)
-        first = time.perf_counter() - began
-        each = fastest(lambda made=made, results=results: balance(made, results))
-        print(
-            f"{count:8d} {along * 1e3:28.1f} {first * 1e3:17.2f} {each * 1e3:24.3f} {CASES * each * 1e3:15.1f}"
-        )
+        calculate(made)
+        whole = fastest(lambda made=made: calculate(made), runs=5)
+        found = calculate(made)
+
+        def loop(found: Balance = found.balance, unit_main: float = found.balance.unit_main) -> float:
+            return balance(found.frame, found.along, unit_main).tensions.tight
+
+        each = fastest(loop)
+        print(f"{count:8d} {whole * 1e3:24.1f} {each * 1e3:17.3f} {CASES * each * 1e3:15.1f}")
 
 
 if __name__ == "__main__":

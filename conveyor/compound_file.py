@@ -35,7 +35,7 @@ from conveyor.rubber import (
 from conveyor.rubber.band import METHOD
 from conveyor.rubber.shift_laws import LEAST_TEMPERATURES
 from conveyor.rubber.strain import SAME_TEMPERATURE
-from conveyor.units import quantity, si
+from conveyor.units import in_si
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
 
 Array = NDArray[np.float64]
@@ -222,7 +222,7 @@ def _reference(data: Path, read: DmaData, request: Request) -> str:
 
 
 def _kelvin(temperature: str, place: str = "--at") -> float:
-    kelvin = si(quantity(temperature, "temperature"))
+    kelvin = in_si(temperature, "temperature")
     if kelvin <= 0.0:
         raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
     return kelvin

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.report.plots import colour, stacked
-from conveyor.units import si, text
+from conveyor.units import text
 from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def figure(found: Fitted) -> Figure:
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
     at = omega / (2.0 * np.pi)
     series = found.fit.series
-    replicas = found.compound.replicas(si(found.compound.reference_temperature))
+    replicas = found.compound.replicas(found.compound.reference)
     models: tuple[Callable[[PronySeries], FloatArray], ...] = (
         lambda s: s.storage(omega) / 1e6,
         lambda s: s.loss(omega) / 1e6,

@@ -85,7 +85,7 @@ def fit(
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
     from conveyor import compound_file
     from conveyor import shelf as shelf_of
-    from conveyor.units import quantity, si
+    from conveyor.units import in_si
 
     to = Outputs(data, shift, strain, force=force)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
@@ -93,7 +93,7 @@ def fit(
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
-        "temperature": None if temperature is None else si(quantity(temperature, "temperature")),
+        "temperature": None if temperature is None else in_si(temperature, "temperature"),
     }  # fmt: skip
     request = compound_file.Request(
         name=name or data.name.split(".")[0],
@@ -102,7 +102,7 @@ def fit(
         strain=strain,
         reference_strain=reference_strain,
         poisson_ratio=poisson,
-        equilibrium=None if equilibrium is None else si(quantity(equilibrium, "pressure")),
+        equilibrium=None if equilibrium is None else in_si(equilibrium, "pressure"),
         terms_per_decade=terms_per_decade,
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
@@ -166,10 +166,10 @@ def shelf(
 
     from conveyor import shelf as store
     from conveyor.errors import RangeError
-    from conveyor.units import quantity, si, text
+    from conveyor.units import in_si, text
     from conveyor.units.sentences import celsius
 
-    kelvin, hertz = si(quantity(at, "temperature")), si(quantity(frequency, "frequency"))
+    kelvin, hertz = in_si(at, "temperature"), in_si(frequency, "frequency")
     console = Console(highlight=False)
     if name is not None:
         compound = store.compound(name, extra=shelves or ())
@@ -209,8 +209,8 @@ def shelf(
     drawn = []
     for known in store.names(shelves or ()):
         compound = store.compound(known, extra=shelves or ())
-        span = () if compound.range is None else compound.range.temperature
-        limits = " to ".join(f"{celsius(si(t)):.0f}" for t in span)
+        span = () if compound.range is None else compound.range.kelvin
+        limits = " to ".join(f"{celsius(t):.0f}" for t in span)
         try:
             series = compound.series(kelvin)
         except RangeError:

@@ -4,7 +4,7 @@ A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its
 `load_curve` share one set-up among many loads. Numbers only: no units, no rubber.
 """
 
-from conveyor.contact.belt import Belt
+from conveyor.contact.belt import BeltSupport as Belt
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.curves import load_curve, load_curves, solve_loads

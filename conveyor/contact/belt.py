@@ -34,7 +34,7 @@ _HARMONICS = 400  # looked at for buckling, the first one by one, then evenly in
 
 
 @dataclass(frozen=True)
-class Belt:
+class BeltSupport:
     """A belt over the rolls: covers of rubber on a carcass with tension, bending and in-plane stiffness.
 
     All of it per width, E0 the rubbery modulus of the bottom cover, k = 2π/λ. Both covers are incompressible.
@@ -64,7 +64,7 @@ class Belt:
     Examples
     --------
     >>> rubber = CreepSpectrum(0.1, [0.9], [0.01])
-    >>> belt = Belt(0.0314, 0.0157, rubber, 0.75, tension=0.05, bending=3e-4, stretching=50)
+    >>> belt = BeltSupport(0.0314, 0.0157, rubber, 0.75, tension=0.05, bending=3e-4, stretching=50)
     >>> belt.symbol(np.array([1.0, 100.0]), rubber).real.round(3).tolist()
     [13.237, 0.499]
     """
@@ -176,7 +176,7 @@ class Belts:
     top_creeps: Creeps
 
     @classmethod
-    def of(cls, belts: list[Belt]) -> Belts:
+    def of(cls, belts: list[BeltSupport]) -> Belts:
         """Stack belts."""
         numbers = [belt._numbers for belt in belts]  # noqa: SLF001
         names = _Numbers.__dataclass_fields__

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.belt import Belt
+from conveyor.contact.belt import BeltSupport
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.layers import Creep
@@ -59,7 +59,7 @@ def width(strips: Sequence[Strip]) -> float:
 class _Losses:
     """What a belt's top cover and carcass lose, as real and imaginary part of a symbol."""
 
-    belt: Belt
+    belt: BeltSupport
 
     @property
     def reach(self) -> float:
@@ -70,7 +70,7 @@ class _Losses:
         return top + 1j * carcass
 
 
-def belt_losses(belt: Belt, creep: CreepSpectrum, strips: Sequence[Strip]) -> tuple[float, float]:
+def belt_losses(belt: BeltSupport, creep: CreepSpectrum, strips: Sequence[Strip]) -> tuple[float, float]:
     """What of Σ_{m≥1} Im S_m |p̃̂_m|² a belt's top cover and its carcass take."""
     m, weights = series_rule(_Losses(belt), creep, span=width(strips), end=belt.reach)
     lost = complex(np.sum(weights * m * np.abs(spectrum(m, strips)) ** 2))

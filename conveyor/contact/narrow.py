@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.belt import Belt
+from conveyor.contact.belt import BeltSupport
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -159,7 +159,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
 def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
     """Whether the scene's retardation numbers can be squared."""
     times = [creep.times]
-    if isinstance(problem.support, Belt):
+    if isinstance(problem.support, BeltSupport):
         times.append(problem.support.top_creep.times)
     return all(float(zeta.max(initial=0.0)) < _TIMES for zeta in times)
 

@@ -24,7 +24,7 @@ from enum import Enum
 
 import numpy as np
 
-from conveyor.contact.belt import Belt
+from conveyor.contact.belt import BeltSupport
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
@@ -97,7 +97,7 @@ class ContactProblem:
     poisson: float = 0.5
 
     def __post_init__(self) -> None:
-        if isinstance(self.support, Belt) and self.poisson != 0.5:
+        if isinstance(self.support, BeltSupport) and self.poisson != 0.5:
             raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
         if isinstance(self.support, str) and self.support not in _SUPPORTS:
             raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.belt import Belt
+from conveyor.contact.belt import BeltSupport
 from conveyor.contact.energy import belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
@@ -249,7 +249,7 @@ class ContactSolution:
             Nothing is lost (an elastic belt), or the contact is known on a grid only.
         """
         fields, top, carcass = self._lossy("loss_shares"), 0.0, 0.0
-        if isinstance(fields.layer, Belt):
+        if isinstance(fields.layer, BeltSupport):
             whole = self.friction * self._need().mean_pressure / (2.0 * self.problem.rho)
             lost = belt_losses(fields.layer, fields.creep, fields.strips)
             top, carcass = lost[0] / whole, lost[1] / whole

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.belt import Belt, Belts
+from conveyor.contact.belt import Belts, BeltSupport
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import HALF_SPACE_DEPTH, Confined, Free, HalfSpace, Layer, Layers
 
@@ -55,12 +55,12 @@ class Own:
 
 def kind(layer: Layer) -> type:
     """What a layer may be stacked with: its own type, and all layers of users' own together."""
-    return type(layer) if type(layer) in {HalfSpace, Free, Confined, Belt} else Own
+    return type(layer) if type(layer) in {HalfSpace, Free, Confined, BeltSupport} else Own
 
 
 def stacked(layers: Sequence[Layer], creeps: Sequence[CreepSpectrum]) -> Stack:
     """Layers of one kind, and the rubbers that are touched, side by side."""
-    belts = [layer for layer in layers if isinstance(layer, Belt)]
+    belts = [layer for layer in layers if isinstance(layer, BeltSupport)]
     if len(belts) == len(layers):
         return Belts.of(belts)
     plain = [layer for layer in layers if isinstance(layer, (Free, Confined))]

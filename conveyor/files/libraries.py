@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from conveyor.errors import InputError
 from conveyor.files.document import read_document
-from conveyor.units import quantity, si
+from conveyor.units import in_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -139,7 +139,8 @@ def widest_spacings() -> dict[str, float]:
     """
     guidance = entries("spacing")
     return {
-        strand: si(quantity(guidance[f"{strand}, overland"].fields["to"])) for strand in ("carry", "return")
+        strand: in_si(guidance[f"{strand}, overland"].fields["to"], "length")
+        for strand in ("carry", "return")
     }
 
 

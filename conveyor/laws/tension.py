@@ -32,35 +32,6 @@ def _require_drive(friction: float, wrap_angle: float) -> None:
     )
 
 
-def grip_ratio(friction: float, *, wrap_angle: float) -> float:
-    """Largest ratio of tensions a drive pulley holds without slip, T1/T2 ≤ e^(μ α) (Eytelwein).
-
-    Parameters
-    ----------
-    friction : float
-        μ between belt and pulley [-], above 0, at most 2.
-    wrap_angle : float
-        α [rad], above 0, at most 8 pi; sum of the angles of all driven pulleys.
-
-    Returns
-    -------
-    float
-        T1/T2 [-].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Examples
-    --------
-    >>> round(grip_ratio(0.3, wrap_angle=math.pi), 4)
-    2.5663
-    """
-    _require_drive(friction, wrap_angle)
-    return math.exp(friction * wrap_angle)
-
-
 def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> float:
     """Least tension on the slack side of the drive, T2,min = |F_U|/(e^(μ α) - 1) (Eytelwein, ISO 5048).
 

@@ -131,7 +131,7 @@ class RubberCompound(Model):
         if self.range is None:
             return
         low, high = self.range.temperature
-        if not si(low) <= temperature <= si(high):
+        if not self.range.kelvin[0] <= temperature <= self.range.kelvin[1]:
             raise RangeError(
                 f'compound "{self.name}" is known from {text(low)} to {text(high)} (its range.temperature), '
                 f"not at {display(temperature, 'temperature', digits=6)}; "

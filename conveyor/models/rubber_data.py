@@ -211,6 +211,12 @@ class MeasuredRange(Model):
         )
         return self
 
+    @property
+    def kelvin(self) -> tuple[float, float]:
+        """Lowest and highest temperature [K]."""
+        low, high = self.temperature
+        return si(low), si(high)
+
 
 class SweptStrain(Model):
     """Moduli against strain amplitude at one temperature and frequency."""

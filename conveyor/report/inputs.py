@@ -8,7 +8,7 @@ from typing import Any, Literal
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
 from conveyor.models.listed import Listed
-from conveyor.units import is_quantity, si, si_unit, text
+from conveyor.units import is_quantity, si_with_unit, text
 
 Origin = Literal["spec", "library", "default"]
 Row = tuple[str, str, float | None, str, Origin]
@@ -39,7 +39,7 @@ def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any =
         for i, item in enumerate(value):
             yield from _rows((*place, i), item, origin)
     elif is_quantity(value):
-        yield field, text(value), si(value), si_unit(value), origin
+        yield field, text(value), *si_with_unit(value), origin
     elif isinstance(value, bool):
         yield field, str(value).lower(), None, "", origin
     elif isinstance(value, int | float):

@@ -885,7 +885,7 @@ def plain(a: CalculatedConveyor) -> dict[str, Any]:
     power, settled, year = found.power, found.settled, None if a.conveyor.duty else a.year
     data: dict[str, Any] = {
         "name": a.conveyor.name,
-        "forces_N": dict.fromkeys(asdict(found.forces)),
+        "forces_N": dict.fromkeys(found.forces.parts),
         "power_kW": dict.fromkeys(("belt", "motor", "mains")),
         "tensions_N": asdict(found.tensions),
         "drives": [

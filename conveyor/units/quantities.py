@@ -111,7 +111,7 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
     if smallest <= number <= largest:
         return value
     low, high = MAGNITUDES[kind]
-    label = "" if kind == "fraction" else f" {si_unit(value)}"
+    label = "" if kind == "fraction" else f" {si_with_unit(value)[1]}"
     expected = f"{KINDS[kind].expected}, in size from {low:g} to {high:g}{label}"
     raise InputError(f"got {text(value)}, expected {expected}")
 
@@ -157,6 +157,33 @@ def si(value: Quantity) -> float:
     """
     scale = _si_scale(value.units)
     return float(value.to_base_units().magnitude if scale is None else value.magnitude * scale[0] / scale[1])
+
+
+def in_si(value: str, kind: str) -> float:
+    """Read what somebody wrote as a quantity of one kind straight into SI, as `si` gives it.
+
+    Raises
+    ------
+    InputError
+        As `quantity` raises it.
+
+    Examples
+    --------
+    >>> in_si("1200 mm", "length"), in_si("20 degC", "temperature")
+    (1.2, 293.15)
+    """
+    return si(quantity(value, kind))
+
+
+def si_with_unit(value: Quantity) -> tuple[float, str]:
+    """Return the value in SI and the unit it has there, as reports write it.
+
+    Examples
+    --------
+    >>> si_with_unit(quantity("20 degC", "temperature")), si_with_unit(quantity("3 kN"))
+    ((293.15, 'K'), (3000.0, 'N'))
+    """
+    return si(value), next((label for kind, label in _SI_LABELS.items() if is_kind(value, kind)), "K")
 
 
 def same(one: Quantity, other: Quantity) -> bool:
@@ -216,17 +243,6 @@ _SI_LABELS = {
     "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
     "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "bending stiffness": "N m²", "viscosity": "m²/s",
 }  # fmt: skip
-
-
-def si_unit(value: Quantity) -> str:
-    """Return the unit that `si` gives the value in, as reports write it.
-
-    Examples
-    --------
-    >>> si_unit(quantity("600 fpm")), si_unit(quantity("20 degC", "temperature")), si_unit(quantity("3 kN"))
-    ('m/s', 'K', 'N')
-    """
-    return next((label for kind, label in _SI_LABELS.items() if is_kind(value, kind)), "K")
 
 
 def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:

@@ -16,7 +16,6 @@ def test_drive_on_the_grip_limit_has_eytelweins_ratio():
     drive = tension.drive_tensions(1e4, friction=0.35, wrap_angle=3.5)
     assert drive.governed_by == "grip"
     assert drive.tight / drive.slack == pytest.approx(math.exp(0.35 * 3.5), rel=ROUNDING)
-    assert drive.tight / drive.slack == pytest.approx(tension.grip_ratio(0.35, wrap_angle=3.5), rel=ROUNDING)
     assert drive.tight - drive.slack == pytest.approx(1e4, rel=ROUNDING)
 
 
@@ -24,11 +23,6 @@ def test_weak_grip_needs_the_force_over_mu_alpha():
     # e^x - 1 → x: no digits may be lost
     tiny = tension.grip_tension(1.0, friction=1e-9, wrap_angle=1.0)
     assert tiny == pytest.approx(1e9, rel=1e-9)
-
-
-def test_two_pulleys_share_the_exponent():
-    together = tension.grip_ratio(0.3, wrap_angle=6.0)
-    assert together == pytest.approx(tension.grip_ratio(0.3, wrap_angle=3.0) ** 2, rel=ROUNDING)
 
 
 def test_start_factor_scales_both_tensions_while_grip_governs():
@@ -52,7 +46,8 @@ def test_belt_that_drives_the_motor_needs_the_same_grip():
 
 
 def test_largest_grip_is_still_a_number():
-    assert tension.grip_ratio(2.0, wrap_angle=8 * math.pi) == pytest.approx(math.exp(16 * math.pi), rel=1e-12)
+    least = tension.grip_tension(1e4, friction=2.0, wrap_angle=8 * math.pi)
+    assert least == pytest.approx(1e4 * math.exp(-16 * math.pi), rel=1e-12)
 
 
 def test_idle_drive_needs_no_grip():
@@ -83,16 +78,22 @@ def test_pulley_diameter_of_a_five_mm_carcass(carcass, diameter):
     ("call", "message"),
     [
         (
-            lambda: tension.grip_ratio(0.3, wrap_angle=180.0),
+            lambda: tension.grip_tension(1.0, friction=0.3, wrap_angle=180.0),
             r"wrap_angle = 180\.0 is not allowed: .* 8 pi rad",
         ),
-        (lambda: tension.grip_ratio(2.1, wrap_angle=3.0), r"friction = 2\.1 is not allowed: .* at most 2"),
+        (
+            lambda: tension.grip_tension(1.0, friction=2.1, wrap_angle=3.0),
+            r"friction = 2\.1 is not allowed: .* at most 2",
+        ),
         (lambda: tension.steel_cord_stiffness(math.inf), r"nominal_strength = inf"),
         (
             lambda: tension.drive_tensions(1.0, friction=0.3, wrap_angle=3.0, start_factor=math.inf),
             r"start_factor = inf",
         ),
-        (lambda: tension.grip_ratio(0.0, wrap_angle=3.0), r"friction = 0\.0 is not allowed: above 0"),
+        (
+            lambda: tension.grip_tension(1.0, friction=0.0, wrap_angle=3.0),
+            r"friction = 0\.0 is not allowed: above 0",
+        ),
         (lambda: tension.grip_tension(math.nan, friction=0.3, wrap_angle=3.0), r"drive_force = nan"),
         (
             lambda: tension.sag_tension(10.0, spacing=1.0, relative_sag=0.0, gravity=9.81),

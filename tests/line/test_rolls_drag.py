@@ -128,6 +128,16 @@ def test_middle_and_wings_have_their_own_laws(line):
     assert roll_at(mixed, 1).drag_law.law == "maker"
 
 
+def test_the_third_of_five_rolls_is_the_middle_one(line):
+    carry = line.idlers.carry
+    short = carry.roll.replace(length="300 mm", drag="1 N")
+    five = carry.replace(
+        rolls=5, roll=short, middle_roll=short.replace(drag="3 N"), load_shares=[0.1, 0.2, 0.4, 0.2, 0.1]
+    )
+    stretch = carry_stretches(line.replace(idlers=line.idlers.replace(carry=five)))[0]
+    assert stretch.drags == pytest.approx((1.0, 1.0, 3.0, 1.0, 1.0), rel=1e-15)
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

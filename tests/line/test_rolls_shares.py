@@ -12,6 +12,7 @@ from conveyor.errors import InputError
 from conveyor.laws.loading import cross_section, filled_width, middle_share_by_area, surcharge_from_slope
 from conveyor.line.line import Line
 from conveyor.line.set_loads import SetLoads
+from conveyor.line.stretches import roll_masses
 from conveyor.pipeline import calculate
 from conveyor.remarks import assumptions, warnings
 from conveyor.spec import load
@@ -75,6 +76,20 @@ def test_filled_width_refuses(change, message):
 
 def test_vdi_2341_is_the_default(line):
     assert middle_share(loads_of(line)) == pytest.approx(0.5 + 0.005 * 45.0, rel=1e-12)
+
+
+def test_each_wing_bears_half_of_what_lies_beside_the_middle_roll(line):
+    loads = SetLoads(line, line.idlers.carry)
+    # 2400 t/h at 5 m/s: 133.3 kg/m
+    covered = loads.covered(400.0 / 3.0)
+    assert loads.wing_contact(400.0 / 3.0) == pytest.approx((covered - 0.465) / 2.0, rel=1e-12)
+    # so little that it lies on the middle roll alone
+    assert loads.wing_contact(1.0) == pytest.approx(0.0, abs=1e-15)
+
+
+def test_what_a_valley_leaves_on_the_rolls_may_be_little():
+    # 20 kg/m of belt, 80 kg/m of bulk, lifted like 99.5 kg/m
+    assert roll_masses(20.0, 80.0, -99.5, where="dip") == pytest.approx((0.0, 0.5), rel=1e-12)
 
 
 def test_by_cross_section_the_share_is_that_of_the_area_at_the_filling(line):
