@@ -22,7 +22,7 @@ from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import uncertainty as range_study
-from conveyor.units.display import chosen
+from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -71,9 +71,7 @@ class Analysis(CalculatedConveyor):
         report = self.conveyor.report.replace(units=system)
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
-    def contents(
-        self, studies: study.CalculatedStudies | None = None, *, system: System | None = None
-    ) -> Contents:
+    def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
         from conveyor.report.tables import of_analysis
 
@@ -119,7 +117,7 @@ class Analysis(CalculatedConveyor):
     def to_excel(
         self,
         path: str | Path,
-        studies: study.CalculatedStudies | None = None,
+        studies: Studies | None = None,
         *,
         system: System | None = None,
     ) -> Path:
@@ -148,7 +146,7 @@ class Analysis(CalculatedConveyor):
     def to_tables(
         self,
         folder: str | Path,
-        studies: study.CalculatedStudies | None = None,
+        studies: Studies | None = None,
         *,
         system: System | None = None,
         kind: FileKind = "csv",
@@ -179,7 +177,7 @@ class Analysis(CalculatedConveyor):
     def to_html(
         self,
         path: str | Path,
-        studies: study.CalculatedStudies | None = None,
+        studies: Studies | None = None,
         *,
         system: System | None = None,
     ) -> Path:

@@ -17,7 +17,7 @@ from conveyor.report import analysis_plots, loop_plots, plots
 from conveyor.report.tables import boundaries
 from conveyor.studies.compared import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
-from conveyor.units.display import chosen
+from conveyor.units.presentation import chosen
 from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:

@@ -32,6 +32,8 @@ SOURCES = {
     "J*(ω) E*(ω) = 1": "the exact inverse of a relaxation spectrum, 21 terms over 20 decades",
 }
 FILES = {
+    "test_belt_cases": "a belt of two covers and a carcass that bends and stretches: six contacts of a separate "
+    "implementation, and three methods on one belt",
     "test_boundary_elements": "the paper's own route (boundary elements in real space on a graded mesh) against the "
     "spectral solver and closed forms; errors fall with the order of its elements",
     "test_closed_forms": "the oracles themselves: Hunter, Hertz, Winkler foundation, Jonkers' form; printed figures, "

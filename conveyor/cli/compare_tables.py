@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from conveyor.cli import notes
 from conveyor.cli.terminal import console, table, words
-from conveyor.units.display import Unit, unit
+from conveyor.units.presentation import Unit, unit
 
 if TYPE_CHECKING:
     from conveyor.report.columns import Contents, Table

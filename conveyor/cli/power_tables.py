@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from conveyor.cli import notes
 from conveyor.cli.terminal import console, table, words, wrapped
-from conveyor.units.display import headed, unit
+from conveyor.units.presentation import headed, unit
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -16,7 +16,6 @@ from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
-from conveyor.units.display import unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -167,6 +166,7 @@ def shelf(
     from conveyor import shelf as store
     from conveyor.errors import RangeError
     from conveyor.units import in_si, text
+    from conveyor.units.presentation import unit
     from conveyor.units.sentences import celsius
 
     kelvin, hertz = in_si(at, "temperature"), in_si(frequency, "frequency")

@@ -91,7 +91,7 @@ def check_units(units: Mapping[str, str | None]) -> dict[str, ModulusUnit]:
     Examples
     --------
     >>> check_units({"modulus": "MPa", "strain": None})
-    {'modulus': Unit(name='MPa', factor=1000000.0, offset=0.0)}
+    {'modulus': ModulusUnit(name='MPa', factor=1000000.0, offset=0.0)}
     """
     given = {}
     for dimension, text in units.items():

@@ -113,7 +113,7 @@ def find_unit(dimension: str, text: str) -> ModulusUnit | None:
     Examples
     --------
     >>> find_unit("modulus", "[ N/mm² ]"), find_unit("temperature", "°C").offset, find_unit("modulus", "Hz")
-    (Unit(name='MPa', factor=1000000.0, offset=0.0), 273.15, None)
+    (ModulusUnit(name='MPa', factor=1000000.0, offset=0.0), 273.15, None)
     """
     plain = re.sub(r"\s+", "", text).replace("⁻¹", "^-1")
     if len(plain) > 1 and plain[0] + plain[-1] in {"[]", "()", "<>"}:

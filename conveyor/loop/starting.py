@@ -144,7 +144,8 @@ def motions(found: Balance) -> Motions:
 
 def every_state(found: Balance, moving: Motions) -> tuple[MotionState, ...]:
     """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
-    return (*found.settled.states.values(), *moving.states.values())
+    together = (*found.settled.states.values(), *moving.states.values())
+    return tuple({state.name: state for state in together}.values())
 
 
 def _holding(lift: float, friction: float) -> tuple[float, bool]:

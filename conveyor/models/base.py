@@ -156,5 +156,6 @@ class Model(BaseModel):
         return listing(type(self).__name__, self.as_data().items())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle as plain data: pint quantities do not survive another process's registry."""
-        return type(self).model_validate, (self.as_data(),)
+        """Pickle what was given as plain data: pint quantities do not survive another process's registry."""
+        given = self.model_dump(mode="json", by_alias=True, exclude_unset=True)
+        return type(self).model_validate, (given,)

@@ -15,7 +15,7 @@ from conveyor.indentation import to_problem
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
 from conveyor.units import System
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

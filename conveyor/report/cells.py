@@ -19,7 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.printable import printable
 from conveyor.report.columns import NAMED, OF_ROW, Table
 from conveyor.units import System
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)

@@ -19,7 +19,7 @@ from conveyor.report.cells import ACCENT, legible
 from conveyor.report.columns import Table
 from conveyor.report.places import TablePlace
 from conveyor.units import System
-from conveyor.units.display import headed
+from conveyor.units.presentation import headed
 
 _WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")

@@ -1,6 +1,6 @@
 """Columns, figures and tables of reports: what a number is and where it appears; their names with units are made here.
 
-Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.units.display`).
+Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.units.presentation`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import pandas as pd
 
 from conveyor.models.report import Paper
 from conveyor.units import System
-from conveyor.units.display import Unit, headed, unit
+from conveyor.units.presentation import Unit, headed, unit
 
 OF_ROW: Final = "of row"
 """Kind of a column whose values have the kind of their row's figure."""

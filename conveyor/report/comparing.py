@@ -18,7 +18,7 @@ from conveyor.report.representations import folded, of_table
 from conveyor.report.tables import Remark, bands, document, provenance
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.display import MONEY, unit
+from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:

@@ -29,7 +29,7 @@ from conveyor.report.cells import (
 )
 from conveyor.report.columns import CHECKS_AND_NOTES, Figure, ReportHead, Table
 from conveyor.report.places import Page
-from conveyor.units.display import headed, unit
+from conveyor.units.presentation import headed, unit
 
 _COLUMNS: Final = "ABCDEFG"
 _WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}

@@ -9,7 +9,7 @@ import numpy as np
 
 from conveyor.report.plots import colour, grouped, plain, stacked, titled
 from conveyor.units import System
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

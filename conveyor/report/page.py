@@ -12,7 +12,7 @@ from conveyor.models.report import Paper
 from conveyor.report.columns import NAMED, OF_ROW, Column, Figure, Table
 from conveyor.report.page_style import style
 from conveyor.units import System
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 _WIDE = 8  # columns beyond which a table is set smaller on paper
 _SHORT = 12  # rows up to which a table is kept on one page

@@ -16,7 +16,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks, saving
 from conveyor.printable import printable
 from conveyor.units import System
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

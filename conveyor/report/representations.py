@@ -8,7 +8,7 @@ from typing import Any
 from conveyor.markup import Html, element, grid, joined, listing
 from conveyor.report.columns import NAMED, Column, Contents, Figure, Table
 from conveyor.units import System
-from conveyor.units.display import headed
+from conveyor.units.presentation import headed
 
 _ROWS = 40  # of a table that a notebook is shown
 

@@ -14,7 +14,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, put
 from conveyor.report.places import Page, define
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 _CHART_COLUMN = "F"
 _CURVES_COLUMN = "H"

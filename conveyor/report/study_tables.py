@@ -13,7 +13,7 @@ from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
-from conveyor.units.display import MONEY
+from conveyor.units.presentation import MONEY
 
 if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies

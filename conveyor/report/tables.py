@@ -48,7 +48,7 @@ from conveyor.report.study_tables import of_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.units import Quantity, System, text
-from conveyor.units.display import MONEY, strength_of, unit
+from conveyor.units.presentation import MONEY, strength_of, unit
 from conveyor.units.sentences import band_words
 
 CURVE_POINTS: Final = 25

@@ -228,7 +228,7 @@ def test_a_relaxed_modulus_scales_the_pressure():
     assert long.half_width == pytest.approx(glassy.half_width, rel=1e-7)
 
 
-@pytest.mark.parametrize("zeta", [1e-9, 1e-12, 1e-30, 1e-100, 1e-300])
+@pytest.mark.parametrize("zeta", [1e-9, 1e-12, 1e-30, 1e-95])
 def test_friction_of_a_short_memory_is_linear_to_the_last_digit(zeta):
     # isolated half-space: μ = (Vτ/R)(1 - j∞) = ζ (1 - j∞)/ρ; circle (a/R)² = 4e-8 and images α² = 2e-12 remain
     found = solve(

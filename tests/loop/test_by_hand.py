@@ -60,7 +60,7 @@ def test_bearings_of_a_pulley_at_its_tensions():
     # 0.005 (d0/D) sqrt((T1 + T2)² + (m g)²): a shaft of 160 in 800 mm, 1 t; both strands have the tail's tension
     return_end = found.settled.steady.ends[len(SECTIONS) - 1]
     load = math.hypot(2.0 * return_end, 1000.0 * GRAVITY)
-    assert turn.force == pytest.approx(0.005 * 0.2 * load, rel=1e-9)
+    assert turn.newtons == pytest.approx(0.005 * 0.2 * load, rel=1e-9)
     names = {single.name for single in found.singles if single.name.startswith("bearings")}
     assert names == {"bearings, bend", "bearings, tail", "bearings, snub"}  # the head's are the drive's
 

@@ -8,6 +8,7 @@ from conveyor.errors import InputError
 from conveyor.files import libraries
 from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.listed import merged, without
+from conveyor.pipeline import calculate
 from conveyor.remarks.rolls import roll_assumptions, roll_warnings
 from conveyor.report.inputs import inputs
 from conveyor.spec import from_data
@@ -114,13 +115,13 @@ def test_the_spec_goes_before_the_entry_and_the_report_tells_them_apart(conveyor
     line = from_data(conveyor_data)
     assert (line.material.name, text(line.material.density)) == ("hard coal", "900 kg/m^3")
     assert si(line.belt.carcass.thickness) == pytest.approx(4.5e-3, rel=1e-14)
-    table = inputs(line).set_index("field")["given by"]
+    given_by = {field: origin for field, *_, origin in inputs(line)}
     from_library = {
         "material.name", "material.surcharge_angle", "belt.carcass.kind", "belt.carcass.strength",
         "belt.carcass.thickness", "idlers.carry.roll.diameter", "idlers.carry.roll.length",
     }  # fmt: skip
-    assert set(table[table == "library"].index) == from_library
-    assert table["material.density"] == table["belt.carcass.mass"] == "spec"
+    assert {field for field, origin in given_by.items() if origin == "library"} == from_library
+    assert given_by["material.density"] == given_by["belt.carcass.mass"] == "spec"
     told = " ".join(roll_assumptions(line))
     assert 'material: "hard coal" of the library' in told
     assert 'idlers.carry.roll: "159x465" of the library' in told
@@ -179,6 +180,4 @@ def test_a_listed_mass_under_other_covers_is_warned_of(conveyor_data):
 
 
 def _library_remarks(line):
-    from conveyor import analyse
-
-    return roll_warnings(line, analyse(line).stretches)
+    return [said.text() for said in roll_warnings(calculate(line))]

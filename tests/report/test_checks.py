@@ -9,7 +9,7 @@ import pytest
 
 import conveyor
 from conveyor.report.columns import Column, Figure, Table, figures
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 from conveyor.units.sentences import band_words
 from tests.report.checking import checks
 

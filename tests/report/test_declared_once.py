@@ -19,7 +19,7 @@ from conveyor.cli.power_tables import show
 from conveyor.forces import Force
 from conveyor.report import excel, files, html, representations, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
-from conveyor.units.display import _KINDS, Unit, unit
+from conveyor.units.presentation import _KINDS, Unit, unit
 from conveyor.units.sentences import said
 
 PACKAGE = Path(conveyor.__file__).parent

@@ -13,7 +13,7 @@ from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.report.plots import save
 from conveyor.units import KINDS, convert
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 WITH_UNIT = re.compile(r"\[[^\]]+\]$")

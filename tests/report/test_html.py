@@ -14,7 +14,7 @@ from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
 from conveyor.report.page_style import COLOURS
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page
 

@@ -13,7 +13,7 @@ from conveyor.models import LoadCase
 from conveyor.report.comparing import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build
 from conveyor.report.tables import of_analysis
-from conveyor.units.display import headed
+from conveyor.units.presentation import headed
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"

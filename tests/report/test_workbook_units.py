@@ -13,7 +13,7 @@ import conveyor
 from conveyor.analysis import compare_compounds
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
-from conveyor.units.display import unit
+from conveyor.units.presentation import unit
 from tests.report.checking import checks
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))

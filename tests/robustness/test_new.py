@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from conveyor.report.checks import checks
 
 import conveyor
 from conveyor import spec, starter
+from conveyor.checks import checks
 from conveyor.errors import InputError
 from conveyor.units import System
 
