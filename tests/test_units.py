@@ -159,6 +159,8 @@ def test_text_quantity_text_round_trip(number: float, form: tuple[str, str]) -> 
     smallest, largest = (size / abs(si(quantity(f"1 {unit}".rstrip()))) for size in MAGNITUDES[kind])
     if kind == "temperature" or not (number == 0.0 or smallest <= abs(number) <= largest):
         number = math.copysign(min(max(abs(number), 2.0 * smallest), 0.5 * largest), number)
+    if kind == "temperature":  # below absolute zero is refused
+        number = max(number, 0.0 if unit == "K" else -200.0)
     first = quantity(f"{number!r} {unit}".rstrip(), kind)
     assert first.magnitude == number
     second = quantity(text(first), kind)
