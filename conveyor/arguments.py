@@ -12,7 +12,7 @@ from functools import cache, wraps
 from numbers import Integral, Real
 from typing import Any, Final, Literal, ParamSpec, TypeVar, get_args, get_origin
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, shortened
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -57,8 +57,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
             written = signature.parameters[name].annotation
             if not _fits(value, _hint(function.__module__, written)):
                 expected = str(written).replace(" | None", "")
-                shown = repr(value)
-                shown = shown if len(shown) <= _SHOWN else shown[:_SHOWN] + "..."
+                shown = shortened(repr(value), _SHOWN)
                 raise InputError(
                     f"{named}: {name}: expected {expected}, got {shown} ({type(value).__name__})"
                 )

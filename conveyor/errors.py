@@ -19,6 +19,17 @@ class ConveyorError(Exception):
         super().__init__(_LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", str(message))))
 
 
+def shortened(quoted: str, longest: int = 80) -> str:
+    """Cut what a message quotes to a length that a person reads.
+
+    Examples
+    --------
+    >>> shortened("overland"), shortened("overland", 4)
+    ('overland', 'over...')
+    """
+    return quoted if len(quoted) <= longest else quoted[:longest] + "..."
+
+
 class InputError(ConveyorError, ValueError):
     """An input is outside what is allowed; the message names it, its value and the allowed range."""
 

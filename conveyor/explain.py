@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
+from conveyor.errors import shortened
 from conveyor.files.document import MOST_LINES, Document, Fault
 from conveyor.models.base import Location, field_path, real_errors
 from conveyor.units import Measure
@@ -130,7 +131,7 @@ def shown(value: Any) -> str:
         if isinstance(value, bool)
         else str(value)
     )
-    return text if len(text) <= 80 else text[:80] + "..."
+    return shortened(text)
 
 
 def _unknown_key(model: type[BaseModel], location: Location) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, shortened
 from conveyor.files.document import read_document
 from conveyor.units import in_si
 
@@ -96,9 +96,8 @@ def entry(library: Library, name: str) -> Entry:
     if found is None:
         near = difflib.get_close_matches(name.casefold(), folded, n=1)
         guess = f'; did you mean "{folded[near[0]]}"?' if near else ";"
-        shown = name if len(name) <= 80 else name[:80] + "..."
         raise InputError(
-            f'"{shown}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
+            f'"{shortened(name)}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
         )
     return known[found]
 

@@ -7,6 +7,7 @@ import math
 import re
 import sys
 
+from conveyor.errors import shortened
 from conveyor.units.kinds import KINDS, SPELLINGS, Kind
 
 NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
@@ -69,8 +70,7 @@ def _shown(value: object) -> str:
         return "several fields" if isinstance(value, dict) else "a list"
     if isinstance(value, bool):
         return str(value).lower()
-    shown = f'"{on_one_line(value)}"' if isinstance(value, str) else repr(value)
-    return shown if len(shown) <= LONGEST else shown[:LONGEST] + "..."
+    return shortened(f'"{on_one_line(value)}"' if isinstance(value, str) else repr(value), LONGEST)
 
 
 def on_one_line(text: str) -> str:
