@@ -12,14 +12,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
+
+import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
+from conveyor.line.anchors import anchor
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
     Covers,
+    Level,
     RunningCover,
     compounds_by_strand,
     covers_of,
@@ -27,7 +31,7 @@ from conveyor.line.covers import (
     softened_covers,
 )
 from conveyor.line.line import Line
-from conveyor.line.stretches import Pressing, Strand, Stretch
+from conveyor.line.stretches import STRANDS, Pressing, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses
@@ -36,6 +40,7 @@ from conveyor.loop.starting import Motions, motions
 from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
+from conveyor.rubber.anchor import Anchor
 
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
@@ -53,15 +58,15 @@ class Variant:
         The spec.
     temperature : float, optional
         Of the covers, instead of the spec's; the air stays [K].
-    rubber : mapping of strand to PronySeries
-        Covers' rubber at the belt's temperature instead of the compounds' [Pa, s].
+    level : mapping of strand to float
+        Indentation of a strand over the computed one; 1 without [-].
     roll_drag : float
         Drag of all rolls over the computed one [-].
     """
 
     conveyor: Conveyor
     temperature: float | None = None
-    rubber: Mapping[Strand, PronySeries] = field(default_factory=dict)
+    level: Mapping[Strand, float] = field(default_factory=dict)
     roll_drag: float = 1.0
 
     @property
@@ -266,7 +271,10 @@ class _Loaded:
 
 def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> CalculatedConveyor | _Step:
     """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
-    along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
+    level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
+    along = along_the_belt(
+        loaded.line, loaded.fixed, level * contacts.indentation, roll_drag=variant.roll_drag
+    )
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:
         return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
@@ -290,6 +298,7 @@ class _Shared:
     def __init__(self) -> None:
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
+        self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
         self._covers: list[tuple[_Worked, Covers, dict[Strand, RunningCover]]] = []
 
     def loaded(self, variant: Variant, pressing: Pressing) -> tuple[_Loaded, Covers]:
@@ -310,8 +319,22 @@ class _Shared:
         parts = (given.belt, given.idlers, given.material, given.route, given.drive, given.calculation)
         air = given.air_temperature if given.idlers.drag_follows_air else None
         loaded = _once(self._lines, parts, (air, dict(pressing)), lambda: _prepared(given, pressing))
-        plain = covers_of(given, {**rubber, **variant.rubber})
+        plain = covers_of(given, rubber, self._levels(given, at))
         return loaded, self._softened(_Worked(loaded.line, given, at), plain)
+
+    def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
+        """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
+        calculation = conveyor.calculation
+        anchored = calculation.anchor == "tests" and calculation.support == "confined"
+        softened = calculation.strain != "off"
+        found: dict[Strand, Level | None] = {}
+        for strand, compound in compounds_by_strand(conveyor).items():
+            tests = None
+            if anchored and compound.tests:
+                made = partial(anchor, compound, softened=softened)
+                tests = _once(self._anchors, (compound,), (softened,), made)
+            found[strand] = None if tests is None else Level(tests, at)
+        return found
 
     def _softened(self, work: _Worked, covers: Covers) -> Covers:
         """The very covers of a line that works the same rubber alike, so that load curves are shared."""

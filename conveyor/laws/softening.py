@@ -63,7 +63,11 @@ def losing_load(line_loads: Array, weights: Array) -> float:
 
 
 def softened_cover(
-    contact: RollContact, line_load: float, factors: AmplitudeFactors, temperature: float
+    contact: RollContact,
+    line_load: float,
+    factors: AmplitudeFactors,
+    temperature: float,
+    swept: PronySeries | None = None,
 ) -> tuple[PronySeries, WorkingStrain]:
     """Series of a cover at the strain of a roll's own contact.
 
@@ -77,13 +81,15 @@ def softened_cover(
         Of the compound.
     temperature : float
         Of the cover [K].
+    swept : PronySeries, optional
+        Beyond the sweeps: the series at the nearest temperature they reach.
 
     Raises
     ------
     NoSolutionError
         The contact has no answer, the strain does not settle, or the softened rubber would be a fluid.
     RangeError
-        The strain or the temperature are outside the sweeps.
+        The strain is outside the sweeps.
     """
     passing = 2.0 * math.pi / contact.spacing * contact.speed
 
@@ -92,7 +98,9 @@ def softened_cover(
         inside = interior(solution, depths=_DEPTHS, points=_POINTS)
         return inside.working_strain, inside.wave_number * passing
 
-    found = equivalent_linear(contact.rubber, factors, strain_of, temperature=temperature, rtol=_STRAIN_RTOL)
+    found = equivalent_linear(
+        contact.rubber, factors, strain_of, temperature=temperature, swept=swept, rtol=_STRAIN_RTOL
+    )
     return found.series, WorkingStrain(
         line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
     )

@@ -18,6 +18,7 @@ from conveyor.indentation import (
     indentation_curves,
 )
 from conveyor.laws.loading import RollLoad
+from conveyor.laws.softening import losing_load
 from conveyor.line.covers import Covers, roll_contact
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
@@ -63,9 +64,9 @@ class Contacts:
     covers : mapping of strand to Cover
         What they run on.
     curves : tuple of IndentationCurve
-        Of every kind of roll, `line.kinds`.
+        Of every kind of roll, `line.kinds`: the theory.
     drags : tuple of ndarray
-        Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`.
+        Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`, at the level of the tests.
     """
 
     line: Line
@@ -102,6 +103,22 @@ class Contacts:
         lows = [f for curve in self.curves_of(strand) if (f := curve.slowest_excited) is not None]
         highs = [f for curve in self.curves_of(strand) if (f := curve.fastest_excited) is not None]
         return (min(lows), max(highs)) if lows and highs else None
+
+    def losing_load(self, strand: Strand) -> float:
+        """Mean line load of a strand's rolls, weighted by what each loses [N/m]."""
+        kinds = [kind for kind in self.line.kinds if kind.strand == strand]
+        loads = np.concatenate([kind.line_loads for kind in kinds])
+        return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in kinds]))
+
+    def level_factor(self, strand: Strand) -> float:
+        """Factor of the tests on a strand's indentation at its mean line load [-]; 1 without tests."""
+        level = self.covers[strand].level
+        return 1.0 if level is None else float(level.factor(self.losing_load(strand)))
+
+    def level_band(self, strand: Strand) -> float:
+        """Half-width of the logarithm of that factor, holding nine tenths [-]; 0 without tests."""
+        level = self.covers[strand].level
+        return 0.0 if level is None else level.anchor.band(self.losing_load(strand), level.temperature)
 
     def deepest(self, strand: Strand) -> float:
         """Largest penetration of a strand's rolls over the thickness of their cover [-]: at the highest loads."""
@@ -189,7 +206,8 @@ def _read(
         resistance = curve.resistance(np.concatenate([kind.distinct for kind in kinds]))
         parts = np.split(resistance, np.cumsum([kind.distinct.size for kind in kinds])[:-1])
         for k, kind, part in zip(members, kinds, parts, strict=True):
-            drags[k] = _along_the_rolls(kind, part)
+            level = covers[kind.strand].level
+            drags[k] = _along_the_rolls(kind, part if level is None else part * level.factor(kind.distinct))
     return Contacts(line, covers, tuple(curves), tuple(drags))
 
 

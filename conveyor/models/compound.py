@@ -13,6 +13,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError, RangeError
 from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.models.rolling_tests import RollingTest
 from conveyor.models.rubber_data import (
     AbsoluteTemperature,
     ArrheniusShift,
@@ -28,6 +29,7 @@ from conveyor.units import (
     Bounds,
     Density,
     display,
+    from_si,
     si,
     text,
 )
@@ -63,6 +65,10 @@ class RubberCompound(Model):
     range: MeasuredRange | None = None
     strain_dependence: StrainDependence | None = None
     """Softening with strain; without it the rubber is taken as linear."""
+    tests: tuple[RollingTest, ...] = ()
+    """Rolling-resistance tests: they set the level of its indentation."""
+    carrier: Name | None = None
+    """Compound whose spectrum stands in for one that was not measured; the tests set its level."""
     fit: FitStatistics | None = None
     missing: tuple[str, ...] = ()
     """What is not known about the compound."""
@@ -81,6 +87,10 @@ class RubberCompound(Model):
                 build()
             except (InputError, RangeError) as error:
                 problems.append(Problem((name,), str(error)))
+        if self.carrier is not None and not self.tests:
+            problems.append(
+                Problem(("tests",), "missing; with a carrier's spectrum the tests are all that is known")
+            )
         refuse("RubberCompound", problems)
         return self
 
@@ -107,10 +117,16 @@ class RubberCompound(Model):
         """Return the factors of strain on E' and E'', if the compound has the data."""
         return None if self.strain_dependence is None else self.strain_dependence.factors()
 
-    def strain_factors(self, temperature: float) -> AmplitudeFactors | None:
-        """Return the factors of strain where the sweeps know them at a temperature [K], None elsewhere."""
+    def swept_series(self, temperature: float) -> PronySeries:
+        """Return the series at the temperature of the sweeps nearest to one [K]: at it, where they reach it.
+
+        Raises
+        ------
+        RangeError
+            The compound is not known there.
+        """
         factors = self.amplitude_factors()
-        return factors if factors is not None and factors.known_at(temperature) else None
+        return self.series(temperature if factors is None else factors.nearest(temperature))
 
     def frequencies(self, temperature: float) -> tuple[float, float] | None:
         """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.
@@ -176,9 +192,26 @@ class RubberCompound(Model):
         RangeError
             As `series`.
         """
+        return self._at(temperature, self._reference_replicas())
+
+    def _reference_replicas(self) -> tuple[PronySeries, ...]:
         band, terms = self.prony.band, self.prony.terms
-        reference = () if band is None else band.series([si(term.time) for term in terms])
-        return self._at(temperature, reference)
+        return () if band is None else band.series([si(term.time) for term in terms])
+
+    def alternatives(self) -> tuple[Self, ...]:
+        """Return the compound with each replica of its fit as its series; everything else of it stays."""
+        return tuple(
+            self.replace(
+                prony={
+                    "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
+                    "terms": [
+                        {"modulus": from_si(modulus, "pressure", "Pa"), "time": from_si(time, "time", "s")}
+                        for modulus, time in zip(series.moduli.tolist(), series.times.tolist(), strict=True)
+                    ],
+                }
+            )
+            for series in self._reference_replicas()
+        )
 
     def _at(self, temperature: float, reference: tuple[PronySeries, ...]) -> tuple[PronySeries, ...]:
         """Shift series of the reference temperature to another [K]."""

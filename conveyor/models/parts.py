@@ -41,7 +41,9 @@ class Calculation(Model):
     rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-6
     """Relative tolerance of the rolling contact."""
     strain: Literal["where known", "off"] = "where known"
-    """Moduli at the strain the rolls work the cover at, for compounds with strain sweeps at the belt's temperature."""
+    """Moduli at the strain the rolls work the cover at, for compounds with strain sweeps."""
+    anchor: Literal["tests", "off"] = "tests"
+    """Level of indentation by the compounds' rolling-resistance tests, or by the theory alone (off)."""
     gauss_points: Annotated[int, Field(ge=1, le=64, strict=True)] = 8
     """Points along a roll at which the contact is solved."""
     secondary: Literal["itemised", "C"] = "itemised"

@@ -35,7 +35,7 @@ class Uncertainty(Model):
     temperature: Annotated[TemperatureDifference, Bounds(gt="0 K", le="100 K")] | None = None
     """Of the belt's covers, up and down."""
     rubber: Switch = False
-    """Whether the compounds' replicas (bootstrap of their fits) are calculated, for those that have them."""
+    """Whether the compounds' replicas (bootstrap of their fits) and the band of their tests are calculated."""
 
     def half_width(self, name: str) -> float | None:
         """Half width of a range, as a share or in kelvin [-, K]; None where it is not given."""

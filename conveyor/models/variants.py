@@ -173,6 +173,17 @@ def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoi
     )
 
 
+def with_alternative(conveyor: Conveyor, compound: RubberCompound, other: RubberCompound) -> Conveyor:
+    """The conveyor with another compound wherever it has that one."""
+    belt = conveyor.belt
+    covers = {
+        name: cover.replace(compound=other)
+        for name, cover in (("top_cover", belt.top_cover), ("bottom_cover", belt.bottom_cover))
+        if cover.compound is not None and cover.compound.name == compound.name
+    }
+    return conveyor.replace(belt=belt.replace(**covers))
+
+
 def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor:
     """The conveyor with its covers warmer or colder [K].
 

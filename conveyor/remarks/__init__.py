@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
+from typing import Final
 
 from conveyor.checks import Check
 from conveyor.line.covers import compounds_by_strand
@@ -12,6 +14,9 @@ from conveyor.pipeline import CalculatedConveyor
 from conveyor.remarks.rolls import roll_assumptions, roll_warnings
 from conveyor.units import text
 from conveyor.units.sentences import Said, quoted, said
+
+LEAST_PUBLISHED_FRICTION: Final = 0.0075
+"""Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
 
 
 def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
@@ -51,6 +56,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
             (
                 *_rubber(conveyor),
                 *_strain(found),
+                *_level(found),
                 *_contact(conveyor),
                 *roll_warnings(found),
                 *_left_out(found),
@@ -83,21 +89,57 @@ def _strain(found: CalculatedConveyor) -> Iterator[Said]:
         if known is None:
             continue
         worked = found.contacts.covers[strand].strain
-        if worked is not None:
+        factors = compound.amplitude_factors()
+        if worked is not None and factors is not None:
             note = f" ({quoted(known.reference_note)})" if known.reference_note else ""
             yield said(
                 f'compound "{name}": the {strand} rolls work it at {worked.strain:.2%} strain, '
                 f"{worked.frequency:.3g} Hz: E' taken {worked.storage_factor:.3f} and E'' {worked.loss_factor:.3f} "
                 f"times those at the master curve's {text(known.reference_strain)}{note}"
             )
+            if not factors.known_at(found.temperature):
+                reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
+                held = (factors.nearest(found.temperature), "temperature")
+                yield said(
+                    f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: what they change at {{}} '
+                    "is held",
+                    *reached,
+                    (found.temperature, "temperature"),
+                    held,
+                )
         elif not found.line.softened:
             yield said(f'compound "{name}": calculation.strain is off, its strain sweeps are not used')
-        else:
-            reached = " to ".join(text(sweep.temperature) for sweep in (known.sweeps[0], known.sweeps[-1]))
+
+
+def _level(found: CalculatedConveyor) -> Iterator[Said]:
+    """Whether rolling-resistance tests set the level of the indentation, and how far it is known."""
+    contacts, calculation = found.contacts, found.conveyor.calculation
+    for strand, compound in compounds_by_strand(found.conveyor).items():
+        level, name = contacts.covers[strand].level, quoted(compound.name)
+        if level is not None:
+            half = contacts.level_band(strand)
+            anchor = level.anchor
+            beyond = "" if anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             yield said(
-                f'compound "{name}": its strain sweeps ({reached}) do not reach '
-                f"{text(found.conveyor.ambient.belt)}: taken as linear, at the strain of its master curve"
+                f'compound "{name}": indentation of the {strand} rolls taken {contacts.level_factor(strand):.2f} times '
+                f"the theory ({-math.expm1(-half):.0%} less to {math.expm1(half):.0%} more), the level of its "
+                f"rolling-resistance tests{beyond}"
             )
+        elif compound.tests:
+            why = (
+                "calculation.anchor is off" if calculation.anchor == "off" else "the support is not confined"
+            )
+            yield said(f'compound "{name}": {why}, its rolling-resistance tests are not used')
+        else:
+            yield said(
+                f'compound "{name}": level not anchored: published tests of low-resistance covers lie 2 to 2.5 times '
+                "above tyre-type small-strain data; give the compound rolling-resistance tests"
+            )
+    if 0.0 < found.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
+        yield said(
+            f"friction factor {found.balance.friction_factor:.4f} is below {LEAST_PUBLISHED_FRICTION:g}, the best ever "
+            "measured on a conveyor (Henderson PC2, Alspaugh 2004): look for resistances that are missing or too low"
+        )
 
 
 def _contact(conveyor: Conveyor) -> Iterator[Said]:

@@ -22,9 +22,11 @@ import numpy as np
 from conveyor.checks import Check, checks
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.take_up import mean_tension, take_up_mass
-from conveyor.line.covers import compounds_by_strand
+from conveyor.line.contacts import Contacts
+from conveyor.line.covers import Level, compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
+from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import Classical
 from conveyor.models import Conveyor, RubberCompound
@@ -635,16 +637,17 @@ def contact_solutions(a: CalculatedConveyor) -> Table:
 
 def indentation(a: CalculatedConveyor) -> Table:
     """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
-    seen: dict[Any, str] = {}
+    seen: dict[Any, tuple[str, Level | None]] = {}
     for r in a.stretches:
         for roll in r.rolls:
             label = f"{r.stretch.strand}, {2e3 * roll.curve.contact.radius:.0f} mm, {r.stretch.spacing:g} m"
-            seen.setdefault(roll.curve, label)
+            seen.setdefault(roll.curve, (label, r.cover.level))
     rows: list[tuple[Any, ...]] = []
-    for curve, label in seen.items():
+    for curve, (label, level) in seen.items():
         loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
         found = curve.at(loads)
-        columns = (loads, found.resistance, found.half_width, found.peak_pressure)
+        resistance = found.resistance if level is None else level.factor(loads) * found.resistance
+        columns = (loads, resistance, found.half_width, found.peak_pressure)
         rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
     declared = (
         Column("contact", "text", itemgetter(0)),
@@ -665,6 +668,7 @@ def rubber(a: CalculatedConveyor) -> Table:
         strain = a.contacts.covers[strand].strain
         band, data = a.contacts.excited_band(strand), compound.frequencies(at)
         rows.append((strand, compound, band or (None, None), data or (None, None), strain))
+    contacts = a.contacts
     columns = (
         Column("strand", "text", itemgetter(0), json="strand"),
         Column("compound", "text", lambda row: row[1].name, json="compound"),
@@ -679,9 +683,20 @@ def rubber(a: CalculatedConveyor) -> Table:
                key="storage_factor"),
         Column("E'' factor of strain", "factor",
                lambda row: 1.0 if row[4] is None else row[4].loss_factor, json="loss_factor", key="loss_factor"),
+        Column("tests", "count", lambda row: sum(test.points().line_load.size for test in row[1].tests), page=None),
+        Column("level factor", "factor", lambda row: contacts.level_factor(row[0]), json="level_factor"),
+        Column("level from", "factor", lambda row: _level_end(contacts, row[0], -1.0), json="level_from"),
+        Column("level to", "factor", lambda row: _level_end(contacts, row[0], 1.0), json="level_to"),
     )  # fmt: skip
     page = (OnPage("rubber", "What the rolls ask of the rubber, and what its data hold"),)
     return Table("rubber", "Rubber", "What the rolls ask of the rubber", columns, tuple(rows), page)
+
+
+def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
+    """Lower or upper end of the band of a strand's level; None where no test says it."""
+    if contacts.covers[strand].level is None:
+        return None
+    return contacts.level_factor(strand) * math.exp(sign * contacts.level_band(strand))
 
 
 def bands(excited: Getter, data: Getter) -> Iterator[Column]:
@@ -732,6 +747,8 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
         ("temperature shift", "none" if compound.shift is None else compound.shift.law),
         ("range of frequency", "not stated" if known is None else " to ".join(map(text, known.frequency))),
         ("range of temperature", "not stated" if known is None else " to ".join(map(text, known.temperature))),
+        ("spectrum", "" if compound.carrier is None else f"of {compound.carrier}, which carries the tests"),
+        ("rolling-resistance tests", "; ".join(dict.fromkeys(test.source for test in compound.tests)) or "none"),
         ("fit", "" if fit is None else fit.method),
         ("rms errors of E', E''", "" if fit is None or compound.kind != "measured" else
          f"{text(fit.storage_rms)}, {text(fit.loss_rms)}"),

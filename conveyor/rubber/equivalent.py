@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import positive
 from conveyor.rubber.prony import PronySeries
@@ -32,15 +34,17 @@ def softened(series: PronySeries, *, storage_factor: float, loss_factor: float, 
     Returns
     -------
     PronySeries
-        All moduli times f'', and E_e' = f' E'(omega) - f'' (E'(omega) - E_e): at `omega` E' is f' times, E'' f'' times
-        the old; a positive spectrum, so E' and E'' still belong together (Kramers-Kronig) at every frequency.
+        At `omega` E' is f' times, E'' f'' times the old: E_e times r and every modulus times s p + g (1 - p),
+        p = (ωτ)²/(1 + (ωτ)²), so that s falls on what is slow there and g on what is fast. Of all r, s, g that do so
+        those nearest to the mean of f' and f'' are taken (least squares); a positive spectrum, so E' and E'' belong
+        together (Kramers-Kronig) at every frequency.
 
     Raises
     ------
     InputError
         If a number is not finite and > 0.
     NoSolutionError
-        If E_e' is not > 0: so much loss does not go with so little stiffness.
+        If r, s or g is not > 0: no solid has these moduli.
 
     Examples
     --------
@@ -49,20 +53,28 @@ def softened(series: PronySeries, *, storage_factor: float, loss_factor: float, 
     >>> (
     ...     round(soft.equilibrium),
     ...     round(float(soft.storage(100.0) / series.storage(100.0)), 12),
-    ...     soft.moduli.tolist(),
+    ...     round(float(soft.moduli[0])),
     ... )
-    (2800000, 0.8, [7200000.0])
+    (2800000, 0.8, 7200000)
     """
     stiff, lossy = positive("storage_factor", storage_factor, "-"), positive("loss_factor", loss_factor, "-")
-    at = float(series.storage(positive("omega", omega, "rad/s")))
-    equilibrium = stiff * at - lossy * (at - series.equilibrium)
-    if not equilibrium > 0.0:
+    turn = positive("omega", omega, "rad/s") * series.times
+    if turn.size == 0:
+        return PronySeries(stiff * series.equilibrium, series.moduli, series.times)
+    slow, fast, quick = turn**2 / (1.0 + turn**2), 1.0 / (1.0 + turn**2), turn / (1.0 + turn**2)
+    storage = np.array([series.equilibrium, series.moduli @ slow**2, series.moduli @ (slow * fast)])
+    loss = np.array([0.0, series.moduli @ (slow * quick), series.moduli @ (fast * quick)])
+    shares = np.stack([storage / storage.sum(), loss / loss.sum()])
+    mean = 0.5 * (stiff + lossy)
+    r, s, g = (mean + np.linalg.lstsq(shares, np.array([stiff - mean, lossy - mean]), rcond=None)[0]).tolist()
+    if not min(r, s, g) > 0.0:
         raise NoSolutionError(
-            f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave an equilibrium modulus of "
-            f"{equilibrium:.4g} Pa: no solid has so much loss at so little stiffness; check that sweep and master "
-            "curve are of one compound and the reference strain is right, or work at a smaller strain or load"
+            f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave {r:.3g} of the equilibrium "
+            f"modulus, {s:.3g} of the slow and {g:.3g} of the fast part of the spectrum: no solid changes so; check "
+            "that sweep and master curve are of one compound and the reference strain is right, or work at a smaller "
+            "strain or load, or nearer the temperatures of the data"
         )
-    return PronySeries(equilibrium, lossy * series.moduli, series.times)
+    return PronySeries(r * series.equilibrium, (s * slow + g * fast) * series.moduli, series.times)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +109,7 @@ def equivalent_linear(
     strain_of: Callable[[PronySeries], tuple[float, float]],
     *,
     temperature: float,
+    swept: PronySeries | None = None,
     rtol: float = 1e-3,
 ) -> EquivalentLinear:
     """Iterate series, working strain, factors until the strain no longer changes.
@@ -111,6 +124,10 @@ def equivalent_linear(
         Working strain amplitude [-] and angular frequency [rad/s] of whatever is made of a series.
     temperature : float
         Absolute temperature [K].
+    swept : PronySeries, optional
+        Beyond the sweeps: the series at the nearest temperature they reach [Pa, s]. The change of each modulus is held
+        then where that is less than its ratio, f = 1 + (f_nearest - 1) E_nearest/E at the working frequency: a filler
+        network adds to a stiffening polymer, it does not stiffen with it.
     rtol : float
         Relative change of strain and frequency at which to stop [-].
 
@@ -124,7 +141,7 @@ def equivalent_linear(
     NoSolutionError
         It does not settle within 30 steps, or the softened series would be a fluid.
     RangeError
-        The working strain or the temperature are outside the sweeps.
+        The working strain is outside the sweeps.
 
     Notes
     -----
@@ -157,6 +174,10 @@ def equivalent_linear(
         amplitude = math.exp(trial)
         f = float(factors.storage(amplitude, temperature))
         g = float(factors.loss(amplitude, temperature))
+        if swept is not None:
+            there, here = complex(swept.modulus(omega)), complex(series.modulus(omega))
+            f = 1.0 + min(1.0, there.real / here.real) * (f - 1.0)
+            g = 1.0 + min(1.0, there.imag / here.imag) * (g - 1.0)
         soft = softened(series, storage_factor=f, loss_factor=g, omega=omega)
         strain, heard = strain_of(soft)
         change = math.log(positive("strain_of's strain", strain, "-")) - trial

@@ -183,9 +183,10 @@ class AmplitudeFactors:
 
     Notes
     -----
-    Monotone cubic (PCHIP) in ln strain, linear in temperature, never beyond either: above the measured strains and
-    temperatures (0.5 K apart) refused; below the lowest measured strain constant only where the data show a plateau,
-    i.e. the modulus asked for varies by no more than 4 % of its mean over three or more points up to twice that strain.
+    Monotone cubic (PCHIP) in ln strain, linear in temperature. Beyond the measured temperatures the factors of the
+    nearest are held (`known_at` says whether); above the measured strains they are refused; below the lowest
+    measured strain constant only where the data show a plateau, i.e. the modulus asked for varies by no more than 4 %
+    of its mean over three or more points up to twice that strain.
     The factors are taken to be independent of frequency: they hold near that of the sweeps, in the sense of the
     time-temperature shift.
 
@@ -236,6 +237,10 @@ class AmplitudeFactors:
         low, high = self.temperatures[0] - SAME_TEMPERATURE, self.temperatures[-1] + SAME_TEMPERATURE
         return bool(low <= temperature <= high)
 
+    def nearest(self, temperature: float) -> float:
+        """Temperature whose factors stand for one [K]: itself inside the sweeps, else that of the nearest."""
+        return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
+
     @property
     def strain_range(self) -> tuple[float, float]:
         """Lowest and largest strain amplitude that every sweep covers [-]."""
@@ -264,7 +269,7 @@ class AmplitudeFactors:
         InputError
             If a strain is not finite and > 0.
         RangeError
-            If strain or temperature are outside the data.
+            If a strain is outside the data.
         """
         return self._factor("storage", strain, temperature)
 
@@ -288,7 +293,7 @@ class AmplitudeFactors:
         InputError
             If a strain is not finite and > 0.
         RangeError
-            If strain or temperature are outside the data.
+            If a strain is outside the data.
         """
         return self._factor("loss", strain, temperature)
 
@@ -303,15 +308,9 @@ class AmplitudeFactors:
         return out.reshape(array.shape)[()]
 
     def _between(self, temperature: float) -> list[tuple[int, float]]:
-        """Levels and weights of a linear interpolation; the last ones hold half a kelvin further."""
+        """Levels and weights of a linear interpolation; the last ones are held beyond."""
         levels = self.temperatures
-        low, high = float(levels[0]), float(levels[-1])
-        if not low - SAME_TEMPERATURE <= temperature <= high + SAME_TEMPERATURE:
-            raise RangeError(
-                f"temperature = {temperature:.2f} K is outside the strain sweeps, {low:.2f} to {high:.2f} K: "
-                "measure a sweep there, or calculate inside this range"
-            )
-        at = min(max(temperature, low), high)
+        at = self.nearest(temperature)
         upper = int(np.searchsorted(levels, at))
         if levels[upper] == at:
             return [(upper, 1.0)]

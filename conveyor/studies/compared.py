@@ -218,13 +218,18 @@ def _band(
     found: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
 ) -> tuple[float, float] | None:
-    """Factors on the indentation between which nine tenths of the fit's replicas lie, by the roll that loses most.
+    """Factors on the indentation between which nine tenths lie: of its tests, else of the replicas of its fit.
 
+    Replicas by the roll that loses most.
     Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber. Fit and replicas
     are both taken at the strain of the master curve: softening changes all alike.
     """
+    middle = found[len(found) // 2]
+    roll = _heaviest(middle, strands)
+    half = max((middle.contacts.level_band(strand) for strand in strands), default=0.0)
+    if half > 0.0:
+        return math.exp(-half), math.exp(half)
     replicas = compound.replicas(temperature)
-    roll = _heaviest(found[len(found) // 2], strands)
     if not replicas or roll is None:
         return None
     base = compound.series(temperature)

@@ -9,7 +9,7 @@ quantiles. Both are exact for a power that is linear and inputs that are normal.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Final
@@ -21,10 +21,10 @@ from scipy.special import ndtri
 from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
+from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, Uncertainty
-from conveyor.models.variants import scaled, with_belt_temperature_changed
+from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
-from conveyor.rubber import PronySeries
 from conveyor.units import Quantity, display, from_si, text
 
 Array = NDArray[np.float64]
@@ -165,14 +165,17 @@ def study(
     >>> conveyor.uncertainty.study(line).table  # doctest: +SKIP
     """
     given = conveyor.uncertainty if ranges is None else ranges
+    if given is None:
+        raise InputError("uncertainty: missing; give the spec ranges, or pass them: nothing to vary")
     notes: list[str] = []
-    variations = [] if given is None else list(_variations(conveyor, given, notes))
+    middle = _answer(calculate_many([Variant(conveyor)], rtol)[0])
+    variations = list(_variations(middle, given, notes))
     if not variations:
         why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
         raise InputError(f"{why}: nothing to vary")
-    variants = [Variant(conveyor), *(each for variation in variations for each in variation.variants)]
-    powers = [_power(found) for found in calculate_many(variants, rtol, progress)]
-    motor, at = powers[0], 1
+    variants = [each for variation in variations for each in variation.variants]
+    powers = [_answer(found).balance.power.motor for found in calculate_many(variants, rtol, progress)]
+    motor, at = middle.balance.power.motor, 0
     effects = []
     for variation in variations:
         mine = powers[at : at + len(variation.variants)]
@@ -190,10 +193,10 @@ def study(
     )
 
 
-def _power(found: CalculatedConveyor | NoAnswer) -> float:
+def _answer(found: CalculatedConveyor | NoAnswer) -> CalculatedConveyor:
     if not isinstance(found, CalculatedConveyor):
         raise found
-    return found.balance.power.motor
+    return found
 
 
 def _ends(powers: Sequence[float]) -> tuple[float, float]:
@@ -256,7 +259,10 @@ def hypercube_band(
     return float(low), float(high)
 
 
-def _variations(conveyor: Conveyor, ranges: Uncertainty, notes: list[str]) -> Iterator[_Variation]:
+def _variations(
+    calculated: CalculatedConveyor, ranges: Uncertainty, notes: list[str]
+) -> Iterator[_Variation]:
+    conveyor = calculated.conveyor
     half = ranges.half_width("roll_drag")
     if half is not None:
         ends = (Variant(conveyor, roll_drag=1.0 - half), Variant(conveyor, roll_drag=1.0 + half))
@@ -271,7 +277,7 @@ def _variations(conveyor: Conveyor, ranges: Uncertainty, notes: list[str]) -> It
     if change_of_temperature is not None:
         yield _temperature(conveyor, change_of_temperature)
     if ranges.rubber:
-        yield from _rubber(conveyor, notes)
+        yield from _rubber(calculated, notes)
 
 
 def _refused(name: str, change: Callable[[], Conveyor]) -> Conveyor:
@@ -360,22 +366,41 @@ def _scaled(
     return _Variation(name.replace("_", " "), f"-{half:.3g}", "as given", f"+{half:.3g}", scenes)
 
 
-def _rubber(conveyor: Conveyor, notes: list[str]) -> Iterator[_Variation]:
-    """Replicas of each compound on the strands that run on it."""
-    at = conveyor.temperature
+def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
+    """Replicas of each compound, the level of its tests, and its strain sweeps where the belt is beyond them."""
+    conveyor, covers = found.conveyor, found.contacts.covers
     compounds = compounds_by_strand(conveyor)
-    for compound in dict.fromkeys(compound.name for compound in compounds.values()):
-        strands = [strand for strand, c in compounds.items() if c.name == compound]
-        replicas: tuple[PronySeries, ...] = compounds[strands[0]].replicas(at)
-        if not replicas:
-            notes.append(f'compound "{compound}" has no replicas: its rubber is taken as certain')
-            continue
-        scenes = tuple(Variant(conveyor, rubber=dict.fromkeys(strands, replica)) for replica in replicas)
-        yield _Variation(
-            f'rubber "{compound}"',
-            "5 % of the replicas",
-            "as fitted",
-            "95 % of the replicas",
-            scenes,
-            replicas=True,
-        )
+    for name in dict.fromkeys(compound.name for compound in compounds.values()):
+        strands = [strand for strand, c in compounds.items() if c.name == name]
+        compound, cover = compounds[strands[0]], covers[strands[0]]
+        alternatives = compound.alternatives()
+        if alternatives:
+            scenes = tuple(Variant(with_alternative(conveyor, compound, other)) for other in alternatives)
+            yield _Variation(
+                f'rubber "{name}"',
+                "5 % of the replicas",
+                "as fitted",
+                "95 % of the replicas",
+                scenes,
+                replicas=True,
+            )
+        if cover.level is not None:
+            yield _level(conveyor, name, {strand: found.contacts.level_band(strand) for strand in strands})
+        elif not alternatives:
+            notes.append(f'compound "{name}" has no replicas and no tests: its rubber is taken as certain')
+        factors = compound.amplitude_factors()
+        if factors is not None and cover.strain is not None and not factors.known_at(found.temperature):
+            linear = with_alternative(conveyor, compound, compound.replace(strain_dependence=None))
+            held = f"held from {display(factors.nearest(found.temperature), 'temperature')}"
+            ends = (Variant(linear), Variant(conveyor))
+            yield _Variation(f'strain of "{name}"', "that of the master curve", held, held, ends)
+
+
+def _level(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Variation:
+    """Both ends of the band of a compound's tests."""
+    ends = tuple(
+        Variant(conveyor, level={strand: math.exp(sign * half) for strand, half in bands.items()})
+        for sign in (-1.0, 1.0)
+    )
+    low, high = (math.expm1(sign * max(bands.values())) for sign in (-1.0, 1.0))
+    return _Variation(f'level of "{name}"', f"{low:+.3g}", "as tested", f"{high:+.3g}", ends)

@@ -43,7 +43,8 @@ def softened(compound, contact):
 @pytest.fixture(scope="module")
 def line():
     spec = load("examples/specs/overland.yaml")
-    return with_compound(spec, shelf.compound("s100"), "bottom")
+    linear = shelf.compound("standard-cover").replace(strain_dependence=None)
+    return with_compound(with_compound(spec, linear, "top"), shelf.compound("s100"), "bottom")
 
 
 def test_strain_is_that_of_the_contact_it_makes(contact, softened):
@@ -139,8 +140,18 @@ def test_off_is_the_linear_rubber(line):
     assert any("calculation.strain is off" in warning for warning in told(off))
 
 
-def test_outside_the_sweeps_it_is_linear_and_says_so(line):
+def test_outside_the_sweeps_their_factors_are_held_and_it_says_so(line):
     cold = line.replace(ambient=line.ambient.replace(temperature="-20 degC"))
     result = calculate(cold)
-    assert any("do not reach -20 degC: taken as linear" in warning for warning in told(result))
-    assert all(cover.strain is None for cover in result.contacts.covers.values())
+    assert any(
+        "do not reach -20 °C: what they change at 0.02 °C is held" in warning for warning in told(result)
+    )
+
+    # at the end of the sweeps nothing jumps: a kelvin on both sides changes it by what a kelvin of the shift does
+    def at(celsius):
+        ambient = line.ambient.replace(temperature=f"{celsius} degC")
+        return calculate(line.replace(ambient=ambient)).balance.forces.indentation
+
+    below, end, above = at(-1.0), at(0.0), at(1.0)
+    assert abs(below / end - 1.0) < 0.05 > abs(above / end - 1.0)
+    assert (below - end) * (end - above) > 0.0

@@ -103,9 +103,15 @@ def test_unloaded_sections_carry_no_bulk(line):
 
 
 def test_gauss_points_along_a_roll_suffice(line, result):
-    fine = line.replace(calculation=line.calculation.replace(gauss_points=32))
-    other = calculate(fine).balance.forces.indentation
-    assert other == pytest.approx(result.balance.forces.indentation, rel=2.0 * RTOL)
+    theory = line.calculation.replace(anchor="off", strain="off")
+    few, many = (
+        calculate(line.replace(calculation=theory.replace(gauss_points=points))).balance.forces.indentation
+        for points in (line.calculation.gauss_points, 32)
+    )
+    assert few == pytest.approx(many, rel=2.0 * RTOL)
+    # the level of the tests has a kink where their loads end, and the working strain is known to a hundredth
+    fine = calculate(line.replace(calculation=line.calculation.replace(gauss_points=32)))
+    assert fine.balance.forces.indentation == pytest.approx(result.balance.forces.indentation, rel=1e-3)
 
 
 def test_the_forces_along_a_stretch_add_up(result):
@@ -142,8 +148,12 @@ def test_a_wing_integrated_by_single_solves(result):
     y = 0.5 * length * (nodes + 1.0)
     w = 2.0 * roll.load.bulk_force / length * (1.0 - y / length) + roll.load.belt_force / length
     assert 0.5 * length * weights @ w == pytest.approx(roll.load.force, rel=1e-12)
-    single = [float(indentation_resistance(contact, float(load)).resistance) for load in w]
-    assert roll.resistance == pytest.approx(0.5 * length * weights @ np.array(single), rel=3.0 * RTOL)
+    level = result.contacts.covers["carry"].level
+    single = [
+        float(level.factor(load) * indentation_resistance(contact, float(load)).resistance) for load in w
+    ]
+    # a kink where the tests' loads end: 1e-4 of quadratures with 8 and 12 points
+    assert roll.resistance == pytest.approx(0.5 * length * weights @ np.array(single), rel=1e-4)
 
 
 def _curves(found):

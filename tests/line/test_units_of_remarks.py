@@ -21,7 +21,7 @@ POUND = 4.4482216152605  # [N], international pound times standard gravity
 
 @pytest.fixture(scope="module")
 def result() -> conveyor.Analysis:
-    return conveyor.analyse(conveyor.load("examples/specs/overland.yaml"))
+    return conveyor.analyse(conveyor.load("examples/specs/in_plant_us.yaml"))
 
 
 def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:
@@ -30,7 +30,7 @@ def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:
 
 
 def test_warnings_are_written_in_any_system() -> None:
-    found = calculate(load("examples/specs/overland.yaml"))
+    found = calculate(load("examples/specs/in_plant_us.yaml"))
     said = warnings(found, checks(found))
     si, us = (tuple(one.text(system) for one in said) for system in ("SI", "US"))
     assert _found(_POUND, us) * POUND == pytest.approx(_found(_NEWTON, si), abs=0.5 + 0.5 * POUND)

@@ -131,7 +131,8 @@ def test_reading_back_gives_the_fit_itself(script: dict[str, Any]) -> None:
 def test_every_compound_is_complete_and_usable(name: str) -> None:
     c = compound(name)
     assert c.keys() - {"density", "strain_dependence"} == KEYS
-    assert ("strain_dependence" in c) == (name not in TARGETS)
+    assert ("carrier" in c) is False
+    assert bool(c["tests"]) == (name in TARGETS)
     assert c["name"].lower() == name
     assert c["kind"] == ("illustrative" if name in TARGETS else "measured")
     assert ("NOT a measured compound" in c["description"]) == (name in TARGETS)

@@ -1,0 +1,180 @@
+"""Level of indentation: what rolling-resistance tests measured over what the theory gives at the same points.
+
+The theory carries geometry, speed and temperature; the tests set the level. The ratio of both is fitted as
+
+    ln(measured/calculated) = level(T) + slope ln(w/w0)
+
+by least squares: one level at every tested temperature, straight lines between them, and a slope in the line load where
+the tests cover one. Beyond the tested temperatures and loads the factor is held and its band widens.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from conveyor.errors import InputError
+from conveyor.rubber.arrays import FloatArray, positive_vector
+
+NINE_TENTHS: Final = 1.6448536269514722
+"""Standard deviations from the middle of a normal distribution within which nine tenths lie [-]."""
+ONE_TEMPERATURE: Final = 2.0
+"""Tests this close are at one temperature: control of a climatic chamber (general knowledge) [K]."""
+LEAST_SPAN: Final = 1.5
+"""Largest over smallest line load from which tests have a slope [-]; nearer ones would fit their scatter."""
+PER_KELVIN: Final = 0.005
+"""Half-width of the band per kelvin beyond the tested temperatures (general knowledge) [1/K]."""
+PER_LOAD: Final = 0.1
+"""Half-width of the exponent of the line load beyond the tested loads (general knowledge) [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Anchor:
+    """Factor on calculated indentation, from tests.
+
+    Attributes
+    ----------
+    temperatures, levels : ndarray, shape (m,)
+        Tested temperatures, ascending [K], and ln of the factor there at `load` [-].
+    slope : float
+        d ln factor/d ln line load [-]; 0 where the tests have one load.
+    load : float
+        w0, geometric mean of the tested line loads [N/m].
+    loads : tuple of float
+        Lowest and highest tested line load [N/m].
+    half_width : float
+        Of the band that holds nine tenths, of ln factor, at the tests: their residuals and their own uncertainty [-].
+    points : int
+        Tests behind it.
+    """
+
+    temperatures: FloatArray
+    levels: FloatArray
+    slope: float
+    load: float
+    loads: tuple[float, float]
+    half_width: float
+    points: int
+
+    def factor(self, line_load: ArrayLike, temperature: float) -> FloatArray:
+        """Measured over calculated indentation.
+
+        Parameters
+        ----------
+        line_load : array_like
+            w, any shape [N/m]; beyond the tested loads the factor of the nearest is held.
+        temperature : float
+            T [K]; beyond the tested temperatures that of the nearest is held.
+
+        Returns
+        -------
+        ndarray
+            Shape of `line_load` [-].
+        """
+        held = np.clip(np.asarray(line_load, dtype=np.float64), *self.loads)
+        level = float(np.interp(temperature, self.temperatures, self.levels))
+        return np.asarray(np.exp(level + self.slope * np.log(held / self.load)))
+
+    def band(self, line_load: float, temperature: float) -> float:
+        """Half-width of ln factor that holds nine tenths, wider beyond the tests.
+
+        Parameters
+        ----------
+        line_load : float
+            w [N/m].
+        temperature : float
+            T [K].
+        """
+        beyond = abs(temperature - min(max(temperature, self.temperatures[0]), self.temperatures[-1]))
+        outside = abs(math.log(line_load / min(max(line_load, self.loads[0]), self.loads[1])))
+        return math.hypot(self.half_width, PER_KELVIN * beyond, PER_LOAD * outside)
+
+    def tested_at(self, temperature: float) -> bool:
+        """Whether a temperature [K] lies between the tested ones, or as near as makes one."""
+        low, high = float(self.temperatures[0]), float(self.temperatures[-1])
+        return low - ONE_TEMPERATURE <= temperature <= high + ONE_TEMPERATURE
+
+
+def fit_anchor(
+    line_load: ArrayLike, temperature: ArrayLike, ratio: ArrayLike, *, uncertainty: float
+) -> Anchor:
+    """Fit the factor to ratios of measured and calculated indentation.
+
+    Parameters
+    ----------
+    line_load, temperature, ratio : array_like, shape (n,)
+        w [N/m], T [K], measured over calculated [-] of every test.
+    uncertainty : float
+        Half-width of nine tenths of repeated tests, relative [-], at least 0.
+
+    Raises
+    ------
+    InputError
+        A value is not finite and > 0, or lengths differ.
+
+    Notes
+    -----
+    The band is the root of the squares of 1.645 standard deviations of the residuals, so far as there are more tests
+    than parameters, and of the uncertainty of a test. Residuals of tests on several rolls, covers and speeds hold the
+    error of the transfer between them.
+
+    Examples
+    --------
+    >>> anchor = fit_anchor([1e3, 2e3, 4e3], [293.15] * 3, [2.0, 2.0, 2.0], uncertainty=0.1)
+    >>> round(float(anchor.factor(3e3, 293.15)), 6), round(anchor.band(3e3, 293.15), 3)
+    (2.0, 0.1)
+    >>> round(anchor.band(3e3, 273.15), 3)
+    0.141
+    """
+    w = positive_vector("line_load", line_load, "N/m")
+    at = positive_vector("temperature", temperature, "K")
+    y = np.log(positive_vector("ratio", ratio, "-"))
+    if not w.size == at.size == y.size > 0:
+        raise InputError(
+            f"line_load, temperature, ratio: one length of at least 1, got {w.size}, {at.size}, {y.size}"
+        )
+    if not 0.0 <= uncertainty < math.inf:
+        raise InputError(f"uncertainty = {uncertainty!r}: a finite number of at least 0 is needed")
+    levels = _levels(at)
+    middle = float(np.exp(np.mean(np.log(w))))
+    low, high = float(w.min()), float(w.max())
+    columns = [(levels == k).astype(np.float64) for k in range(int(levels.max()) + 1)]
+    sloped = high >= LEAST_SPAN * low and y.size > len(columns)
+    if sloped:
+        columns.append(np.log(w / middle))
+    matrix = np.stack(columns, axis=1)
+    found, _, rank, _ = np.linalg.lstsq(matrix, y, rcond=None)
+    if (
+        rank < matrix.shape[1]
+    ):  # every temperature has one load of its own: no slope can be told from the levels
+        matrix, sloped = matrix[:, :-1], False
+        found = np.linalg.lstsq(matrix, y, rcond=None)[0]
+    freedom = y.size - matrix.shape[1]
+    residual = math.sqrt(float(np.sum((y - matrix @ found) ** 2)) / freedom) if freedom > 0 else 0.0
+    count = int(levels.max()) + 1
+    return Anchor(
+        temperatures=np.array([float(np.mean(at[levels == k])) for k in range(count)]),
+        levels=found[:count],
+        slope=float(found[count]) if sloped else 0.0,
+        load=middle,
+        loads=(low, high),
+        half_width=math.hypot(NINE_TENTHS * residual, uncertainty),
+        points=int(y.size),
+    )
+
+
+def _levels(temperature: FloatArray) -> FloatArray:
+    """Number of the temperature that each test belongs to, ascending."""
+    order = np.argsort(temperature, kind="stable")
+    ascending = temperature[order]
+    numbers, start = np.zeros(temperature.size, dtype=np.int64), float(ascending[0])
+    number = 0
+    for i, value in zip(order, ascending.tolist(), strict=True):
+        if value - start > ONE_TEMPERATURE:
+            number, start = number + 1, value
+        numbers[i] = number
+    return np.asarray(numbers)
