@@ -168,6 +168,14 @@ def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
     return tuple(min(group, key=severity) for of in groups.values() for group in of.values())
 
 
+def leading(found: Iterable[Check]) -> tuple[Check, ...]:
+    """Of each criterion the check that governs, whatever its subject."""
+    groups: dict[str, list[Check]] = {}
+    for check in found:
+        groups.setdefault(check.key, []).append(check)
+    return tuple(min(group, key=severity) for group in groups.values())
+
+
 def severity(check: Check) -> tuple[int, float]:
     """How a check ranks among others: the least governs. A failure without a margin is beyond any."""
     margin = check.margin
@@ -245,8 +253,8 @@ def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
                 (needed, "force"),
             )
             made = compared(
-                "drive_grip", f"slack side tension for grip, {name}, {state.name}", side.slack, "at least", needed,
-                "force", source="Eytelwein", why=why,
+                "drive_grip", f"grip of {name}, {state.name}", side.slack, "at least", needed, "force",
+                found=said("{} on the slack side", (side.slack, "force")), why=why,
             )  # fmt: skip
             yield replace(made, verdict=verdict(holds=holds(side.slack, needed)))
 

@@ -52,6 +52,11 @@ class CaseResult:
         """Of the belt [m/s]."""
         return self.found.line.speed
 
+    @property
+    def label(self) -> Said:
+        """Case and temperature for people; the speed where the case has speeds of its own."""
+        return _label(self.case, self.temperature, self.speed)
+
     @cached_property
     def covered(self) -> bool:
         """Whether the rubber's data cover it; else its figures are none to design by."""
@@ -60,8 +65,7 @@ class CaseResult:
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion as `analyse` checks it; none but the rubber's where its data do not cover the case."""
-        label = _label(self.case, self.temperature, self.speed)
-        made = (replace(check, case=label) for check in checks(self.found))
+        made = (replace(check, case=self.label) for check in checks(self.found))
         return tuple(made if self.covered else map(_unjudged, made))
 
     @property
@@ -91,7 +95,6 @@ class CaseResult:
 
 
 def _label(case: LoadCase, temperature: float, speed: float) -> Said:
-    """Case and temperature for people; the speed where the case has speeds of its own."""
     at = [(temperature, "temperature"), *([(speed, "speed")] if case.speeds else [])]
     return said(", ".join([quoted(case.name), *("{}" for _ in at)]), *at)
 
