@@ -208,6 +208,7 @@ def _checked(page: Page, row: int) -> None:
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
     _rule(sheet, row, f"Checks: {counted}")
     header_row(sheet, row + 1, 1, ("check", "", "", "found, asked for", "margin", "case", "verdict"))
+    sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
     written = unit("share", system)
     shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
     i = row + 1
