@@ -58,8 +58,8 @@ def _of_cases(study: CalculatedCases) -> Iterator[Table]:
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
     page = (OnPage(_CASES, "Load cases"),)
     yield replace(every.only(*kept), page=page)
-    tensions = every.only("case", "temperature", "speed", *_TENSIONS)
-    order = ("case", "temperature", "speed", *_TENSIONS)
+    order = ("case", "temperature", "speed", "covered", *_TENSIONS)
+    tensions = every.only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
     yield replace(
