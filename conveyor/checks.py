@@ -151,9 +151,10 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
 
-def checks(found: CalculatedConveyor) -> tuple[Check, ...]:
-    """Check one calculation for every criterion, in the order of `CRITERIA`."""
-    return tuple(check for criterion in CRITERIA for check in criterion(found))
+def checks(found: CalculatedConveyor, *, contacts: bool = True) -> tuple[Check, ...]:
+    """Check one calculation for every criterion, in the order of `CRITERIA`; without contacts not `OF_CONTACTS`."""
+    chosen = [criterion for criterion in CRITERIA if contacts or criterion not in OF_CONTACTS]
+    return tuple(check for criterion in chosen for check in criterion(found))
 
 
 def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
@@ -598,6 +599,8 @@ def covered(found: CalculatedConveyor) -> bool:
     return not any(check.failed for check in rubber_coverage(found))
 
 
+OF_CONTACTS: Final = (penetration, rubber_coverage)
+"""Criteria that need every roll's contact; the others need forces and tensions only."""
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling,
     motor_power,
