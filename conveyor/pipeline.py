@@ -144,7 +144,7 @@ class CalculatedConveyor:
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.contacts.line
+        return self.balance.line
 
     @cached_property
     def stretches(self) -> tuple[StretchResult, ...]:
