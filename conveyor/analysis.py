@@ -107,11 +107,14 @@ class Analysis(CalculatedConveyor):
         """One row a strand: compound, excited band against its data, working strain; units in the names."""
         return self.tables["rubber"].frame()
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain numbers for JSON, SI or the unit in the key."""
+    def to_dict(self, studies: Studies | None = None) -> dict[str, Any]:
+        """Plain numbers for JSON, SI or the unit in the key, and of `conveyor.studies` where they are given.
+
+        `conveyor schema --result` prints the JSON schema of it.
+        """
         from conveyor.report.tables import plain
 
-        return plain(self)
+        return plain(self, studies)
 
     @checked
     def to_excel(

@@ -1,6 +1,7 @@
 """What a conveyor is checked for: one function a criterion.
 
-A run, its load cases, the warnings and every output use these; nothing else says what passes.
+A run and each of its load cases are checked by the very same functions; the warnings and every output use what they
+say, nothing else says what passes. Of all cases the one with the least margin governs a criterion.
 """
 
 from __future__ import annotations
@@ -10,11 +11,14 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
+import numpy as np
+
+from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
-from conveyor.line.line import DriveUnit
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
-from conveyor.line.stretches import STRANDS
-from conveyor.loop.belt_duty import BeltDuty, CurveCheck
+from conveyor.line.stretches import STRANDS, Strand
+from conveyor.loop.belt_duty import CurveCheck
+from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units.sentences import Said, band_words, quoted, said
@@ -46,6 +50,12 @@ class Check:
         "not checked" where the spec does not say what is needed for it.
     why : Said or None
         What to say of it where it fails.
+    relation : {"at least", "at most"}
+        How the calculated figure must stand to the required one.
+    where : str
+        What decides in it: a state of motion, a section.
+    case : Said or None
+        The load case; None for the conveyor as its spec gives it.
     """
 
     key: str
@@ -57,11 +67,33 @@ class Check:
     asked: Said
     verdict: Verdict
     why: Said | None = None
+    relation: Relation = "at least"
+    where: str = ""
+    case: Said | None = None
 
     @property
     def failed(self) -> bool:
         """Whether the criterion is not met."""
         return self.verdict == "FAIL"
+
+    @property
+    def name(self) -> Said:
+        """What is checked, and what decides in it."""
+        if not self.where:
+            return self.subject
+        return replace(self.subject, words=f"{self.subject.words} ({quoted(self.where)})")
+
+    @property
+    def margin(self) -> float | None:
+        """How far the calculated figure is on the safe side of the required one, over that one [-].
+
+        Calculated over required less 1 where at least that is required, 1 less calculated over required where at most;
+        None where a figure is missing or the required one is 0.
+        """
+        if self.calculated is None or not self.required:
+            return None
+        over = (self.calculated - self.required) / abs(self.required)
+        return over if self.relation == "at least" else -over
 
 
 def verdict(*, holds: bool) -> Verdict:
@@ -81,6 +113,7 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     found: Said | None = None,
     missing: str = "",
     why: Said | None = None,
+    where: str = "",
 ) -> Check:
     """Check a figure against its limit.
 
@@ -102,19 +135,56 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
         What to say where no limit is known.
     why : Said, optional
         What to say where it fails.
+    where : str
+        What decides in it.
     """
     shown = said("{}", (calculated, kind)) if found is None else found
     name = said(subject) if isinstance(subject, str) else subject
     if required is None:
-        return Check(key, name, calculated, None, kind, shown, said(missing), "not checked")
-    holds = calculated >= required if relation == "at least" else calculated <= required
+        shortfall = said(missing)
+        return Check(
+            key, name, calculated, None, kind, shown, shortfall, "not checked", None, relation, where
+        )
+    passed = calculated >= required if relation == "at least" else calculated <= required
     asked = said(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
-    return Check(key, name, calculated, required, kind, shown, asked, verdict(holds=holds), why)
+    judged = verdict(holds=passed)
+    return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
 
-def checks(found: CalculatedConveyor) -> tuple[Check, ...]:
-    """Check one calculation for every criterion, in the order of `CRITERIA`."""
-    return tuple(check for criterion in CRITERIA for check in criterion(found))
+def checks(found: CalculatedConveyor, *, contacts: bool = True) -> tuple[Check, ...]:
+    """Check one calculation for every criterion, in the order of `CRITERIA`; without contacts not `OF_CONTACTS`."""
+    chosen = [criterion for criterion in CRITERIA if contacts or criterion not in OF_CONTACTS]
+    return tuple(check for criterion in chosen for check in criterion(found))
+
+
+def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
+    """Of each criterion and subject the check that governs, those of one criterion together.
+
+    One that fails goes before one that passes, that before one that is not checked; then the least margin decides, and
+    among equals the first.
+    """
+    groups: dict[str, dict[Said, list[Check]]] = {}
+    for check in every:
+        groups.setdefault(check.key, {}).setdefault(check.subject, []).append(check)
+    return tuple(min(group, key=severity) for of in groups.values() for group in of.values())
+
+
+def leading(found: Iterable[Check]) -> tuple[Check, ...]:
+    """Of each criterion the check that governs, whatever its subject."""
+    groups: dict[str, list[Check]] = {}
+    for check in found:
+        groups.setdefault(check.key, []).append(check)
+    return tuple(min(group, key=severity) for group in groups.values())
+
+
+def severity(check: Check) -> tuple[int, float]:
+    """How a check ranks among others: the least governs. A failure without a margin is beyond any."""
+    margin = check.margin
+    if margin is None:
+        margin = -math.inf if check.failed else math.inf
+        if check.required == 0.0 and check.calculated is not None:
+            margin = check.calculated if check.relation == "at least" else -check.calculated
+    return ("FAIL", "pass", "not checked").index(check.verdict), margin
 
 
 def filling(found: CalculatedConveyor) -> Iterator[Check]:
@@ -129,36 +199,33 @@ def filling(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
-    """Every drive's motors give or hold its share in steady running."""
-    steady = found.balance.settled.steady
-    for drive, side in zip(found.line.drives, steady.drives, strict=True):
-        alone = len(found.line.drives) == 1
-        yield drive_power(
-            "the motor" if alone else f'"{quoted(drive.name)}"', drive, found.balance.frame.motor(side.force)
+    """Every drive's motors give or hold its share in steady running, with the friction at both ends of its band."""
+    line, motor = found.line, found.balance.frame.motor
+    low, high = found.drive_forces
+    for drive in line.drives:
+        least, most = motor(drive.share * low), motor(drive.share * high)
+        certain = abs(least) > abs(most)
+        power = least if certain else most
+        who = "the motor" if len(line.drives) == 1 else f'"{quoted(drive.name)}"'
+        why = None
+        if drive.power is not None:
+            why = said(f"{who} needs {{}}, installed are {{}}", (abs(power), "power"), (drive.power, "power"))
+        yield compared(
+            "motor_power",
+            f"motor power, {quoted(drive.name)}",
+            abs(power),
+            "at most",
+            drive.power,
+            "power",
+            found=said("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
+            missing="installed power not given",
+            why=why,
+            where="least friction" if certain else "",
         )
 
 
-def drive_power(who: str, drive: DriveUnit, power: float, subject: Said | None = None) -> Check:
-    """A drive's power [W], negative where it generates, against what is installed."""
-    generating = " (generating)" if power < 0.0 else ""
-    why = None
-    if drive.power is not None:
-        why = said(f"{who} needs {{}}, installed are {{}}", (power, "power"), (drive.power, "power"))
-    return compared(
-        "motor_power",
-        said(f"motor power, {quoted(drive.name)}") if subject is None else subject,
-        abs(power),
-        "at most",
-        drive.power,
-        "power",
-        found=said("{}" + generating, (abs(power), "power")),
-        missing="installed power not given",
-        why=why,
-    )
-
-
 def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
-    """The take-up holds what grip and sag ask for in every state."""
+    """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
     settled = found.balance.settled
     governing = settled.condition_name(settled.governed_by)
     for name, asked in (settled.short or {governing: settled.needed}).items():
@@ -168,10 +235,56 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
             (asked, "force"),
         )
         made = compared(
-            "take_up_tension", f"tension of the take-up ({quoted(name)})", settled.setting, "at least", asked,
-            "force", why=why,
+            "take_up_tension", "tension of the take-up", settled.setting, "at least", asked, "force",
+            why=why, where=name,
         )  # fmt: skip
         yield replace(made, verdict=verdict(holds=not settled.short))
+
+
+def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
+    """The belt does not slip on any drive, in running, starting and stopping."""
+    for state in every_state(found.balance, found.motions):
+        for drive, side in zip(found.line.drives, state.drives, strict=True):
+            needed = grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
+            name = quoted(drive.name)
+            why = said(
+                f'the belt slips on "{name}" in the state "{state.name}": {{}} on its slack side, {{}} are needed; '
+                "raise the take-up's tension, the wrap or the friction (lagging)",
+                (side.slack, "force"),
+                (needed, "force"),
+            )
+            made = compared(
+                "drive_grip", f"grip of {name}, {state.name}", side.slack, "at least", needed, "force",
+                found=said("{} on the slack side", (side.slack, "force")), why=why,
+            )  # fmt: skip
+            yield replace(made, verdict=verdict(holds=holds(side.slack, needed)))
+
+
+def sag(found: CalculatedConveyor) -> Iterator[Check]:
+    """Between no two idler sets the belt sags more than allowed while it runs steadily."""
+    settled, shape = found.balance.settled, found.line.loop
+    running = [settled.states[motion.name] for motion in settled.motions if motion.sagging is not None]
+    lowest = [np.minimum(state.starts, state.ends) for state in running]
+    over = [(tension / shape.least).tolist() for tension in lowest]
+    for strand in STRANDS:
+        places = [
+            (k, i)
+            for k in range(len(running))
+            for i, stretch in enumerate(shape.stretches)
+            if stretch.strand == strand
+        ]
+        k, i = min(places, key=lambda at: over[at[0]][at[1]])
+        tension, needed, section = float(lowest[k][i]), float(shape.least[i]), shape.stretches[i].section
+        why = said(
+            f'the belt sags more than allowed in section "{quoted(section)}", {strand}: tension {{}}, {{}} are needed',
+            (tension, "force"),
+            (needed, "force"),
+        )
+        made = compared(
+            "sag", f"tension for sag, {strand}", tension, "at least", needed, "force",
+            why=why, where=f"{section}, {running[k].name}",
+        )  # fmt: skip
+        yield replace(made, verdict=verdict(holds=holds(tension, needed)))
 
 
 def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
@@ -184,34 +297,29 @@ def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
             "the stop by a flywheel or the drives",
             (state.smallest, "force"),
         )
-        yield not_slack(state.smallest, said(f"smallest tension of all states ({state.name})"), why)
-
-
-def not_slack(tension: float, subject: Said, why: Said | None = None) -> Check:
-    """A tension [N] that must not be below zero."""
-    made = compared("slack_belt", subject, tension, "at least", 0.0, "force", why=why)
-    return replace(made, asked=said("not slack: at least 0"))
+        made = compared(
+            "slack_belt", "smallest tension of all states", state.smallest, "at least", 0.0, "force",
+            why=why, where=state.name,
+        )  # fmt: skip
+        yield replace(made, asked=said("not slack: at least 0"))
 
 
 def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
-    """The belt's strength over its tension in steady running."""
-    yield steady_safety(found.belt_duty, said("safety of the belt, steady"))
-
-
-def steady_safety(duty: BeltDuty, subject: Said) -> Check:
-    """A belt's safety in steady running against the classic one."""
+    """The belt's strength over its tension in steady running, against the classic one."""
+    duty, subject = found.belt_duty, said("safety of the belt, steady")
     safety, needed = duty.safety_steady, duty.safety_needed
     asked = said("at least {} (DIN 22101:1982)", (needed, "number"))
     if safety is None:
         shown = said("strength not given")
-        return Check("belt_safety", subject, None, needed, "safety", shown, asked, "not checked")
+        yield Check("belt_safety", subject, None, needed, "safety", shown, asked, "not checked")
+        return
     why = said(
         "safety of the belt {} in steady running, {} are classic (DIN 22101:1982, general knowledge)",
         (safety, "safety"),
         (needed, "number"),
     )
     made = compared("belt_safety", subject, safety, "at least", needed, "safety", why=why)
-    return replace(made, asked=asked)
+    yield replace(made, asked=asked)
 
 
 def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
@@ -399,12 +507,13 @@ def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
         )
         yield compared(
             key,
-            f"bulk lies still {when}, {quoted(where)}",
+            f"bulk lies still {when}",
             occurs,
             "at most",
             allowed,
             "acceleration",
             why=why,
+            where=where,
         )
 
 
@@ -420,7 +529,7 @@ def penetration(found: CalculatedConveyor) -> Iterator[Check]:
         yield Check(
             "penetration", said(f"penetration of the cover, {strand} rolls"), deepest, DEEP, "fraction",
             said(f"{deepest:.1%} of its thickness"), said(f"at most {DEEP:.0%} (small strain)"),
-            verdict(holds=deepest <= DEEP), why,
+            verdict(holds=deepest <= DEEP), why, "at most",
         )  # fmt: skip
 
 
@@ -444,40 +553,60 @@ def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def rubber_data(found: CalculatedConveyor) -> Iterator[Check]:
+def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
-    at = found.temperature
     for strand, compound in compounds_by_strand(found.conveyor).items():
-        band, data = found.contacts.excited_band(strand), compound.frequencies(at)
+        band = found.contacts.excited_band(strand)
         if band is None:
             continue
         if compound.kind == "illustrative":
             yield Check(
-                "rubber_data", said(f"rubber, {strand}"), None, None, "frequency", said("constructed spectrum"),
-                said("a measured compound"), "not checked",
+                "rubber_coverage", said(f"rubber, {strand}"), None, None, "frequency",
+                said("constructed spectrum"), said("a measured compound"), "not checked",
             )  # fmt: skip
             continue
-        subject = said(f"rubber data cover the excited band, {strand}")
-        shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
-        if data is None:
-            asked = said("range of the data not stated")
-            yield Check("rubber_data", subject, None, None, "frequency", shown, asked, "not checked")
-            continue
-        why = said(
-            f'compound "{quoted(compound.name)}": nine tenths of the {strand} rolls\' loss lie between '
-            f"{band[0]:.3g} and {band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz "
-            "at {}: the series is extrapolated",
-            (at, "temperature"),
+        yield _covering(
+            strand, quoted(compound.name), band, compound.frequencies(found.temperature), found.temperature
         )
-        covered = verdict(holds=data[0] <= band[0] and band[1] <= data[1])
-        asked = said(f"within {band_words(data)}")
-        yield Check("rubber_data", subject, None, None, "frequency", shown, asked, covered, why)
 
 
+def _covering(
+    strand: Strand, name: str, band: tuple[float, float], data: tuple[float, float] | None, at: float
+) -> Check:
+    """A band against that of the data [Hz]; the end that is nearer to theirs, or farther beyond it, decides."""
+    subject = f"rubber data cover the excited band, {strand}"
+    shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
+    if data is None:
+        missing = "range of the data not stated"
+        return compared(
+            "rubber_coverage", subject, band[1], "at most", None, "frequency", found=shown, missing=missing
+        )
+    why = said(
+        f'compound "{name}": nine tenths of the {strand} rolls\' loss lie between '
+        f"{band[0]:.3g} and {band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz "
+        "at {}: the series is extrapolated, its figures are none to design by",
+        (at, "temperature"),
+    )
+    ends = (
+        compared("rubber_coverage", subject, band[0], "at least", data[0], "frequency", found=shown, why=why),
+        compared("rubber_coverage", subject, band[1], "at most", data[1], "frequency", found=shown, why=why),
+    )
+    return replace(min(ends, key=severity), asked=said(f"within {band_words(data)}"))
+
+
+def covered(found: CalculatedConveyor) -> bool:
+    """Whether the rubber's data cover what a calculation rests on; else its figures are none to design by."""
+    return not any(check.failed for check in rubber_coverage(found))
+
+
+OF_CONTACTS: Final = (penetration, rubber_coverage)
+"""Criteria that need every roll's contact; the others need forces and tensions only."""
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling,
     motor_power,
     take_up_tension,
+    drive_grip,
+    sag,
     slack_belt,
     belt_safety,
     belt_breakage,
@@ -490,5 +619,5 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     bulk_slip,
     penetration,
     roll_life,
-    rubber_data,
+    rubber_coverage,
 )

@@ -124,6 +124,8 @@ class CalculatedConveyor:
         Forces that no rubber changes.
     convergence : Convergence or None
         How tensions and roll loads settled on vertical curves; None without curves.
+    friction_band : tuple of float or None
+        Friction over the computed one to reckon with, low and high end [-]; drive.least_friction and 1 where None.
     """
 
     conveyor: Conveyor
@@ -132,11 +134,22 @@ class CalculatedConveyor:
     balance: Balance
     fixed: WithoutRubber
     convergence: Convergence | None = None
+    friction_band: tuple[float, float] | None = None
+
+    @cached_property
+    def drive_forces(self) -> tuple[float, float]:
+        """Drive force with the friction at both ends of its band; lift and acceleration of bulk have none [N]."""
+        settled = self.balance.settled
+        low, high = (
+            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
+            for friction in self.friction_band or (self.line.least_friction, 1.0)
+        )
+        return low, high
 
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.contacts.line
+        return self.balance.line
 
     @cached_property
     def stretches(self) -> tuple[StretchResult, ...]:

@@ -83,7 +83,7 @@ def power(
     with progress(silent=quiet or as_json) as told:
         with spec_file.placing(spec):
             asked = studies(line, progress=told)
-        figures = json_text(result.to_dict() | asked.to_dict())
+        figures = json_text(result.to_dict(asked))
         contents = of_analysis(shown, asked)
         wanted = _wanted(contents, output, html, tables, parquet)
         if plots is not None:

@@ -131,9 +131,17 @@ def _checks(screen: Console, contents: Contents) -> None:
     counts = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
     said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
     screen.print(words(f"checks: {said}", style="bold"))
-    for check in (check for check in found if check.verdict == "FAIL"):
-        failed = f"FAIL {check.subject}: {check.found}, {check.asked}"
-        screen.print(words(wrapped(failed, screen.width, first="  ", further="    "), style="red"))
+    made, cases = table(), "case" in [column.key for column in contents["checks"].columns]
+    for heading in ("criterion", "found, asked for", "margin", *(["case"] if cases else []), ""):
+        made.add_column(
+            heading, justify="right" if heading == "margin" else "left", no_wrap=heading == "margin"
+        )
+    for check in found:
+        if check.leads or check.verdict == "FAIL":
+            cells = [check.subject, f"{check.found}, {check.asked}", unit("share").written(check.margin)]
+            cells += [*([check.case] if cases else []), check.verdict]
+            made.add_row(*map(words, cells), style="red" if check.verdict == "FAIL" else "")
+    screen.print(made)
 
 
 def _cases(cases: Table, system: System) -> Grid:

@@ -95,14 +95,28 @@ def template(
 
 
 @app.command(
-    epilog=examples("conveyor schema > conveyor.schema.json", "conveyor schema --markdown > spec.md")
+    epilog=examples(
+        "conveyor schema > conveyor.schema.json",
+        "conveyor schema --result > result.schema.json",
+        "conveyor schema --markdown > spec.md",
+    )
 )
 def schema(
     markdown: Annotated[
         bool, typer.Option("--markdown", help="Print the reference of all fields for people, as markdown.")
     ] = False,
+    result: Annotated[
+        bool, typer.Option("--result", help="Print the JSON schema of what --json prints.")
+    ] = False,
 ) -> None:
-    """Print the JSON schema of a spec, for editors; or the reference of the file formats."""
+    """Print the JSON schema of a spec, for editors, or of results; or the reference of the file formats."""
+    if markdown and result:
+        raise InputError("--markdown, --result: give one of them")
+    if result:
+        from conveyor.report.result_schema import result_schema
+
+        print_json(result_schema())
+        return
     if markdown:
         from conveyor.reference import markdown as written
 

@@ -11,7 +11,7 @@ from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, start_forc
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
-from conveyor.loop.settled import braked, coasting
+from conveyor.loop.settled import coasting
 from conveyor.loop.tensions import MotionState
 
 COASTING = "drives off"
@@ -79,7 +79,7 @@ class Motions:
     slip : SlipLimits or None
         None where nothing lies on the belt.
     states : dict of str to State
-        Tensions while stopping, beside those of the balance.
+        Tensions without drives and brakes, beside the states of the balance.
     """
 
     moving_mass: float
@@ -118,13 +118,7 @@ def motions(found: Balance) -> Motions:
     wanted = line.stop_deceleration
     moving = math.fsum(force.total for force in loop.points if force.certain)
     hold, back = _holding(loop.lifts.whole, least - loop.lifts.whole - moving)
-    states = {}
-    for motion in (
-        coasting(loop, settled.bends, 1.0, [0.0] * len(line.drives), COASTING),
-        braked(loop, settled.bends, line.least_friction),
-    ):
-        if motion is not None:
-            states[motion.name] = loop.state(motion, settled.setting)
+    off = coasting(loop, settled.bends, 1.0, [0.0] * len(line.drives), COASTING)
     return Motions(
         moving_mass=mass,
         rotating_mass=rotating,
@@ -138,14 +132,13 @@ def motions(found: Balance) -> Motions:
         brake_to_hold=hold,
         rolls_back=back,
         slip=_slip(line),
-        states=states,
+        states={} if off is None else {off.name: loop.state(off, settled.setting)},
     )
 
 
 def every_state(found: Balance, moving: Motions) -> tuple[MotionState, ...]:
     """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
-    together = (*found.settled.states.values(), *moving.states.values())
-    return tuple({state.name: state for state in together}.values())
+    return (*found.settled.states.values(), *moving.states.values())
 
 
 def _holding(lift: float, friction: float) -> tuple[float, bool]:

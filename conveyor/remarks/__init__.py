@@ -61,10 +61,20 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
                 *roll_warnings(found),
                 *_left_out(found),
                 *_drive(found),
-                *(check.why for check in checked if check.verdict != "pass" and check.why is not None),
+                *(
+                    _of_case(check, check.why)
+                    for check in checked
+                    if check.verdict != "pass" and check.why is not None
+                ),
             )
         )
     )
+
+
+def _of_case(check: Check, why: Said) -> Said:
+    if check.case is None:
+        return why
+    return Said(f"load case {check.case.words}: {why.words}", check.case.figures + why.figures)
 
 
 def _rubber(conveyor: Conveyor) -> Iterator[Said]:

@@ -222,10 +222,11 @@ def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tu
 def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
-    names = [result.case.name for result in found]
+    covered = [result for result in found if result.covered]
+    names = [result.case.name for result in covered]
     lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
     for k, case in enumerate(lines or dict.fromkeys(names)):
-        rows = sorted((r for r in found if r.case.name == case), key=lambda r: float(getattr(r, over)))
+        rows = sorted((r for r in covered if r.case.name == case), key=lambda r: float(getattr(r, over)))
         at = along([getattr(r, over) for r in rows])
         axis.plot(
             at,
@@ -237,6 +238,11 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
         )
         low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
+    beyond = [result for result in found if not result.covered]
+    if beyond:
+        at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
+        label = "beyond the rubber's data: not to design by"
+        axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
     grouped(axis.yaxis)

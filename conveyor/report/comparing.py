@@ -15,6 +15,7 @@ from conveyor.markup import Html, joined
 from conveyor.report import plots
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.representations import folded, of_table
+from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, bands, document, provenance
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -416,6 +417,7 @@ def _listed(values: list[float]) -> str:
 def plain(comparison: CalculatedComparison) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
+        "schema_version": SCHEMA_VERSION,
         "conveyor": comparison.conveyor.name,
         "base": comparison.base,
         "cover": comparison.cover,

@@ -35,8 +35,6 @@ _COLUMNS: Final = "ABCDEFG"
 _WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}
 _FIRST: Final = ("power", "force")
 """Kinds of figures in their order below "Tensions and power"; others follow."""
-_MOST_CHECKS: Final = 22
-"""Checks that the page takes beside the rest; those that passed give way first."""
 _CHART_ROWS: Final = 14
 _HALF, _WHOLE_WIDTH, _CHART_HEIGHT = 9.2, 26.0, 7.2  # [cm]
 _SMALL, _LARGE = 10.0, 1e4  # below, one decimal is too few; beyond, a figure in large type needs none
@@ -204,25 +202,31 @@ def _governing(page: Page, cases: Table, row: int) -> None:
 
 
 def _checked(page: Page, row: int) -> None:
-    """The checks, what failed first where not all of them fit; the way to the warnings."""
-    sheet, checks = page.sheet, page.contents["checks"].rows
+    """Of every criterion the check that governs, and all that failed; the way to the others and to the warnings."""
+    sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
     _rule(sheet, row, f"Checks: {counted}")
-    header_row(sheet, row + 1, 1, ("check", "", "", "found", "asked for", "", "verdict"))
-    passed = [check for check in checks if check.verdict == "pass"]
-    over = max(0, len(checks) - _MOST_CHECKS)
-    left_out = passed[max(0, len(passed) - over) :] if over else []
+    header_row(sheet, row + 1, 1, ("check", "", "", "found, asked for", "margin", "case", "verdict"))
+    sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
+    written = unit("share", system)
+    shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
     i = row + 1
-    for check in checks:
-        if not any(check is other for other in left_out):
-            i += 1
-            for column, value in ((1, check.subject), (4, check.found), (5, check.asked), (7, check.verdict)):
-                put(sheet.cell(i, column), value)
-            _coloured(sheet, i, VERDICTS[check.verdict])
-    if left_out:
+    for i, check in enumerate(shown, start=row + 2):
+        put(sheet.cell(i, 1), check.subject)
+        sheet.merged_cells.add(f"A{i}:C{i}")
+        put(sheet.cell(i, 4), f"{check.found}, {check.asked}")
+        put(sheet.cell(i, 5), written.shown(check.margin), None, written.pattern)
+        put(sheet.cell(i, 6), check.case)
+        put(sheet.cell(i, 7), check.verdict)
+        for j in (1, 4, 6):
+            sheet.cell(i, j).alignment = Alignment(
+                indent=0 if j == 1 else 1, horizontal="left", shrink_to_fit=True
+            )
+        _coloured(sheet, i, VERDICTS[check.verdict])
+    if len(shown) < len(checks):
         i += 1
-        words = f"and {len(left_out)} more that passed: see {CHECKS_AND_NOTES}"
+        words = f"of every criterion the least margin; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
         put(sheet.cell(i, 1), words, GREY)
     kinds = ("warning", "assumption")
     said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)

@@ -31,6 +31,7 @@ SHEETS: Final = {
     "States": sheets.states,
     "Loop": sheets.stacked,
     "Load cases": sheets.stacked,
+    "Case checks": sheets.single,
     "Duty": sheets.stacked,
     "Uncertainty": sheets.uncertainty,
     "Indentation": sheets.indentation,
@@ -45,7 +46,7 @@ COMPARISON_SHEETS: Final = {
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
-_WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them."""
 _PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
 

@@ -125,7 +125,7 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
 
 def _table(shown: Table, caption: str, system: System) -> Html:
     if shown.key == "checks":
-        order = ("check", "verdict", "found", "asked")
+        order = ("check", "verdict", "margin", "case", "found", "asked")
         columns = sorted(shown.columns, key=lambda c: order.index(c.key) if c.key in order else len(order))
         return table(replace(shown, columns=tuple(columns)), caption, system, kind="checks")
     return listed(shown, caption, system) if shown.figures else table(shown, caption, system)
@@ -136,7 +136,7 @@ def _drawn(drawing: Drawing) -> Html:
 
 
 def _key_figures(contents: Contents) -> Html:
-    """What a designer looks for first, and how many checks failed."""
+    """What a designer looks for first: figures, and of every criterion the check that governs."""
     checks, warned = contents["checks"].rows, len(contents.lines("warning"))
     count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
     counted = joined(
@@ -144,9 +144,9 @@ def _key_figures(contents: Contents) -> Html:
     )
     link = element("a", f"{warned} warnings", href="#warnings")
     content = [tiles(contents.marked("tile"), contents.system), element("p", "Checks: ", counted, " ", link)]
-    failed = [check.subject for check in checks if check.verdict == "FAIL"]
-    if failed:
-        content.append(element("p", "Failed: ", "; ".join(failed), "."))
+    rows = [check for check in checks if check.leads or check.verdict == "FAIL"]
+    caption = "Of every criterion the least margin of all cases, and all that failed"
+    content.append(_table(replace(contents["checks"], rows=rows), caption, contents.system))
     return joined(content)
 
 

@@ -87,7 +87,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   th, td { padding: .25rem .4rem; }
   .unit, tbody .name { white-space: normal; }
   .checks th, .checks td { padding: .25rem .2rem; overflow-wrap: anywhere; }
-  .checks table { table-layout: fixed; }
+  .checks table { table-layout: fixed; min-width: 34rem; }
   .checks th:nth-child(1) { width: 30%; }
   .checks th:nth-child(2) { width: 21%; }
   .checks .verdict { white-space: normal; overflow-wrap: normal; padding: 0 .2rem; }

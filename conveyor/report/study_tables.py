@@ -58,14 +58,14 @@ def _of_cases(study: CalculatedCases) -> Iterator[Table]:
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
     page = (OnPage(_CASES, "Load cases"),)
     yield replace(every.only(*kept), page=page)
-    tensions = every.only("case", "temperature", "speed", *_TENSIONS)
-    order = ("case", "temperature", "speed", *_TENSIONS)
+    order = ("case", "temperature", "speed", "covered", *_TENSIONS)
+    tensions = every.only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
     yield replace(
         tensions, key="case_tensions", heading=heading, columns=columns, page=(OnPage(_CASES, heading),)
     )
-    if study.results:
+    if study.governing:
         yield motors(study)
     yield refused(study)
 
@@ -77,6 +77,7 @@ def cases(study: CalculatedCases) -> Table:
         Column("case", "text", attrgetter("case.name")),
         Column("loading", "text", attrgetter("case.loading"), page=None),
         *_AT,
+        Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
         Column("mass flow", "mass flow", attrgetter("found.line.flow")),
         Column("indentation", "force", attrgetter("found.balance.forces.indentation")),
         Column("main resistance", "force", attrgetter("found.balance.forces.main"), page=None),
@@ -96,7 +97,11 @@ def cases(study: CalculatedCases) -> Table:
         Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), page=None),
         Column("error estimate", "error", attrgetter("found.error_estimate"), page=None),
     )  # fmt: skip
-    return Table("load_cases", "Load cases", "Load cases", columns, study.results)
+    note = "covered: NO where the rolls ask for more than the rubber's data hold: figures of it are none to design by."
+    covered = all(row.covered for row in study.results)
+    return Table(
+        "load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note
+    )
 
 
 def _governing(result: CaseResult) -> str:
@@ -116,7 +121,12 @@ def governing(study: CalculatedCases) -> Table:
     rows = tuple(
         Figure(row.figure, row.kind, row, key=f"governing_{slug(row.figure)}") for row in study.governing
     )
+    left_out = [row.label.text() for row in study.results if not row.covered]
     note = f"friction between {low:g} and {high:g} of the computed one, to the safe side"
+    if left_out:
+        note += (
+            f"; without {'; '.join(left_out)}: the rubber's data do not cover what the rolls ask for there"
+        )
     page, heading = (OnPage(_CASES, "Governing cases"),), "Governing cases"
     return Table("governing_cases", "Load cases", heading, columns, rows, page, note, links=True)
 
@@ -246,7 +256,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "friction_band": list(study.friction_band),
             "cases": cases(study).records(),
             "governing": governing(study).records(),
-            "motors": motors(study).records() if study.results else [],
+            "motors": motors(study).records() if study.governing else [],
             "refused": refused(study).records(),
         }
     if studies.duty is not None:

@@ -19,7 +19,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from conveyor.checks import Check, checks
+from conveyor.checks import Check, checks, deciding, leading
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.take_up import mean_tension, take_up_mass
 from conveyor.line.contacts import Contacts
@@ -46,15 +46,20 @@ from conveyor.report.columns import (
     figures,
 )
 from conveyor.report.inputs import inputs as entered
+from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies
+from conveyor.report.study_tables import plain as plain_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
+from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System, text
 from conveyor.units.presentation import MONEY, strength_of, unit
-from conveyor.units.sentences import band_words
+from conveyor.units.sentences import band_words, plain_figure
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
+AS_GIVEN: Final = "as given"
+"""Case of a check of the conveyor as its spec gives it."""
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
 _HOUR: Final = 3600.0
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
@@ -62,8 +67,9 @@ _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic",
 
 def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
-    system, found = analysis.conveyor.report.units, checks(analysis)
-    of_cases = () if studies is None or studies.cases is None else studies.cases.checks
+    system = analysis.conveyor.report.units
+    every = _every_check(analysis, studies)
+    found = deciding(every)
     studied, drawn = of_studies(studies, system)
     parts = (
         identity(analysis.conveyor, system),
@@ -92,13 +98,20 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         indentation(analysis),
         rubber(analysis),
         *compounds(analysis, system),
-        checked((*found, *of_cases), system),
+        *case_checks(every, system),
+        checked(found, system),
         remarks(analysis, found, system),
         provenance(fingerprint(analysis.conveyor)),
     )
     kept = tuple(part for part in parts if not part.empty)
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     return Contents(about, kept, system, (*drawings(analysis, system), *drawn))
+
+
+def _every_check(analysis: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[Check, ...]:
+    """Of the conveyor as given, then of its load cases."""
+    of_cases = () if studies is None or studies.cases is None else studies.cases.checks
+    return (*checks(analysis), *of_cases)
 
 
 def document(
@@ -153,10 +166,10 @@ def results(a: CalculatedConveyor) -> Table:
     energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
     money = f"{MONEY}{(a.year and a.year.currency) or '-'}"
     rows = (
-        Figure("length", "length", conveyor.route.length),
-        Figure("lift", "length", conveyor.route.rise),
+        Figure("length", "length", conveyor.route.length, json="length_m"),
+        Figure("lift", "length", conveyor.route.rise, json="lift_m"),
         Figure("belt speed", "speed", a.line.speed),
-        Figure("mass flow", "mass flow", a.line.flow),
+        Figure("mass flow", "mass flow", a.line.flow, json="flow_t_per_h"),
         Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
         Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
@@ -789,34 +802,54 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
 
 
 class CheckRow(NamedTuple):
-    """A check in words."""
+    """A check in words; `leads` where it governs its criterion."""
 
     subject: str
     found: str
     asked: str
+    margin: float | None
+    case: str
     verdict: str
+    leads: bool
 
     @classmethod
-    def of(cls, check: Check, system: System) -> CheckRow:
+    def of(cls, check: Check, system: System, *, leads: bool = False) -> CheckRow:
         """Write a check in a system of units."""
-        subject, found, asked = (said.text(system) for said in (check.subject, check.found, check.asked))
-        return cls(subject, found, asked, check.verdict)
+        name, found, asked = (said.text(system) for said in (check.name, check.found, check.asked))
+        case = AS_GIVEN if check.case is None else check.case.text(system)
+        return cls(name, found, asked, check.margin, case, check.verdict, leads)
 
 
-def checked(rows: tuple[Check, ...], system: System) -> Table:
-    """What was checked: what was found, what is asked for, pass or fail."""
-    worded = tuple(CheckRow.of(check, system) for check in rows)
-    columns = (
-        Column("check", "text", attrgetter("subject")),
-        Column("found", "text", attrgetter("found")),
-        Column("asked for", "text", attrgetter("asked")),
-        Column("verdict", "verdict", attrgetter("verdict")),
-    )
+_CHECK: Final = (
+    Column("check", "text", attrgetter("subject")),
+    Column("found", "text", attrgetter("found")),
+    Column("asked for", "text", attrgetter("asked")),
+    Column("margin", "share", attrgetter("margin")),
+)
+_OF_CASE: Final = Column("case", "text", attrgetter("case"))
+_VERDICT: Final = Column("verdict", "verdict", attrgetter("verdict"))
+
+
+def checked(found: tuple[Check, ...], system: System) -> Table:
+    """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail."""
+    first = leading(found)
+    rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in found)
     caption = (
         "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
     )
-    page = (OnPage("checks", caption),)
-    return Table("checks", "Checks and notes", "Checks", columns, worded, page)
+    note = "margin: what is left to the limit, over the limit; of all cases the least"
+    of_case = (_OF_CASE,) if any(row.case != AS_GIVEN for row in rows) else ()
+    page, columns = (OnPage("checks", caption),), (*_CHECK, *of_case, _VERDICT)
+    return Table("checks", "Checks and notes", "Checks", columns, rows, page, note)
+
+
+def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
+    """Every criterion in every load case; those that fail on the page."""
+    rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
+    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "What fails in which case"
+    yield Table("case_checks", "Case checks", "Every criterion in every load case", columns, rows, named=2)
+    failed = tuple(row for row in rows if row.verdict == "FAIL")
+    yield Table("case_failures", "", caption, columns, failed, (OnPage("load-cases", caption),), named=2)
 
 
 class Remark(tuple[str, str]):
@@ -896,12 +929,15 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         )
 
 
-def plain(a: CalculatedConveyor) -> dict[str, Any]:
-    """Plain numbers for JSON, SI or the unit in the key."""
+def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> dict[str, Any]:
+    """Plain numbers for JSON, SI or the unit in the key, as `result_schema` describes them."""
     found = a.balance
-    power, settled, year = found.power, found.settled, None if a.conveyor.duty else a.year
+    settled, every = found.settled, _every_check(a, studies)
+    governing = deciding(every)
     data: dict[str, Any] = {
+        "schema_version": SCHEMA_VERSION,
         "name": a.conveyor.name,
+        **dict.fromkeys(("flow_t_per_h", "length_m", "lift_m", "friction_factor", "error_estimate")),
         "forces_N": dict.fromkeys(found.forces.parts),
         "power_kW": dict.fromkeys(("belt", "motor", "mains")),
         "tensions_N": asdict(found.tensions),
@@ -921,20 +957,57 @@ def plain(a: CalculatedConveyor) -> dict[str, Any]:
             "least_setting_N": settled.needed,
             "governed_by": settled.condition_name(settled.governed_by),
         },
-        "energy": {
-            "kWh_per_tonne_km": power.energy_per_tonne_km,
-            "kWh_per_year": None if year is None else year.energy,
-            "cost_per_year": None if year is None else year.cost,
-            "currency": a.year and a.year.currency,
-        },
+        "energy": _energy(a, None if studies is None else studies.duty),
         "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
         "cema": None if found.cema is None else _estimate(found, found.cema),
         "rubber": rubber(a).plain(),
         "sections": sections(a).plain(),
         "assumptions": list(assumptions(a.conveyor)),
-        "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, checks(a))],
+        "checks": [_told(check, governs=any(check is one for one in governing)) for check in every],
+        "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, governing)],
     }
-    return placed(data, results(a).rows)
+    return placed(data, results(a).rows) | ({} if studies is None else plain_studies(studies))
+
+
+def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:
+    """In operation as given, and of a year: at even load, or of the duty where there is one."""
+    year = None if a.conveyor.duty else a.year
+    if duty is not None:
+        kwh, cost, currency = duty.year.net_kwh, duty.cost, duty.currency
+    elif year is not None:
+        kwh, cost, currency = year.energy, year.cost, year.currency
+    else:
+        kwh, cost, currency = None, None, None if a.year is None else a.year.currency
+    return {
+        "kWh_per_tonne_km": a.balance.power.energy_per_tonne_km,
+        "kWh_per_year": kwh,
+        "cost_per_year": cost,
+        "currency": currency,
+    }
+
+
+def _told(check: Check, *, governs: bool) -> dict[str, Any]:
+    """A check for programs; figures in SI, as reports write them."""
+    calculated, required, margin = map(_finite, (check.calculated, check.required, check.margin))
+    (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))
+    return {
+        "key": check.key,
+        "subject": check.subject.text(),
+        "where": check.where or None,
+        "case": None if check.case is None else check.case.text(),
+        "calculated": shown,
+        "relation": check.relation,
+        "required": asked,
+        "unit": sign,
+        "margin": margin,
+        "verdict": check.verdict.lower(),
+        "why": None if check.why is None or check.verdict == "pass" else check.why.text(),
+        "governs": governs,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
 
 
 def _estimate(found: Balance, made: Classical) -> dict[str, float]:

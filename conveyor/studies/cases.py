@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
 from conveyor.arguments import checked
-from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
+from conveyor.checks import Check, checks, covered
 from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
-from conveyor.loop.settled import holds
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
@@ -38,13 +37,10 @@ class CaseResult:
         What is loaded.
     found : Calculation
         Forces, tensions and power as `analyse` gives them, SI.
-    friction_band : tuple of float
-        Friction over the computed one, low and high end [-].
     """
 
     case: LoadCase
     found: CalculatedConveyor
-    friction_band: tuple[float, float]
 
     @property
     def temperature(self) -> float:
@@ -58,20 +54,24 @@ class CaseResult:
 
     @property
     def label(self) -> Said:
-        """Case, temperature and speed for people."""
-        return said(
-            f"{quoted(self.case.name)}, {{}}, {{}}", (self.temperature, "temperature"), (self.speed, "speed")
-        )
+        """Case and temperature for people; the speed where the case has speeds of its own."""
+        return _label(self.case, self.temperature, self.speed)
 
     @cached_property
+    def covered(self) -> bool:
+        """Whether the rubber's data cover it; else its figures are none to design by."""
+        return covered(self.found)
+
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Every criterion as `analyse` checks it; none but the rubber's where its data do not cover the case."""
+        made = (replace(check, case=self.label) for check in checks(self.found))
+        return tuple(made if self.covered else map(_unjudged, made))
+
+    @property
     def forces(self) -> tuple[float, float]:
         """Drive force with the friction at both ends of the band; lift and acceleration of bulk have none [N]."""
-        settled = self.found.balance.settled
-        low, high = (
-            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
-            for friction in self.friction_band
-        )
-        return low, high
+        return self.found.drive_forces
 
     @cached_property
     def motors(self) -> tuple[float, float]:
@@ -92,6 +92,17 @@ class CaseResult:
     def energy_per_tonne_km(self) -> float | None:
         """Energy from the mains [kWh/(t km)], where the whole route carries."""
         return self.found.balance.power.energy_per_tonne_km if self.case.loading in _CARRYING else None
+
+
+def _label(case: LoadCase, temperature: float, speed: float) -> Said:
+    at = [(temperature, "temperature"), *([(speed, "speed")] if case.speeds else [])]
+    return said(", ".join([quoted(case.name), *("{}" for _ in at)]), *at)
+
+
+def _unjudged(check: Check) -> Check:
+    if check.key == "rubber_coverage":
+        return check
+    return replace(check, verdict="not checked", why=said("the rubber's data do not cover the case"))
 
 
 @dataclass(frozen=True)
@@ -154,13 +165,13 @@ class CalculatedCases:
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
-        """For every figure of the design the case that decides it."""
-        return governing(self.results)
+        """For every figure of the design the case that decides it, of those that the rubber's data cover."""
+        return governing([result for result in self.results if result.covered])
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """The cases against what is installed; the case that decides is named."""
-        return tuple(_checks(self))
+        """Every criterion in every case; those without an answer say why."""
+        return (*_unanswered(self), *(check for result in self.results for check in result.checks))
 
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing case.
@@ -175,7 +186,7 @@ class CalculatedCases:
         InputError
             The reserve is below 1, or no case has an answer.
         """
-        return recommended_motors(self.results, reserve=reserve)
+        return recommended_motors([result for result in self.results if result.covered], reserve=reserve)
 
 
 @checked
@@ -239,7 +250,7 @@ def analyse_cases(
     results = []
     for (case, setting, _), found in zip(made, answers, strict=True):
         if isinstance(found, CalculatedConveyor):
-            results.append(CaseResult(case, found, band))
+            results.append(CaseResult(case, replace(found, friction_band=band)))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
     return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused))
@@ -269,52 +280,15 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     return tuple(found)
 
 
-def _checks(study: CalculatedCases) -> Iterator[Check]:
-    if study.refused:
-        answered, cases = len(study.results), len(study.results) + len(study.refused)
+def _unanswered(study: CalculatedCases) -> Iterator[Check]:
+    cases = {case.name: case for case in study.cases}
+    count = f"{len(study.refused)} of {len(study.results) + len(study.refused)}"
+    for refusal in study.refused:
         yield Check(
-            "case_answers", said("load cases: answers"), float(answered), float(cases), "number",
-            said(f"{answered} of {cases}"), said("all"), "FAIL",
+            "case_answer", said("answer to every case"), None, None, "number", said(f"none to {count}"),
+            said("an answer"), "FAIL", said(quoted(refusal.reason)),
+            case=_label(cases[refusal.case], refusal.temperature, refusal.speed),
         )  # fmt: skip
-    if not study.results:
-        return
-    deciding = {found.figure: found for found in study.governing}
-    ends = (deciding["largest motor power, friction high"], deciding["least motor power, friction low"])
-    yield from _motor_checks(max(ends, key=lambda found: abs(found.value)))
-    yield from _take_up_check(study, deciding["largest tension asked of the take-up"])
-    slackest = deciding["least belt tension"]
-    yield not_slack(slackest.value, _of_case("smallest tension", slackest.result))
-    yield from _safety_check(study)
-
-
-def _of_case(criterion: str, result: CaseResult) -> Said:
-    label = result.label
-    return Said(f"load cases: {criterion} ({label.words})", label.figures)
-
-
-def _motor_checks(most: Governing) -> Iterator[Check]:
-    for drive in most.result.found.line.drives:
-        subject = _of_case(f"motor power, {quoted(drive.name)}", most.result)
-        yield drive_power(quoted(drive.name), drive, drive.share * most.value, subject)
-
-
-def _take_up_check(study: CalculatedCases, most: Governing) -> Iterator[Check]:
-    held = most.result.found.line.take_up.tension
-    subject = _of_case("tension of the take-up", most.result)
-    asked = said("at least {}", (most.value, "force"))
-    if held is not None:
-        passed = verdict(holds=holds(held, most.value))
-        shown = said("{}", (held, "force"))
-        yield Check("take_up_tension", subject, held, most.value, "force", shown, asked, passed)
-    elif len(study.results) > 1:
-        anew = said("set anew in each case")
-        yield Check("take_up_tension", subject, None, most.value, "force", anew, asked, "not checked")
-
-
-def _safety_check(study: CalculatedCases) -> Iterator[Check]:
-    tightest = max(study.results, key=lambda result: result.found.belt_duty.largest_steady)
-    if tightest.found.belt_duty.safety_steady is not None:
-        yield steady_safety(tightest.found.belt_duty, _of_case("safety of the belt, steady", tightest))
 
 
 def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tuple[MotorChoice, ...]:
@@ -334,7 +308,7 @@ def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tupl
     """
     if not results or not 1.0 <= reserve < math.inf:
         raise InputError(
-            f"reserve = {reserve}: at least 1 is needed" if results else "no case has an answer to size for"
+            f"reserve = {reserve}: at least 1 is needed" if results else "no case has an answer to design by"
         )
     ends = [(power, result) for result in results for power in reversed(result.motors)]
     power, decisive = max(ends, key=lambda end: abs(end[0]))

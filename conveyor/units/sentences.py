@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.units.quantities import System, display
+from conveyor.units.quantities import System, convert, display, unit_label
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
@@ -90,6 +90,21 @@ def _written(value: float, kind: str, system: System) -> str:
     if kind == "safety":
         return f"{value:.2f}"
     return f"{value:g}" if kind == "number" else figure(value, kind, system)
+
+
+def plain_figure(value: float | None, kind: str) -> tuple[float | None, str]:
+    """Return an SI figure for programs, in the SI unit of reports, and that unit; "-" of ratios.
+
+    Examples
+    --------
+    >>> plain_figure(103.5e3, "power"), plain_figure(2.5e6, "belt strength"), plain_figure(None, "safety")
+    ((103.5, 'kW'), (2500.0, 'N/mm'), (None, '-'))
+    """
+    if kind == "belt strength":
+        return None if value is None else value / 1e3, "N/mm"
+    if kind in {"safety", "number"}:
+        return value, "-"
+    return None if value is None else convert(value, kind), unit_label(kind) or "-"
 
 
 def band_words(band: tuple[float, float]) -> str:

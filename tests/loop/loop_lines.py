@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from conveyor.checks import CRITERIA, penetration, rubber_data
+from conveyor.checks import checks
 from conveyor.forces import along_the_belt, without_rubber
 from conveyor.line.contacts import Contacts
 from conveyor.line.line import Line
@@ -115,6 +115,5 @@ def told(conveyor: Conveyor, found: Balance) -> list[str]:
         balance=found,
         fixed=without_rubber(found.line),
     )
-    criteria = [criterion for criterion in CRITERIA if criterion not in (penetration, rubber_data)]
-    checked = [check for criterion in criteria for check in criterion(given)]
+    checked = checks(given, contacts=False)
     return [check.why.text() for check in checked if check.verdict != "pass" and check.why is not None]

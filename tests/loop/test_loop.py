@@ -9,7 +9,7 @@ import pytest
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws import tension
-from conveyor.loop.starting import motions
+from conveyor.loop.starting import every_state, motions
 from conveyor.units import quantity, si
 from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, along, balanced, closed, line, told
 
@@ -58,6 +58,13 @@ def _boundary(conveyor, position, section):
     n = len(names)
     return {"head": 2 * n, "tail": n, "carry": n + 1 + names.index(section or names[0]),
             "return": n - names.index(section or names[0])}[position]  # fmt: skip
+
+
+def test_a_state_of_motion_is_there_once(case):
+    _, found = case
+    names = [state.name for state in every_state(found, motions(found))]
+    assert len(names) == len(set(names))
+    assert {"steady", "brakes on"} <= set(names) or not any(found.line.brakes)
 
 
 def test_the_loop_closes_in_every_state(case):

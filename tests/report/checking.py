@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from conveyor.analysis import Analysis, CaseStudy, Studies
-from conveyor.checks import Check
+from conveyor.analysis import Analysis, Studies
+from conveyor.checks import Check, deciding
 
 
 @dataclass(frozen=True)
@@ -21,17 +21,10 @@ class Told:
 
 def told(found: Iterable[Check], system: str = "SI") -> list[Told]:
     """Checks in words."""
-    return [
-        Told(c.subject.text(system), c.found.text(system), c.asked.text(system), c.verdict) for c in found
-    ]
+    return [Told(c.name.text(system), c.found.text(system), c.asked.text(system), c.verdict) for c in found]
 
 
 def checks(result: Analysis, system: str = "SI", studies: Studies | None = None) -> list[Told]:
-    """Those of a result, and of its load cases."""
+    """Those that govern, of a result and of its load cases."""
     cases = () if studies is None or studies.cases is None else studies.cases.checks
-    return told((*result.checks, *cases), system)
-
-
-def case_checks(study: CaseStudy, system: str = "SI") -> list[Told]:
-    """Those of load cases."""
-    return told(study.checks, system)
+    return told(deciding((*result.checks, *cases)), system)

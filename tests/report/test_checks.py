@@ -9,6 +9,7 @@ import pytest
 
 import conveyor
 from conveyor.report.columns import Column, Figure, Table, figures
+from conveyor.units import si
 from conveyor.units.presentation import unit
 from conveyor.units.sentences import band_words
 from tests.report.checking import checks
@@ -137,7 +138,7 @@ def test_not_given_is_not_checked(line):
 def test_downhill_without_brake_does_not_stop():
     of = found(conveyor.load(SPECS / "downhill.yaml"))
     assert of["comes to rest without power"].verdict == "FAIL"
-    assert of["motor power, drive"].found.endswith("(generating)")
+    assert of["motor power, drive (least friction)"].found.endswith("(generating)")
     assert of["safety of the belt, steady"].verdict == "FAIL"
 
 
@@ -210,3 +211,33 @@ def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
         line.replace(
             material={**line.material.as_data(), "flow": f"{flow.magnitude / (share - 0.005):.6g} stph"}
         )
+
+
+def test_motors_that_generate_are_held_to_the_friction_that_is_certain():
+    """Downhill less friction brakes less: the motors hold what the least certain friction leaves them."""
+    result = conveyor.analyse(conveyor.load(SPECS / "downhill_brakes.yaml"))
+    motor, settled = result.balance.frame.motor, result.balance.settled
+    assert settled.least_force < settled.force < 0.0
+    found = [check for check in result.checks if check.key == "motor_power"]
+    for drive, check in zip(result.line.drives, found, strict=True):
+        assert check.calculated == pytest.approx(-motor(drive.share * settled.least_force), rel=1e-12)
+        assert (check.where, check.required) == ("least friction", drive.power)
+
+
+def test_the_tension_for_sag_is_that_of_the_span(line):
+    """T = (m_B + m_G) g a/(8 h/a), of the section that has least of it."""
+    result = conveyor.analyse(line)
+    for check in (check for check in result.checks if check.key == "sag"):
+        strand = check.subject.text().rpartition(", ")[2]
+        idlers = line.idlers.carry if strand == "carry" else line.idlers.return_
+        spans = {
+            stretch.section: (stretch.belt_mass + stretch.bulk_mass)
+            * result.line.gravity
+            * stretch.spacing
+            / (8.0 * si(idlers.sag))
+            for stretch in result.line.stretches
+            if stretch.strand == strand
+        }
+        section = check.where.partition(", ")[0]
+        assert check.required == pytest.approx(spans[section], rel=1e-12)
+        assert check.verdict == "pass"

@@ -1,0 +1,209 @@
+"""The JSON schema of what `--json` prints, of a conveyor and of a comparison; declared beside a version."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+SCHEMA_VERSION: Final = 1
+"""Raised where a key goes, or means something else; a new key does not raise it."""
+
+Schema = dict[str, Any]
+
+
+def _is(*kinds: str, of: str = "") -> Schema:
+    """A value of one of some types."""
+    said: Schema = {"type": kinds[0] if len(kinds) == 1 else list(kinds)}
+    return said | ({"description": of} if of else {})
+
+
+def _of(keys: Mapping[str, Schema], *, also: Mapping[str, Schema] | None = None, of: str = "") -> Schema:
+    """An object that holds every one of its keys, and may hold some more."""
+    said: Schema = {"type": "object", "properties": {**keys, **(also or {})}, "required": list(keys)}
+    return said | ({"description": of} if of else {})
+
+
+def _each(item: Schema, of: str = "") -> Schema:
+    """A list of alike items."""
+    return {"type": "array", "items": item} | ({"description": of} if of else {})
+
+
+def _only(*values: Any) -> Schema:
+    return {"enum": list(values)}
+
+
+_NUMBER: Final = _is("number")
+_TEXT: Final = _is("string")
+_NUMBER_OR_NOT: Final = _is("number", "null")
+_TEXT_OR_NOT: Final = _is("string", "null")
+_ROW: Final = {"type": "object", "additionalProperties": _is("number", "string", "boolean", "null")}
+_ROWS: Final = _each(_ROW, "rows of a table, under the names of its columns with their units")
+
+
+def _numbers(*names: str, of: str = "") -> Schema:
+    """An object of numbers: these, and maybe more of their kind."""
+    return _of(dict.fromkeys(names, _NUMBER), of=of) | {"additionalProperties": _NUMBER}
+
+
+def _texts(of: str) -> Schema:
+    return _each(_TEXT, of)
+
+
+_ESTIMATE: Final = {"friction_factor": _NUMBER, "total_N": _NUMBER, "motor_kW": _NUMBER}
+
+_CHECK: Final = _of(
+    {
+        "key": _is("string", of="of the criterion, for programs"),
+        "subject": _is("string", of="what is checked; the same in every case"),
+        "where": _is("string", "null", of="what decides in it: a state of motion, a section"),
+        "case": _is(
+            "string", "null", of="load case and its temperature; null: the conveyor as its spec gives it"
+        ),
+        "calculated": _is("number", "null", of="in `unit`"),
+        "relation": _only("at least", "at most") | {"description": "how calculated must stand to required"},
+        "required": _is("number", "null", of="in `unit`; null where the spec does not say or nothing helps"),
+        "unit": _is("string", of="- of ratios"),
+        "margin": _is("number", "null", of="over what is required, negative where it fails"),
+        "verdict": _only("pass", "fail", "not checked"),
+        "why": _is("string", "null", of="what to say where it does not pass"),
+        "governs": _is("boolean", of="whether its margin is the least of its key and subject in all cases"),
+    }
+)
+
+_STATE: Final = _of(
+    {
+        "power_kW": _NUMBER,
+        "loaded_sections": _each(_TEXT),
+        "tensions_N": _of({}) | {"additionalProperties": _is("number", "string")},
+    }
+)
+
+_POWER: Final = _of(
+    {
+        "schema_version": {"const": SCHEMA_VERSION},
+        "name": _TEXT,
+        "flow_t_per_h": _NUMBER,
+        "length_m": _NUMBER,
+        "lift_m": _is("number", of="from tail to head, negative downhill"),
+        "friction_factor": _is("number", of="f that DIN 22101's main resistance needs for the same force"),
+        "error_estimate": _is("number", of="largest of any roll's indentation, relative"),
+        "forces_N": _numbers(
+            "indentation", "idler_rotation", "flexure", "secondary", "special", "lift", "total",
+            of="against the motion",
+        ),
+        "power_kW": _numbers("belt", "motor", "mains", of="negative where the belt drives"),
+        "tensions_N": _of(
+            dict.fromkeys(("tight", "slack", "tight_start", "largest", "smallest"), _NUMBER)
+            | {"governed_by": _TEXT}
+        ),
+        "drives": _each(
+            _of(
+                {"drive": _TEXT}
+                | dict.fromkeys(("force_N", "motor_kW", "arriving_N", "leaving_N"), _NUMBER),
+                of="in steady running",
+            )
+        ),
+        "take_up": _of(
+            {"kind": _TEXT, "setting_N": _NUMBER, "least_setting_N": _NUMBER, "governed_by": _TEXT},
+            also={"mass_kg": _NUMBER_OR_NOT, "travel_m": _NUMBER_OR_NOT},
+        ),
+        "energy": _of(
+            {
+                "kWh_per_tonne_km": _NUMBER_OR_NOT,
+                "kWh_per_year": _is("number", "null", of="at even load, or net of the duty where there is one"),
+                "cost_per_year": _NUMBER_OR_NOT,
+                "currency": _TEXT_OR_NOT,
+            }
+        ),
+        "classical": _of(_ESTIMATE | {"secondary_by": _TEXT}),
+        "cema": _of(_ESTIMATE) | {"type": ["object", "null"]},
+        "rubber": _each(
+            _of(
+                {
+                    "strand": _only("carry", "return"),
+                    "compound": _TEXT,
+                    "temperature_degC": _NUMBER,
+                    "excited_Hz": _each(_NUMBER_OR_NOT),
+                    "data_Hz": _each(_NUMBER_OR_NOT),
+                    "working_strain": _NUMBER_OR_NOT,
+                    "storage_factor": _NUMBER,
+                    "loss_factor": _NUMBER,
+                }
+            )
+        ),
+        "sections": _each(
+            _of(
+                {"section": _TEXT, "strand": _only("carry", "return")}
+                | dict.fromkeys(("length_m", "lift_m", "indentation_N", "idler_rotation_N", "total_N"), _NUMBER)
+            )
+            | {"additionalProperties": _NUMBER},
+            of="of both strands; every force along the belt as <name>_N",
+        ),
+        "checks": _each(_CHECK, of="every criterion, of the conveyor as given and in every load case"),
+        "assumptions": _texts("what every figure rests on"),
+        "warnings": _texts("where one is strained, a default stands in, a criterion is not met"),
+    },
+    also={
+        "states": _of(
+            {}, also=dict.fromkeys(("empty", "full", "inclines", "declines", "worst"), _STATE), of="of load"
+        ),
+        "load_cases": _of(
+            {
+                "conveyor": _TEXT,
+                "friction_band": _each(_NUMBER),
+                "cases": _ROWS,
+                "governing": _ROWS,
+                "motors": _ROWS,
+                "refused": _ROWS,
+            },
+            of="where the spec has cases",
+        ),
+        "duty": _of(
+            {
+                "conveyor": _TEXT,
+                "year": _ROW,
+                "emission_source": _TEXT_OR_NOT,
+                "duty": _ROWS,
+            },
+            of="where the spec has operation.duty",
+        ),
+        "uncertainty": _of(
+            {"conveyor": _TEXT, "band": _ROWS, "tornado": _ROWS, "notes": _each(_TEXT)},
+            of="where the spec has ranges",
+        ),
+    },
+    of="conveyor power SPEC --json",
+)  # fmt: skip
+
+_COMPARISON: Final = _of(
+    {
+        "schema_version": {"const": SCHEMA_VERSION},
+        "conveyor": _TEXT,
+        "base": _is("string", of="compound of the savings"),
+        "cover": _TEXT,
+        "ranking": _ROWS,
+        "scenes": _ROWS,
+        "coverage": _ROWS,
+        "refused": _ROWS,
+        "warnings": _texts("what to know"),
+    },
+    of="conveyor compare SPEC --json",
+)
+
+
+def result_schema() -> Schema:
+    """Return the JSON schema (draft 2020-12) of what `conveyor power --json` and `conveyor compare --json` print.
+
+    Numbers are finite; what is not known is null. Keys may be added within a version.
+
+    Examples
+    --------
+    >>> result_schema()["$defs"]["power"]["properties"]["checks"]["items"]["properties"]["verdict"]
+    {'enum': ['pass', 'fail', 'not checked']}
+    """
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"Results of conveyor, version {SCHEMA_VERSION}",
+        "oneOf": [{"$ref": "#/$defs/power"}, {"$ref": "#/$defs/comparison"}],
+        "$defs": {"power": _POWER, "comparison": _COMPARISON},
+    }
