@@ -151,7 +151,7 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that no rubber changes [N], shape (2n,).
 
-    `flexure` is None where a share of the other main resistances stands in; `unit_main` is the main resistance that
+    `flexure` is None where it is a share of the other main resistances; `unit_main` is the main resistance that
     DIN 22101 gives for f = 1.
     """
 
@@ -169,13 +169,12 @@ def without_rubber(line: Line) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, gravity) for stretch in line.stretches])
 
-    by_law = line.stretches[0].span_flexure is not None
     return WithoutRubber(
         rotation=each(_rotation),
         tilt=each(_tilt),
         lift=each(_lift),
         unit_main=each(_unit_main),
-        flexure=np.array([s.sets * (s.span_flexure or 0.0) for s in line.stretches]) if by_law else None,
+        flexure=None if line.flexure_share is not None else each(_flexure),
     )
 
 
@@ -196,16 +195,15 @@ def along_the_belt(
         Drag of all rolls over the computed one [-].
     """
     rotation = roll_drag * fixed.rotation
-    flexure, law = fixed.flexure, "calculation.flexure, laws"
+    flexure, share = fixed.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([
-            flexure_resistance(other, share=line.flexure_share) for other in (indentation + rotation).tolist()
+            flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
-        law = "share of the main resistance, flagged default"
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
-        Force("flexure", "flexure of belt and bulk", "main", flexure, law, short="flexure"),
+        Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
     )
@@ -217,6 +215,11 @@ def _rotation(stretch: Stretch, _gravity: float) -> float:
         idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
         for drag in stretch.drags
     )
+
+
+def _flexure(stretch: Stretch, _gravity: float) -> float:
+    """Flexure over all spans of the stretch [N]."""
+    return stretch.sets * (stretch.span_flexure or 0.0)
 
 
 def _tilt(stretch: Stretch, gravity: float) -> float:

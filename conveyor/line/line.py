@@ -16,7 +16,7 @@ from conveyor.laws.take_up import LOOP_STRANDS
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
 from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
-from conveyor.models import Conveyor, DrivePulley, Feeding, Pulley
+from conveyor.models import Calculation, Conveyor, DrivePulley, Feeding, Pulley
 from conveyor.models.methods import Cema
 from conveyor.units import Quantity, si
 
@@ -174,7 +174,9 @@ class Line:
     secondary : {"itemised", "C"}
         Secondary resistances one by one, or by the length coefficient.
     support, rtol, softened, flexure_share
-        How the contacts are calculated; whether rubber is softened by its strain; share of flexure without a law [-].
+        How the contacts are calculated; whether rubber is softened by its strain; share of flexure where it is one [-].
+    flexure_source : str
+        What the flexure rests on, in words.
     """
 
     stretches: tuple[Stretch, ...]
@@ -201,7 +203,8 @@ class Line:
     least_friction: float
     secondary: str
     friction_factor: float
-    flexure_share: float
+    flexure_share: float | None
+    flexure_source: str
     cema: CemaFactors | None
     support: Support
     rtol: float
@@ -254,7 +257,8 @@ class Line:
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
-            flexure_share=si(calculation.flexure_share),
+            flexure_share=_known(calculation.flexure_share),
+            flexure_source=_flexure_source(calculation),
             cema=_cema(calculation.cema),
             support=calculation.support,
             rtol=calculation.rtol,
@@ -306,6 +310,14 @@ def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
     """Put carry strand, return strand in the order the belt meets them from the head: return, carry."""
     half = len(along) // 2
     return (*along[half:], *along[:half])
+
+
+def _flexure_source(calculation: Calculation) -> str:
+    if calculation.flexure_share is not None:
+        return "share of the main resistance, calculation.flexure_share"
+    if calculation.flexure is not None:
+        return "calculation.flexure, laws"
+    return "load x sag of the set x coefficient of one measured site, flagged default"
 
 
 def _known(value: Quantity | None) -> float | None:

@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.files.libraries import widest_spacings
-from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR
+from conveyor.laws.resistance import (
+    FLEXURE_COEFFICIENT,
+    FLEXURE_SHARE,
+    ROLL_ON_BELT_FRICTION,
+    SCRAPING_FACTOR,
+)
 from conveyor.line.roll_drags import bearing_viscosity, running_drag
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
@@ -48,10 +53,16 @@ def _shares(conveyor: Conveyor) -> str:
 
 def _flexure(conveyor: Conveyor) -> str:
     calculation = conveyor.calculation
-    if calculation.flexure is None:
+    if calculation.flexure_share is not None:
         return (
-            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance "
-            "(no model: share of the total measured at one overland site)."
+            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance (no model: "
+            f"{FLEXURE_SHARE.value:.0%} of the total were measured at one overland site)."
+        )
+    if calculation.flexure is None:
+        carry, back = (text(idlers.sag) for idlers in (conveyor.idlers.carry, conveyor.idlers.return_))
+        return (
+            f"Flexure of belt and bulk is {FLEXURE_COEFFICIENT.value:.3f} of load times relative sag, at the sag "
+            f"the sets are designed for (carry {carry}, return {back}) at any tension and load."
         )
     laws = []
     if calculation.flexure.belt is not None:
@@ -157,9 +168,12 @@ def _flexure_warnings(conveyor: Conveyor) -> Iterator[Said]:
     calculation = conveyor.calculation
     flexure = calculation.flexure
     if flexure is None:
-        if "flexure_share" not in calculation.model_fields_set:
-            share = f"{FLEXURE_SHARE.value:.0%}"
-            yield said(f"calculation.flexure_share not given: {share} assumed, measured at one overland site")
+        if calculation.flexure_share is None:
+            c = FLEXURE_COEFFICIENT
+            yield said(
+                f"calculation.flexure not given: load x sag x {c.value:.3f} ({c.low:.3f} to {c.high:.3f}) assumed, so "
+                f"that one measured site has its {FLEXURE_SHARE.value:.0%} at 1 % sag (general knowledge)"
+            )
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]
     if left_out:

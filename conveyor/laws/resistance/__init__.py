@@ -27,7 +27,13 @@ from conveyor.laws.resistance.defaults import (
     TILT_COEFFICIENT_45,
     Default,
 )
-from conveyor.laws.resistance.flexure import belt_flexure_resistance, bulk_flexure_bound, rankine_coefficients
+from conveyor.laws.resistance.flexure import (
+    FLEXURE_COEFFICIENT,
+    belt_flexure_resistance,
+    bulk_flexure_bound,
+    rankine_coefficients,
+    sag_flexure_resistance,
+)
 from conveyor.laws.resistance.idlers import (
     RollDrag,
     default_roll_drag,
@@ -88,6 +94,7 @@ __all__ = [
     "BULK_ON_SKIRT_FRICTION",
     "CLEANER_FRICTION",
     "CLEANER_PRESSURE",
+    "FLEXURE_COEFFICIENT",
     "FLEXURE_SHARE",
     "FRICTION_FACTOR",
     "FRICTION_FACTOR_DOWNHILL",
@@ -142,6 +149,7 @@ __all__ = [
     "roll_drag",
     "roll_line_mass",
     "roll_rotation",
+    "sag_flexure_resistance",
     "secondary_resistance",
     "section_main_resistance",
     "skirt_resistance",
