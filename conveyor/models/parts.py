@@ -48,6 +48,8 @@ class Calculation(Model):
     """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
     friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
     """Friction factor f of the classical estimate, for comparison."""
+    roll_drag: Literal["in service", "acceptance limit"] = "in service"
+    """Drag of rolls without one: usual bearings, grease and seals over load, speed and air; or a new roll's limit."""
     flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] | None = None
     """Flexure of belt and bulk as a share of the main resistance, instead of load and sag."""
     flexure: Flexure | None = None

@@ -85,6 +85,13 @@ from conveyor.laws.resistance.secondary import (
     cleaner_resistance,
     skirt_resistance,
 )
+from conveyor.laws.resistance.service_drag import (
+    SERVICE_DRAG,
+    ServiceDrag,
+    roll_end_cooling,
+    service_roll_drag,
+    usual_bearing,
+)
 
 __all__ = [
     "BEARING_F0",
@@ -108,6 +115,7 @@ __all__ = [
     "ROLL_DRAG_TO_178",
     "ROLL_ON_BELT_FRICTION",
     "SCRAPING_FACTOR",
+    "SERVICE_DRAG",
     "SHORTEST_FOR_FACTOR",
     "TEST_LOAD",
     "TEST_ROTATION",
@@ -117,6 +125,7 @@ __all__ = [
     "Default",
     "RollDrag",
     "RollDragParts",
+    "ServiceDrag",
     "acceleration_length",
     "acceleration_resistance",
     "acceleration_skirt_resistance",
@@ -147,12 +156,15 @@ __all__ = [
     "pulley_load",
     "rankine_coefficients",
     "roll_drag",
+    "roll_end_cooling",
     "roll_line_mass",
     "roll_rotation",
     "sag_flexure_resistance",
     "secondary_resistance",
     "section_main_resistance",
+    "service_roll_drag",
     "skirt_resistance",
     "slope_resistance",
     "steel_cord_wrap_resistance",
+    "usual_bearing",
 ]
