@@ -68,6 +68,8 @@ class Force:
         Where it acts, for the loop and in words; nowhere in particular for forces along the belt.
     short : str
         Name of its column in tables of sections; `name` without it.
+    assumed : bool
+        Whether it is that of a usual part which the spec does not have.
     """
 
     key: str
@@ -79,6 +81,7 @@ class Force:
     spot: Spot | None = None
     place: str = ""
     short: str = ""
+    assumed: bool = False
 
     @property
     def total(self) -> float:
@@ -279,8 +282,8 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False
     ) -> Force:
         return Force(
-            key, f"{name}{point.name}", kind, newtons, f"ISO 5048, {law}",
-            certain=certain, spot=point.spot, place=point.place,
+            key, f"{name}{point.name}", kind, newtons, _law(f"ISO 5048, {law}", point.assumed),
+            certain=certain, spot=point.spot, place=point.place, assumed=point.assumed,
         )  # fmt: skip
 
     if line.secondary != "C":
@@ -316,13 +319,18 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
     yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL")
 
 
+def _law(source: str, assumed: bool) -> str:
+    return f"{source}, usual figures" if assumed else source
+
+
 def _cleaners(line: Line) -> Iterator[Force]:
     """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
     for i, scraper in enumerate(line.scrapers, start=1):
         one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         yield Force(
-            "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one, "ISO 5048, F_r",
-            spot=line.places.behind("head", None), place="head",
+            "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one,
+            _law("ISO 5048, F_r", scraper.assumed),
+            spot=line.places.behind("head", None), place="head", assumed=scraper.assumed,
         )  # fmt: skip
 
 
@@ -387,14 +395,25 @@ class Bend:
     def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:
         """Both as forces with their names."""
         bend, turn = self.newtons(tight, slack, gravity)
-        name, spot, place = self.pulley.name, self.pulley.spot, self.pulley.place
-        law = "ISO 5048 / DIN 22101, belt wrap"
-        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place)
+        name, spot, place, assumed = (
+            self.pulley.name,
+            self.pulley.spot,
+            self.pulley.place,
+            self.pulley.assumed,
+        )
+        law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
+        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place, assumed=assumed)
         if self.bearings is not None:
             yield Force(
-                "pulley_bearings", f"bearings, {name}", "secondary", turn, "ISO 5048, F_t",
-                spot=spot, place=place,
+                "pulley_bearings", f"bearings, {name}", "secondary", turn, _law("ISO 5048, F_t", assumed),
+                spot=spot, place=place, assumed=assumed,
             )  # fmt: skip
+
+    def times(self, factor: float) -> Bend:
+        """The same pulley with so much more resistance."""
+        base, slope = self.wrap
+        turn = None if self.bearings is None else factor * self.bearings
+        return Bend(self.pulley, (factor * base, factor * slope), turn)
 
 
 def bends(line: Line) -> tuple[Bend, ...]:

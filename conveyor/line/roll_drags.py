@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from conveyor.errors import InputError
@@ -93,6 +94,16 @@ def _in_service(diameter: float, length: float, speed: float, air: float) -> Dra
             load, belt_speed=speed, roll_diameter=diameter, roll_length=length, air_temperature=air
         ).force
     )
+
+
+def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
+    """Share of the rolls that are taken to be in service in the drag of a set [-], from the drags of its rolls [N]."""
+    if conveyor.calculation.roll_drag != "in service":
+        return 0.0
+    rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
+    without = [roll.drag is None and roll.drag_law is None for roll in rolls]
+    assumed = math.fsum(drag for drag, one in zip(drags, without, strict=True) if one)
+    return assumed / math.fsum(drags) if assumed > 0.0 else 0.0
 
 
 def assumed_bearing(roll: Roll) -> str:

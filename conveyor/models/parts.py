@@ -46,6 +46,8 @@ class Calculation(Model):
     """Points along a roll at which the contact is solved."""
     secondary: Literal["itemised", "C"] = "itemised"
     """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
+    not_given: Literal["usual values", "nothing"] = "usual values"
+    """What stands in where the route has no feeding, no cleaners or no pulleys: usual ones, or nothing."""
     friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
     """Friction factor f of the classical estimate, for comparison."""
     roll_drag: Literal["in service", "acceptance limit"] = "in service"

@@ -324,6 +324,8 @@ def _with_cover(conveyor: Conveyor, factor: float) -> Conveyor:
 
 def _with_cleaners(conveyor: Conveyor, factor: float) -> Conveyor:
     route = conveyor.route
+    if not route.cleaners:
+        return conveyor
     cleaners = [c.replace(pressure=scaled(c.pressure, factor)) for c in route.cleaners]
     return conveyor.replace(route=route.replace(cleaners=cleaners))
 
