@@ -46,7 +46,7 @@ def cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
 
 
 def pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
-    """Pulleys, and whether they are assumed: the least that the carcass bears (others like EP), their weight left out."""
+    """Pulleys, and whether they are assumed: the least that the carcass bears (others like EP), without weight."""
     given = conveyor.route.pulleys
     if given or not _assumes(conveyor):
         return given, False

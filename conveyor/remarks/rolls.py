@@ -57,7 +57,7 @@ def _flexure(conveyor: Conveyor) -> str:
     if calculation.flexure_share is not None:
         return (
             f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance (no model: "
-            f"{FLEXURE_SHARE.value:.0%} of the total were measured at one overland site)."
+            f"{100.0 * FLEXURE_SHARE.value:.0f} % of the total were measured at one overland site)."
         )
     if calculation.flexure is None:
         carry, back = (text(idlers.sag) for idlers in (conveyor.idlers.carry, conveyor.idlers.return_))
@@ -192,7 +192,7 @@ def _flexure_warnings(conveyor: Conveyor) -> Iterator[Said]:
             c = FLEXURE_COEFFICIENT
             yield said(
                 f"calculation.flexure not given: load x sag x {c.value:.3f} ({c.low:.3f} to {c.high:.3f}) assumed, so "
-                f"that one measured site has its {FLEXURE_SHARE.value:.0%} at 1 % sag (general knowledge)"
+                f"that one measured site has its {100.0 * FLEXURE_SHARE.value:.0f} % at 1 % sag (general knowledge)"
             )
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]

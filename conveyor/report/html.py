@@ -144,6 +144,8 @@ def _key_figures(contents: Contents) -> Html:
     )
     link = element("a", f"{warned} warnings", href="#warnings")
     content = [tiles(contents.marked("tile"), contents.system), element("p", "Checks: ", counted, " ", link)]
+    if "defaults" in contents:
+        content.append(element("p", contents["defaults"].note))
     failed = [check.subject for check in checks if check.verdict == "FAIL"]
     if failed:
         content.append(element("p", "Failed: ", "; ".join(failed), "."))

@@ -94,7 +94,7 @@ DEFAULTS: Final = (
            along("idler_rotation", _drag)),
     banded("flexure", "flexure of belt and bulk over load and sag", FLEXURE_COEFFICIENT,
            "calculation.flexure or flexure_share", along("flexure", _flexure)),
-    banded("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION, "idlers.*.tilt_angle: 0 deg, or nothing",
+    banded("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION, "idlers.*.tilt_angle: 0 deg",
            along("tilt", lambda _conveyor, _stretch: 1.0)),
     Assumed("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding", usual("acceleration")),
     Assumed("skirts", "usual skirts", 0.5, 2.0, "route.feeding", usual("loading_skirts", "skirts")),
