@@ -118,7 +118,7 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             yield said(
                 "route.pulleys not given: a head and a tail pulley of {} assumed, the least the carcass bears (general "
                 "knowledge)",
-                (line.pulleys[0].diameter, "size"),
+                (line.pulleys[0].diameter, "thickness"),
             )
         elif line.belt.steel_cord:
             yield said(
@@ -131,7 +131,7 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             "route.feeding not given: bulk that lands at rest, skirts of {}, {} apart, assumed as in the worked "
             "example of ISO 5048",
             (line.loading[0].skirt_length, "length"),
-            (line.loading[0].skirt_width, "size"),
+            (line.loading[0].skirt_width, "thickness"),
         )
     if not line.scrapers:
         yield said("route.cleaners not given: no cleaner in the figures")

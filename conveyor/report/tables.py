@@ -216,7 +216,7 @@ def defaults(left_open: PowerRange, system: System) -> Table:
 
 def _left_open(found: PowerRange, system: System) -> str:
     """The power with its range, and what to replace first."""
-    ends = (figure(float(f"{end:.3g}"), "power", system) for end in (found.low, found.high))
+    ends = (figure(end, "power", system) for end in (found.low, found.high))
     first = found.effects[0]
     said = (
         f"Motor power {figure(found.motor, 'power', system)}, {' to '.join(ends)} from what was not given "
