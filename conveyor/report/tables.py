@@ -216,11 +216,11 @@ def defaults(left_open: PowerRange, system: System) -> Table:
 
 def _left_open(found: PowerRange, system: System) -> str:
     """The power with its range, and what to replace first."""
-    ends = (figure(end, "power", system) for end in (found.low, found.high))
-    first = found.effects[0]
+    low, high = (figure(end, "power", system) for end in (found.low, found.high))
+    first, motor = found.effects[0], figure(found.motor, "power", system)
     said = (
-        f"Motor power {figure(found.motor, 'power', system)}, {' to '.join(ends)} from what was not given "
-        f"(nine tenths); replace first: {first.name} ({first.give})."
+        f"Motor power {motor}, {low.rpartition(' ')[0]} to {high} from what was not given (nine tenths); "
+        f"replace first: {first.name} ({first.give})."
     )
     return " ".join((said, *(f"Not in it: {note}." for note in found.notes)))
 

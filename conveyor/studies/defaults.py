@@ -89,6 +89,13 @@ def _flexure(conveyor: Conveyor, _stretch: Stretch) -> float:
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
+def _pressed(found: CalculatedConveyor, force: Force) -> float:
+    """Whether a cleaner is given without its pressure."""
+    names = [each.name for each in found.balance.singles if each.key == "cleaner"]
+    cleaner = dict(zip(names, found.conveyor.route.cleaners, strict=False)).get(force.name)
+    return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
+
+
 DEFAULTS: Final = (
     banded("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
            along("idler_rotation", _drag)),
@@ -100,6 +107,7 @@ DEFAULTS: Final = (
     Assumed("skirts", "usual skirts", 0.5, 2.0, "route.feeding", usual("loading_skirts", "skirts")),
     Assumed("cleaners", "usual cleaners", 0.5, CLEANER_PRESSURE.high / CLEANER_PRESSURE.value, "route.cleaners",
             usual("cleaner")),
+    banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
     Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.

@@ -103,7 +103,14 @@ def test_usual_parts_stand_in_for_missing_ones(line, bare):
     assert {"feeding", "skirts", "cleaners", "pulleys"} <= {one.key for one in power_range(found).effects}
     # what is given is not added to
     partly = calculated(missing.replace(route=missing.route.replace(cleaners=line.route.cleaners)))
-    assert sum(force.key == "cleaner" for force in calculate(partly).balance.singles) == 1
+    part = calculate(partly)
+    assert sum(force.key == "cleaner" for force in part.balance.singles) == 1
+    (pressure,) = (
+        one for one in power_range(part).effects if one.key == "cleaner_pressure"
+    )  # not given there
+    scraped = part.balance.forces.special * (1e5 / 3e4 - 1.0) * speed / 0.93
+    assert pressure.motor_high - part.balance.power.motor > 0.0
+    assert pressure.motor_high - part.balance.power.motor < 1.1 * scraped  # its wraps too, skirts not
     assert not any(force.assumed for force in calculate(line).balance.singles)
 
 
@@ -123,9 +130,13 @@ def test_reports_say_the_range_and_what_to_replace_first(line):
     assert [one["key"] for one in told["in_use"]] == [one.key for one in left.effects]
     note = found.contents(system="SI")["defaults"].note
     low, motor, high = (f"{power / 1e3:.1f} kW" for power in (left.low, left.motor, left.high))
-    assert note.startswith(f"Motor power {motor}, {low} to {high} from what was not given (nine tenths); ")
+    assert note.startswith(
+        f"Motor power {motor}, {low.removesuffix(' kW')} to {high} from what was not given (nine tenths); "
+    )
     assert "replace first: drag of the rolls in service (idlers.*.roll.drag or drag_law)." in note
-    assert " hp to " in found.contents(system="US")["defaults"].note
-    known = conveyor.analyse(calculated(drags(line, "2 N"), flexure_share="10 %"))
+    assert " hp from what was" in found.contents(system="US")["defaults"].note
+    cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]
+    pressed = line.replace(route=line.route.replace(cleaners=cleaners))
+    known = conveyor.analyse(calculated(drags(pressed, "2 N"), flexure_share="10 %"))
     assert "defaults" not in known.contents()
     assert known.to_dict()["defaults"]["motor_kW"] == {"low": None, "high": None}

@@ -7,17 +7,18 @@ list them. Which bearing, grease and seal is usual, and how they cool, is genera
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from scipy.optimize import brentq
 
 from conveyor.laws.resistance.defaults import Default
-from conveyor.laws.resistance.rim_drag import RollDragParts, bearing_roll_drag
+from conveyor.laws.resistance.rim_drag import RollDragParts, bearing_roll_drag, roll_rotation
 from conveyor.laws.resistance.roll_bearing import (
     BEARING_F0,
     BEARING_F1_EXPONENT,
     BEARING_F1_FACTOR,
+    bearing_no_load_moment,
     oil_viscosity,
 )
 from conveyor.require import require, require_not_negative, require_positive
@@ -215,27 +216,37 @@ def service_roll_drag(
     require_positive(belt_speed=belt_speed, air_temperature=air_temperature)
     bearing, cooling = usual_bearing(roll_diameter), roll_end_cooling(roll_diameter, roll_length=roll_length)
     seal = SEAL_STRESS.value * 2.0 * math.pi * (bearing.outside / 2.0) ** 2 * SEAL_LENGTH
+    rotation = roll_rotation(belt_speed, roll_diameter=roll_diameter)
     (cool, thick), (warm, thin) = USUAL_OIL
 
-    def parts(temperature: float) -> RollDragParts:
-        return bearing_roll_drag(
-            roll_load,
-            belt_speed=belt_speed,
-            roll_diameter=roll_diameter,
-            mean_diameter=bearing.mean_diameter,
-            viscosity=oil_viscosity(
-                temperature,
-                first_temperature=cool,
-                first_viscosity=thick,
-                second_temperature=warm,
-                second_viscosity=thin,
-            ),
-            static_rating=bearing.static_rating,
-            f0=SERVICE_F0,
-            f1_factor=SERVICE_F1_FACTOR,
-            f1_exponent=BEARING_F1_EXPONENT.value,
-            seal_moment=seal,
+    def oil(temperature: float) -> float:
+        return oil_viscosity(
+            temperature,
+            first_temperature=cool,
+            first_viscosity=thick,
+            second_temperature=warm,
+            second_viscosity=thin,
         )
+
+    cold = bearing_roll_drag(
+        roll_load,
+        belt_speed=belt_speed,
+        roll_diameter=roll_diameter,
+        mean_diameter=bearing.mean_diameter,
+        viscosity=oil(air_temperature),
+        static_rating=bearing.static_rating,
+        f0=SERVICE_F0,
+        f1_factor=SERVICE_F1_FACTOR,
+        f1_exponent=BEARING_F1_EXPONENT.value,
+        seal_moment=seal,
+    )
+
+    def parts(temperature: float) -> RollDragParts:
+        """At this temperature only the oil is another."""
+        moment = bearing_no_load_moment(
+            SERVICE_F0, viscosity=oil(temperature), rotation=rotation, mean_diameter=bearing.mean_diameter
+        )
+        return replace(cold, no_load=2.0 * moment / (roll_diameter / 2.0))
 
     def surplus(temperature: float) -> float:
         """Heat of one end that the air does not take [W]."""
