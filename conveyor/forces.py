@@ -68,6 +68,8 @@ class Force:
         Where it acts, for the loop and in words; nowhere in particular for forces along the belt.
     short : str
         Name of its column in tables of sections; `name` without it.
+    assumed : bool
+        Whether it is that of a usual part which the spec does not have.
     """
 
     key: str
@@ -79,6 +81,7 @@ class Force:
     spot: Spot | None = None
     place: str = ""
     short: str = ""
+    assumed: bool = False
 
     @property
     def total(self) -> float:
@@ -151,7 +154,7 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that no rubber changes [N], shape (2n,).
 
-    `flexure` is None where a share of the other main resistances stands in; `unit_main` is the main resistance that
+    `flexure` is None where it is a share of the other main resistances; `unit_main` is the main resistance that
     DIN 22101 gives for f = 1.
     """
 
@@ -169,13 +172,12 @@ def without_rubber(line: Line) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, gravity) for stretch in line.stretches])
 
-    by_law = line.stretches[0].span_flexure is not None
     return WithoutRubber(
         rotation=each(_rotation),
         tilt=each(_tilt),
         lift=each(_lift),
         unit_main=each(_unit_main),
-        flexure=np.array([s.sets * (s.span_flexure or 0.0) for s in line.stretches]) if by_law else None,
+        flexure=None if line.flexure_share is not None else each(_flexure),
     )
 
 
@@ -196,16 +198,15 @@ def along_the_belt(
         Drag of all rolls over the computed one [-].
     """
     rotation = roll_drag * fixed.rotation
-    flexure, law = fixed.flexure, "calculation.flexure, laws"
+    flexure, share = fixed.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([
-            flexure_resistance(other, share=line.flexure_share) for other in (indentation + rotation).tolist()
+            flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
-        law = "share of the main resistance, flagged default"
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
-        Force("flexure", "flexure of belt and bulk", "main", flexure, law, short="flexure"),
+        Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
     )
@@ -217,6 +218,11 @@ def _rotation(stretch: Stretch, _gravity: float) -> float:
         idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
         for drag in stretch.drags
     )
+
+
+def _flexure(stretch: Stretch, _gravity: float) -> float:
+    """Flexure over all spans of the stretch [N]."""
+    return stretch.sets * (stretch.span_flexure or 0.0)
 
 
 def _tilt(stretch: Stretch, gravity: float) -> float:
@@ -276,8 +282,8 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False
     ) -> Force:
         return Force(
-            key, f"{name}{point.name}", kind, newtons, f"ISO 5048, {law}",
-            certain=certain, spot=point.spot, place=point.place,
+            key, f"{name}{point.name}", kind, newtons, _law(f"ISO 5048, {law}", point.assumed),
+            certain=certain, spot=point.spot, place=point.place, assumed=point.assumed,
         )  # fmt: skip
 
     if line.secondary != "C":
@@ -313,13 +319,18 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
     yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL")
 
 
+def _law(source: str, assumed: bool) -> str:
+    return f"{source}, usual figures" if assumed else source
+
+
 def _cleaners(line: Line) -> Iterator[Force]:
     """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
     for i, scraper in enumerate(line.scrapers, start=1):
         one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         yield Force(
-            "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one, "ISO 5048, F_r",
-            spot=line.places.behind("head", None), place="head",
+            "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one,
+            _law("ISO 5048, F_r", scraper.assumed),
+            spot=line.places.behind("head", None), place="head", assumed=scraper.assumed,
         )  # fmt: skip
 
 
@@ -384,14 +395,25 @@ class Bend:
     def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:
         """Both as forces with their names."""
         bend, turn = self.newtons(tight, slack, gravity)
-        name, spot, place = self.pulley.name, self.pulley.spot, self.pulley.place
-        law = "ISO 5048 / DIN 22101, belt wrap"
-        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place)
+        name, spot, place, assumed = (
+            self.pulley.name,
+            self.pulley.spot,
+            self.pulley.place,
+            self.pulley.assumed,
+        )
+        law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
+        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place, assumed=assumed)
         if self.bearings is not None:
             yield Force(
-                "pulley_bearings", f"bearings, {name}", "secondary", turn, "ISO 5048, F_t",
-                spot=spot, place=place,
+                "pulley_bearings", f"bearings, {name}", "secondary", turn, _law("ISO 5048, F_t", assumed),
+                spot=spot, place=place, assumed=assumed,
             )  # fmt: skip
+
+    def times(self, factor: float) -> Bend:
+        """The same pulley with so much more resistance."""
+        base, slope = self.wrap
+        turn = None if self.bearings is None else factor * self.bearings
+        return Bend(self.pulley, (factor * base, factor * slope), turn)
 
 
 def bends(line: Line) -> tuple[Bend, ...]:

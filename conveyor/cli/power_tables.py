@@ -28,6 +28,8 @@ def show(contents: Contents) -> None:
     _head(screen, contents)
     screen.print()
     screen.print(_forces(contents))
+    if "defaults" in contents:
+        screen.print(words(wrapped(contents["defaults"].note, screen.width)))
     screen.print()
     screen.print(_sums(contents))
     _checks(screen, contents)

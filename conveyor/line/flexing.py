@@ -1,4 +1,4 @@
-"""Flexure of belt and bulk of a stretch by the laws its spec names, instead of a share."""
+"""Flexure of belt and bulk of a stretch: over load and sag, or by the laws its spec names."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ import math
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.loading import effective_tension
-from conveyor.laws.resistance import belt_flexure_resistance, bulk_flexure_bound
+from conveyor.laws.resistance import (
+    FLEXURE_COEFFICIENT,
+    belt_flexure_resistance,
+    bulk_flexure_bound,
+    sag_flexure_resistance,
+)
 from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor
 from conveyor.units import si
@@ -18,13 +23,15 @@ class FlexureLaw:
     Parameters
     ----------
     conveyor : Conveyor
-        With `calculation.flexure`.
+        Its `calculation.flexure`, or none.
     loads : SetLoads
-        Of the strand: width of the wings under the bulk.
+        Of the strand: sag, width of the wings under the bulk.
     """
 
     def __init__(self, conveyor: Conveyor, loads: SetLoads) -> None:
         flexure = conveyor.calculation.flexure
+        self._named = flexure is not None
+        self._sag = si(loads.idlers.sag)
         self._belt = None if flexure is None else flexure.belt
         self._bulk = None if flexure is None else flexure.bulk
         self._loads = loads
@@ -37,11 +44,6 @@ class FlexureLaw:
         self._tension = None if given is None else si(given)
         self._bulk_known: dict[float, float] = {}
 
-    @property
-    def given(self) -> bool:
-        """Whether the spec names a law."""
-        return self._belt is not None or self._bulk is not None
-
     def span(
         self, *, belt_mass: float, bulk_mass: float, spacing: float, inclination: float, least_tension: float
     ) -> float:
@@ -52,10 +54,15 @@ class FlexureLaw:
         NoSolutionError
             The belt would fly: the tension is below m' v².
         """
+        mass = belt_mass + bulk_mass
+        load = mass * self._gravity * math.cos(inclination)
+        if not self._named:
+            return sag_flexure_resistance(
+                load, spacing=spacing, relative_sag=self._sag, coefficient=FLEXURE_COEFFICIENT.value
+            )
         bulk = 0.0 if self._bulk is None or bulk_mass == 0.0 else self._of_bulk(bulk_mass)
         if self._belt is None:
             return bulk
-        mass = belt_mass + bulk_mass
         tension = least_tension if self._tension is None else self._tension
         effective = effective_tension(tension, line_mass=mass, belt_speed=self._speed)
         if effective <= 0.0:
@@ -64,7 +71,7 @@ class FlexureLaw:
                 f"{tension - effective:.5g} N; give a larger calculation.flexure.belt.tension"
             )
         return bulk + belt_flexure_resistance(
-            mass * self._gravity * math.cos(inclination),
+            load,
             tension=effective,
             spacing=spacing,
             bending_stiffness=self._stiffness,

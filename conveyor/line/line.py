@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,10 +14,11 @@ from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS
+from conveyor.line import usual
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
 from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
-from conveyor.models import Conveyor, DrivePulley, Feeding, Pulley
+from conveyor.models import Calculation, Conveyor, DrivePulley, Feeding, Pulley
 from conveyor.models.methods import Cema
 from conveyor.units import Quantity, si
 
@@ -51,7 +53,10 @@ class BeltBody:
 
 @dataclass(frozen=True)
 class LoadingPoint:
-    """Where bulk lands: its place, its share of the flow, all flow that lies there from then on [-, kg/s, m/s, m]."""
+    """Where bulk lands: its place, its share of the flow, all flow that lies there from then on [-, kg/s, m/s, m].
+
+    `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
+    """
 
     name: str
     spot: Spot
@@ -63,6 +68,7 @@ class LoadingPoint:
     skirt_width: float
     belt_friction: float
     skirt_friction: float
+    assumed: bool = False
 
 
 @dataclass(frozen=True)
@@ -73,6 +79,7 @@ class Scraper:
     area: float
     pressure: float
     friction: float
+    assumed: bool = False
 
 
 @dataclass(frozen=True)
@@ -99,6 +106,7 @@ class BendPulley:
     mass: float
     wrap_angle: float
     driven: bool
+    assumed: bool = False
 
 
 @dataclass(frozen=True)
@@ -174,7 +182,9 @@ class Line:
     secondary : {"itemised", "C"}
         Secondary resistances one by one, or by the length coefficient.
     support, rtol, softened, flexure_share
-        How the contacts are calculated; whether rubber is softened by its strain; share of flexure without a law [-].
+        How the contacts are calculated; whether rubber is softened by its strain; share of flexure where it is one [-].
+    flexure_source : str
+        What the flexure rests on, in words.
     """
 
     stretches: tuple[Stretch, ...]
@@ -201,7 +211,8 @@ class Line:
     least_friction: float
     secondary: str
     friction_factor: float
-    flexure_share: float
+    flexure_share: float | None
+    flexure_source: str
     cema: CemaFactors | None
     support: Support
     rtol: float
@@ -226,7 +237,7 @@ class Line:
         InputError
             A law of roll drag does not hold at a load.
         """
-        drive, route, calculation = conveyor.drive, conveyor.route, conveyor.calculation
+        drive, calculation = conveyor.drive, conveyor.calculation
         places, sections = Places(conveyor), route_sections(conveyor)
         efficiency = si(drive.efficiency)
         return cls(
@@ -237,7 +248,7 @@ class Line:
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
             gravity=si(calculation.gravity),
-            loading=tuple(_loading(conveyor, point, places) for point in route.feeding_points),
+            loading=_loading_points(conveyor, places),
             scrapers=_scrapers(conveyor),
             ploughs=_ploughs(conveyor, places),
             pulleys=_pulleys(conveyor, places),
@@ -254,7 +265,8 @@ class Line:
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
-            flexure_share=si(calculation.flexure_share),
+            flexure_share=_known(calculation.flexure_share),
+            flexure_source=_flexure_source(calculation),
             cema=_cema(calculation.cema),
             support=calculation.support,
             rtol=calculation.rtol,
@@ -308,6 +320,14 @@ def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
     return (*along[half:], *along[:half])
 
 
+def _flexure_source(calculation: Calculation) -> str:
+    if calculation.flexure_share is not None:
+        return "share of the main resistance, calculation.flexure_share"
+    if calculation.flexure is not None:
+        return "calculation.flexure, laws"
+    return "load x sag of the set x coefficient of one measured site, flagged default"
+
+
 def _known(value: Quantity | None) -> float | None:
     return None if value is None else si(value)
 
@@ -333,7 +353,12 @@ def _belt(conveyor: Conveyor) -> BeltBody:
     )
 
 
-def _loading(conveyor: Conveyor, point: Feeding, places: Places) -> LoadingPoint:
+def _loading_points(conveyor: Conveyor, places: Places) -> tuple[LoadingPoint, ...]:
+    points, assumed = usual.feeding_points(conveyor)
+    return tuple(_loading(conveyor, point, places, assumed=assumed) for point in points)
+
+
+def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: bool) -> LoadingPoint:
     route, flow = conveyor.route, si(conveyor.material.flow)
     spot = places.landing(point.section)
     section = route.sections[0].name if point.section is None else point.section
@@ -348,6 +373,7 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places) -> LoadingPoint
         skirt_width=si(point.skirt_width),
         belt_friction=point.belt_friction,
         skirt_friction=point.skirt_friction,
+        assumed=assumed,
     )
 
 
@@ -357,11 +383,16 @@ def _belt_friction(conveyor: Conveyor) -> float:
 
 
 def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
+    cleaners, assumed = usual.cleaners(conveyor)
     return tuple(
         Scraper(
-            cleaner.count, si(cleaner.width) * si(cleaner.thickness), si(cleaner.pressure), cleaner.friction
+            count=cleaner.count,
+            area=si(cleaner.width) * si(cleaner.thickness),
+            pressure=si(cleaner.pressure),
+            friction=cleaner.friction,
+            assumed=assumed,
         )
-        for cleaner in conveyor.route.cleaners
+        for cleaner in cleaners
     )
 
 
@@ -379,15 +410,16 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
 
 
 def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
-    driven = _driven(conveyor)
+    pulleys, assumed = usual.pulleys(conveyor)
+    driven = _driven(conveyor, pulleys)
     return tuple(
-        _pulley(conveyor, pulley, places, driven=i in driven)
-        for i, pulley in enumerate(conveyor.route.pulleys)
+        replace(_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)
+        for i, pulley in enumerate(pulleys)
     )
 
 
-def _driven(conveyor: Conveyor) -> frozenset[int]:
-    """Which pulleys of the route the drives turn: at each drive's place as many as stand there, those most wrapped.
+def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
+    """Which of the pulleys the drives turn: at each drive's place as many as stand there, those most wrapped.
 
     What else stands there bends the belt or is a snub, and is not driven.
     """
@@ -397,7 +429,7 @@ def _driven(conveyor: Conveyor) -> frozenset[int]:
         count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
         beside = [
             (-si(pulley.wrap_angle), -si(pulley.diameter), i)
-            for i, pulley in enumerate(conveyor.route.pulleys)
+            for i, pulley in enumerate(pulleys)
             if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
         ]
         found.update(i for _, _, i in sorted(beside)[:count])

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from conveyor.errors import InputError
 from conveyor.laws.loading import RollLoad
 from conveyor.laws.resistance import (
-    RollDrag,
+    Default,
     bearing_roll_drag,
+    default_roll_drag,
     linear_roll_drag,
     oil_viscosity,
-    roll_drag,
     roll_rotation,
+    service_roll_drag,
+    usual_bearing,
 )
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.rolls import BearingDrag, MakerDrag
@@ -42,9 +45,8 @@ class SetDrags:
     """
 
     def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: str) -> None:
-        speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
         rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
-        self._laws = [_law(roll, speed, air, _field(idlers, roll, strand)) for roll in rolls]
+        self._laws = [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
         self._known: dict[tuple[int, float], float] = {}
         self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
 
@@ -54,7 +56,7 @@ class SetDrags:
         Raises
         ------
         InputError
-            A maker's line falls below zero there.
+            A maker's line falls below zero there, or the air is too cold for the grease.
         """
         return tuple(
             self._drag(same, load.bulk_force + load.belt_force)
@@ -70,22 +72,48 @@ class SetDrags:
 
 def _field(idlers: IdlerSet, roll: Roll, strand: str) -> str:
     name = "roll" if roll is idlers.roll else "middle_roll"
-    return f"idlers.{strand}.{name}.drag_law"
+    return f"idlers.{strand}.{name}"
 
 
-def _law(roll: Roll, speed: float, air: float, field: str) -> DragLaw:
+def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw:
     diameter, law = si(roll.diameter), roll.drag_law
+    speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
     if isinstance(law, MakerDrag):
-        return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), field)
+        return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), f"{field}.drag_law")
     if isinstance(law, BearingDrag):
-        return _named(_bearing(law, diameter, speed, air, field), field)
-    drag = running_drag(roll).force
+        return _named(_bearing(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
+    if roll.drag is None and conveyor.calculation.roll_drag == "in service":
+        return _named(_in_service(diameter, si(roll.length), speed, air), f"{field}: drag not given")
+    drag = acceptance_limit(roll).value if roll.drag is None else si(roll.drag)
     return lambda _load: drag
 
 
-def running_drag(roll: Roll) -> RollDrag:
-    """Drag of a roll at its rim as given, or the acceptance limit of its diameter."""
-    return roll_drag(None if roll.drag is None else si(roll.drag), roll_diameter=si(roll.diameter))
+def _in_service(diameter: float, length: float, speed: float, air: float) -> DragLaw:
+    return lambda load: (
+        service_roll_drag(
+            load, belt_speed=speed, roll_diameter=diameter, roll_length=length, air_temperature=air
+        ).force
+    )
+
+
+def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
+    """Share of the rolls that are taken to be in service in the drag of a set [-], from the drags of its rolls [N]."""
+    if conveyor.calculation.roll_drag != "in service":
+        return 0.0
+    rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
+    without = [roll.drag is None and roll.drag_law is None for roll in rolls]
+    assumed = math.fsum(drag for drag, one in zip(drags, without, strict=True) if one)
+    return assumed / math.fsum(drags) if assumed > 0.0 else 0.0
+
+
+def assumed_bearing(roll: Roll) -> str:
+    """Name of the bearing that a roll in service is taken to have."""
+    return usual_bearing(si(roll.diameter)).name
+
+
+def acceptance_limit(roll: Roll) -> Default:
+    """Limit of a new roll's test, by its diameter [N]."""
+    return default_roll_drag(si(roll.diameter))
 
 
 def _maker(law: MakerDrag, rotation: float) -> DragLaw:

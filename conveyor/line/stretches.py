@@ -95,7 +95,7 @@ class Stretch:
     set_mass : float
         Rotating mass of one set [kg].
     span_flexure : float or None
-        Flexure of belt and bulk over one span [N], where the spec names laws for it; else a share stands in.
+        Flexure of belt and bulk over one span [N]; None where the spec asks for a share of the main resistance.
     """
 
     section: str
@@ -180,7 +180,8 @@ class _Strand:
         self.radii = tuple(0.5 * si(roll_at(self.idlers, i).diameter) for i in range(self.idlers.rolls))
         self.set_loads = SetLoads(conveyor, self.idlers)
         self.set_drags = SetDrags(conveyor, self.idlers, strand)
-        self.flexure = FlexureLaw(conveyor, self.set_loads)
+        share = conveyor.calculation.flexure_share
+        self.flexure = FlexureLaw(conveyor, self.set_loads) if share is None else None
 
     def stretch(self, section: RouteSection) -> Stretch:
         """One section."""
@@ -226,7 +227,7 @@ class _Strand:
         )
 
     def _span(self, flow: float, spacing: float, inclination: float, least: float) -> float | None:
-        if not self.flexure.given:
+        if self.flexure is None:
             return None
         return self.flexure.span(
             belt_mass=self.belt_mass,

@@ -163,6 +163,8 @@ def _pulleys(line: Line) -> Iterator[PulleyCheck]:
     if drive is None:
         return
     for pulley in line.pulleys:
+        if pulley.assumed:  # of the least diameter
+            continue
         group = _group(pulley)
         least = pulley_group_diameter(drive, group=group)
         size = next_pulley_diameter(least) if least <= PULLEY_DIAMETERS[-1] else None

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from copy import copy
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,6 +73,16 @@ class Frame:
         way = line.loop.way
         self.run_shares: list[float] = (np.diff(way[self.boundaries]) / way[-1]).tolist()
         self.masses = Sums(line.loop.mass, line, self.boundaries)
+
+    def scaled(self, change: Callable[[Force], Force]) -> Frame:
+        """The same loop with its forces at single places changed; a pulley's wrap and bearings alike."""
+        made = copy(self)
+        made.points = tuple(map(change, self.points))
+        units = (replace(next(bend.forces(0.0, 0.0, self.line.gravity)), newtons=1.0) for bend in self.bends)
+        made.bends = tuple(
+            bend.times(change(unit).total) for bend, unit in zip(self.bends, units, strict=True)
+        )
+        return made
 
     def motor(self, force: float) -> float:
         """Power at the motors' shafts for a force at the belt, negative when the belt drives them [W]."""

@@ -142,6 +142,6 @@ class Idlers(Model):
 
     @property
     def drag_follows_air(self) -> bool:
-        """Whether a roll's drag is given by a law, which may depend on the temperature of the air."""
+        """Whether a roll's drag comes from a law, which may depend on the temperature of the air."""
         rolls = [roll for each in (self.carry, self.return_) for roll in (each.roll, each.middle)]
-        return any(roll.drag_law is not None for roll in rolls)
+        return any(roll.drag is None for roll in rolls)

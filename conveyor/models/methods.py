@@ -33,7 +33,7 @@ class BulkFlexure(Model):
 
 
 class Flexure(Model):
-    """Laws for the flexure of belt and bulk, instead of a share of the main resistance."""
+    """Laws for the flexure of belt and bulk, instead of load and sag by one measured site."""
 
     belt: BeltFlexure | None = None
     bulk: BulkFlexure | None = None
@@ -41,9 +41,7 @@ class Flexure(Model):
     @model_validator(mode="after")
     def _something(self) -> Self:
         if self.belt is None and self.bulk is None:
-            message = (
-                "missing: give belt, bulk or both, or remove flexure for the share of the main resistance"
-            )
+            message = "missing: give belt, bulk or both, or remove flexure for the law of load and sag"
             refuse("Flexure", [Problem(("belt",), message)])
         return self
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.resistance import FLEXURE_SHARE, FRICTION_FACTOR
+from conveyor.laws.resistance import FRICTION_FACTOR
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.belt import Belt
 from conveyor.models.compound import RubberCompound
@@ -48,14 +48,16 @@ class Calculation(Model):
     """Points along a roll at which the contact is solved."""
     secondary: Literal["itemised", "C"] = "itemised"
     """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
+    not_given: Literal["usual values", "nothing"] = "usual values"
+    """What stands in where the route has no feeding, no cleaners or no pulleys: usual ones, or nothing."""
     friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
     """Friction factor f of the classical estimate, for comparison."""
-    flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(
-        FLEXURE_SHARE.value, "fraction"
-    )
-    """Share of the flexure of belt and bulk in the main resistance."""
+    roll_drag: Literal["in service", "acceptance limit"] = "in service"
+    """Drag of rolls without one: usual bearings, grease and seals over load, speed and air; or a new roll's limit."""
+    flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] | None = None
+    """Flexure of belt and bulk as a share of the main resistance, instead of load and sag."""
     flexure: Flexure | None = None
-    """Laws for the flexure instead of the share."""
+    """Laws for the flexure, instead of load and sag by one measured site."""
     cema: Cema | None = None
     """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
@@ -63,7 +65,7 @@ class Calculation(Model):
 
     @model_validator(mode="after")
     def _one_flexure(self) -> Self:
-        if self.flexure is not None and "flexure_share" in self.model_fields_set:
+        if self.flexure is not None and self.flexure_share is not None:
             message = f"given beside flexure_share {text(self.flexure_share)}; give one of the two, remove the other"
             refuse("Calculation", [Problem(("flexure",), message)])
         return self

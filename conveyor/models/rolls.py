@@ -120,7 +120,7 @@ class Roll(Listed):
     rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]
     """Mass of the parts that turn."""
     drag: Drag | None = None
-    """Running drag of the roll (bearings and seals) at its rim; else the acceptance limit of its diameter."""
+    """Running drag of the roll (bearings and seals) at its rim; else as calculation.roll_drag says."""
     drag_law: Annotated[MakerDrag | BearingDrag, Field(discriminator="law")] | None = None
     """Law of the drag over load, speed and temperature, instead of one figure."""
     bearing: RollBearing | None = None

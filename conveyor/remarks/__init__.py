@@ -166,14 +166,32 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
     if line.secondary == "itemised":
         if not line.pulleys:
             yield said("route.pulleys not given: wraps and pulley bearings are not in the figures")
+        elif line.pulleys[0].assumed:
+            yield said(
+                "route.pulleys not given: a head and a tail pulley of {} assumed, the least the carcass bears (general "
+                "knowledge)",
+                (line.pulleys[0].diameter, "thickness"),
+            )
         elif line.belt.steel_cord:
             yield said(
                 "wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard"
             )
         if not line.loading and line.flow > 0.0:
             yield said("route.feeding not given: acceleration of the bulk and skirts are not in the figures")
+    if line.loading and line.loading[0].assumed:
+        yield said(
+            "route.feeding not given: bulk that lands at rest, skirts of {}, {} apart, assumed as in the worked "
+            "example of ISO 5048",
+            (line.loading[0].skirt_length, "length"),
+            (line.loading[0].skirt_width, "thickness"),
+        )
     if not line.scrapers:
         yield said("route.cleaners not given: no cleaner in the figures")
+    elif line.scrapers[0].assumed:
+        yield said(
+            f"route.cleaners not given: {line.scrapers[0].count} as wide as the belt assumed, pressed as in the worked "
+            "example of ISO 5048 (general knowledge)"
+        )
 
 
 def _drive(found: CalculatedConveyor) -> Iterator[Said]:

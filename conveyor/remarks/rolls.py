@@ -5,8 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from conveyor.files.libraries import widest_spacings
-from conveyor.laws.resistance import FLEXURE_SHARE, ROLL_ON_BELT_FRICTION, SCRAPING_FACTOR
-from conveyor.line.roll_drags import bearing_viscosity, running_drag
+from conveyor.laws.resistance import (
+    FLEXURE_COEFFICIENT,
+    FLEXURE_SHARE,
+    ROLL_ON_BELT_FRICTION,
+    SCRAPING_FACTOR,
+    SERVICE_DRAG,
+)
+from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity, roll_at
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
@@ -48,10 +54,16 @@ def _shares(conveyor: Conveyor) -> str:
 
 def _flexure(conveyor: Conveyor) -> str:
     calculation = conveyor.calculation
-    if calculation.flexure is None:
+    if calculation.flexure_share is not None:
         return (
-            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance "
-            "(no model: share of the total measured at one overland site)."
+            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance (no model: "
+            f"{100.0 * FLEXURE_SHARE.value:.0f} % of the total were measured at one overland site)."
+        )
+    if calculation.flexure is None:
+        carry, back = (text(idlers.sag) for idlers in (conveyor.idlers.carry, conveyor.idlers.return_))
+        return (
+            f"Flexure of belt and bulk is {FLEXURE_COEFFICIENT.value:.3f} of load times relative sag, at the sag "
+            f"the sets are designed for (carry {carry}, return {back}) at any tension and load."
         )
     laws = []
     if calculation.flexure.belt is not None:
@@ -64,26 +76,28 @@ def _flexure(conveyor: Conveyor) -> str:
 
 
 def _drag(conveyor: Conveyor) -> str:
+    in_service = conveyor.calculation.roll_drag == "in service"
     laws = {
-        strand: [roll.drag_law for _, roll in _rolls(idlers)]
+        strand: sorted({_law_in_words(roll, in_service=in_service) for _, roll in _rolls(idlers)})
         for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
     }
-    if not any(law is not None for found in laws.values() for law in found):
+    if all(found == ["constant"] for found in laws.values()):
         return "Roll drag does not depend on speed, load or temperature."
-    words = [f"{strand} {_law_in_words(found)}" for strand, found in laws.items()]
+    words = [f"{strand} {' and '.join(found)}" for strand, found in laws.items()]
     return f"Roll drag: {', '.join(words)}."
 
 
-def _law_in_words(laws: list[MakerDrag | BearingDrag | None]) -> str:
-    names = {
-        "constant"
-        if law is None
-        else "over load and speed by the maker's line"
-        if isinstance(law, MakerDrag)
-        else "over load, speed and air temperature by Palmgren's bearing friction, no warming but the given"
-        for law in laws
-    }
-    return " and ".join(sorted(names))
+def _law_in_words(roll: Roll, *, in_service: bool) -> str:
+    if isinstance(roll.drag_law, MakerDrag):
+        return "over load and speed by the maker's line"
+    if isinstance(roll.drag_law, BearingDrag):
+        return "over load, speed and air temperature by Palmgren's bearing friction, no warming but the given"
+    if roll.drag is None and in_service:
+        return (
+            "over load, speed and air temperature by Palmgren's friction of usual bearings at the temperature they "
+            "warm themselves to, and usual seals"
+        )
+    return "constant"
 
 
 def _rolls(idlers: IdlerSet) -> list[tuple[str, Roll]]:
@@ -112,7 +126,7 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
     conveyor = found.conveyor
     return (
-        *_drag_warnings(conveyor),
+        *_drag_warnings(found),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
         *_cover_warnings(conveyor),
@@ -121,21 +135,38 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     )
 
 
-def _drag_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
+    conveyor = found.conveyor
     air, at = conveyor.air_temperature, text(conveyor.ambient.temperature)
+    in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         for name, roll in _rolls(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air, at)
-            elif law is None:
-                drag = running_drag(roll)
-                if drag.assumed:
-                    yield said(
-                        f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({drag.source}; the limit of a new "
-                        f"roll's test, give {field}.drag)",
-                        (drag.force, "force"),
-                    )
+            elif law is None and roll.drag is None and in_service:
+                drags = _drags_of(found, strand, idlers, roll)
+                bearing, band = assumed_bearing(roll), SERVICE_DRAG
+                yield said(
+                    f"idlers.{strand}: roll drag not given, {{}} to {{}} a roll assumed (bearings {bearing}, usual "
+                    f"grease and seals in service in air of {at}; {band.low:g} to {band.high:g} times that is usual, "
+                    f"general knowledge), give {field}.drag",
+                    (min(drags), "force"),
+                    (max(drags), "force"),
+                )
+            elif law is None and roll.drag is None:
+                limit = acceptance_limit(roll)
+                yield said(
+                    f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({limit.source}; the limit of a new "
+                    f"roll's test, asked for by calculation.roll_drag), give {field}.drag",
+                    (limit.value, "force"),
+                )
+
+
+def _drags_of(found: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
+    """Drags of a roll in all sets of a strand [N]."""
+    places = [place for place in range(idlers.rolls) if roll_at(idlers, place) is roll]
+    return [s.drags[place] for s in found.line.stretches if s.strand == strand for place in places]
 
 
 def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[Said]:
@@ -157,9 +188,12 @@ def _flexure_warnings(conveyor: Conveyor) -> Iterator[Said]:
     calculation = conveyor.calculation
     flexure = calculation.flexure
     if flexure is None:
-        if "flexure_share" not in calculation.model_fields_set:
-            share = f"{FLEXURE_SHARE.value:.0%}"
-            yield said(f"calculation.flexure_share not given: {share} assumed, measured at one overland site")
+        if calculation.flexure_share is None:
+            c = FLEXURE_COEFFICIENT
+            yield said(
+                f"calculation.flexure not given: load x sag x {c.value:.3f} ({c.low:.3f} to {c.high:.3f}) assumed, so "
+                f"that one measured site has its {100.0 * FLEXURE_SHARE.value:.0f} % at 1 % sag (general knowledge)"
+            )
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]
     if left_out:

@@ -51,7 +51,7 @@ def summary(page: Page) -> None:
         sheet.column_dimensions[letter].width = width
     row = _head(sheet, page.contents.document)
     row = _facts(page, row)
-    row = _tiles(page, row)
+    row = _left_open(page, _tiles(page, row))
     row = _figures(page, row)
     row = _picture(page, row)
     _checked(page, row)
@@ -125,6 +125,17 @@ def _tiles(page: Page, row: int) -> int:
         cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
     sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
     return _gap(sheet, row + 2)
+
+
+def _left_open(page: Page, row: int) -> int:
+    """The range of power that defaults leave open, and which to replace first."""
+    if "defaults" not in page.contents:
+        return row
+    put(page.sheet.cell(row, 1), page.contents["defaults"].note)
+    page.sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=len(_COLUMNS))
+    page.sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center")
+    page.sheet.row_dimensions[row].height = 2.0 * _ROW
+    return _gap(page.sheet, row + 1)
 
 
 def _shown(figure: Figure, page: Page, font: Any = None, *, large: str = "#,##0.0") -> tuple[Any, Any, str]:

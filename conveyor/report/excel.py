@@ -23,6 +23,7 @@ from conveyor.report.places import MOST_ROWS, Page, file_name
 SHEETS: Final = {
     "Summary": cover.summary,
     "Results": sheets.single,
+    "Defaults": sheets.stacked,
     "Inputs": sheets.single,
     "Sections": sheets.wide,
     "Resistances": sheets.resistances,
@@ -46,8 +47,8 @@ COMPARISON_SHEETS: Final = {
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
-_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Uncertainty")
-"""Sheets of a workbook only where the spec asks for them."""
+_WHERE_ASKED: Final = ("Defaults", "Load cases", "Case checks", "Duty", "Uncertainty")
+"""Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
 
 

@@ -144,6 +144,8 @@ def _key_figures(contents: Contents) -> Html:
     )
     link = element("a", f"{warned} warnings", href="#warnings")
     content = [tiles(contents.marked("tile"), contents.system), element("p", "Checks: ", counted, " ", link)]
+    if "defaults" in contents:
+        content.append(element("p", contents["defaults"].note))
     rows = [check for check in checks if check.leads or check.verdict == "FAIL"]
     caption = "Of every criterion the least margin of all cases, and all that failed"
     content.append(_table(replace(contents["checks"], rows=rows), caption, contents.system))

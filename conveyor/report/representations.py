@@ -20,6 +20,8 @@ def of_analysis(contents: Contents) -> Html:
     said = f"{len(failed)} of {len(checks)} checks failed" + (f": {'; '.join(failed)}" if failed else "")
     figures = _figures(contents.marked("notebook"), contents.system)
     known = [listing(contents.document.title, figures), element("p", said)]
+    if "defaults" in contents:
+        known.append(element("p", contents["defaults"].note))
     return joined([*known, folded("warnings", contents.lines("warning"))])
 
 

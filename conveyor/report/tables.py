@@ -51,10 +51,11 @@ from conveyor.report.study_tables import of_studies
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
+from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System, text
 from conveyor.units.presentation import MONEY, strength_of, unit
-from conveyor.units.sentences import band_words, plain_figure
+from conveyor.units.sentences import band_words, figure, plain_figure
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -71,9 +72,11 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
     every = _every_check(analysis, studies)
     found = deciding(every)
     studied, drawn = of_studies(studies, system)
+    left_open = power_range(analysis)
     parts = (
         identity(analysis.conveyor, system),
-        results(analysis),
+        results(analysis, left_open),
+        defaults(left_open, system),
         inputs(analysis.conveyor),
         sections(analysis),
         classical(analysis),
@@ -155,10 +158,11 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: CalculatedConveyor) -> Table:
-    """Figures of the whole conveyor."""
+def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
+    """Figures of the whole conveyor; the range of power where defaults leave one open."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
+    low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
     even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
     error, energy_error = a.contacts.error, a.contacts.energy_error
@@ -171,6 +175,9 @@ def results(a: CalculatedConveyor) -> Table:
         Figure("belt speed", "speed", a.line.speed),
         Figure("mass flow", "mass flow", a.line.flow, json="flow_t_per_h"),
         Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
+        Figure("motor power, low by defaults", "power", low, "cover", "defaults.motor_kW.low", key="motor_power_low"),
+        Figure("motor power, high by defaults", "power", high, "cover", "defaults.motor_kW.high",
+               key="motor_power_high"),
         Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
         Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total"),
@@ -204,6 +211,33 @@ def results(a: CalculatedConveyor) -> Table:
     table = figures("results", "Results", "Figures of the whole conveyor", rows, page=page, prefix="")
     name = Column("name", "text", attrgetter("key"), page=None)
     return replace(table, columns=(*table.columns, name))
+
+
+def defaults(left_open: PowerRange, system: System) -> Table:
+    """Every default in use and what it leaves open, the one to replace first on top."""
+    columns = (
+        Column("default", "text", attrgetter("name"), json="what"),
+        Column("forces, low", "ratio", attrgetter("low_factor"), json="low_factor"),
+        Column("forces, high", "ratio", attrgetter("high_factor"), json="high_factor"),
+        Column("motor power at low", "power", attrgetter("motor_low"), json="motor_low_kW"),
+        Column("motor power at high", "power", attrgetter("motor_high"), json="motor_high_kW"),
+        Column("give instead", "text", attrgetter("give"), json="give"),
+        Column("name", "text", attrgetter("key"), page=None, json="key"),
+    )
+    heading = "What is not given, and what it leaves open"
+    return Table("defaults", "Defaults", heading, columns, left_open.effects, (OnPage("summary", heading),),
+                 _left_open(left_open, system) if left_open.effects else "")  # fmt: skip
+
+
+def _left_open(found: PowerRange, system: System) -> str:
+    """The power with its range, and what to replace first."""
+    low, high = (figure(end, "power", system) for end in (found.low, found.high))
+    first, motor = found.effects[0], figure(found.motor, "power", system)
+    said = (
+        f"Motor power {motor}, {low.rpartition(' ')[0]} to {high} from what was not given (nine tenths); "
+        f"replace first: {first.name} ({first.give})."
+    )
+    return " ".join((said, *(f"Not in it: {note}." for note in found.notes)))
 
 
 def inputs(conveyor: Conveyor) -> Table:
@@ -934,6 +968,7 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
     found = a.balance
     settled, every = found.settled, _every_check(a, studies)
     governing = deciding(every)
+    left_open = power_range(a)
     data: dict[str, Any] = {
         "schema_version": SCHEMA_VERSION,
         "name": a.conveyor.name,
@@ -960,13 +995,19 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
         "energy": _energy(a, None if studies is None else studies.duty),
         "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
         "cema": None if found.cema is None else _estimate(found, found.cema),
+        "defaults": {
+            "motor_kW": {"low": None, "high": None},
+            "replace_first": left_open.effects[0].give if left_open.effects else None,
+            "in_use": defaults(left_open, "SI").plain(),
+            "notes": list(left_open.notes),
+        },
         "rubber": rubber(a).plain(),
         "sections": sections(a).plain(),
         "assumptions": list(assumptions(a.conveyor)),
         "checks": [_told(check, governs=any(check is one for one in governing)) for check in every],
         "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, governing)],
     }
-    return placed(data, results(a).rows) | ({} if studies is None else plain_studies(studies))
+    return placed(data, results(a, left_open).rows) | ({} if studies is None else plain_studies(studies))
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:

@@ -184,7 +184,7 @@ def _scene(
     low = high = None
     if band is not None:
         indented = balance.along[0].by_strand()
-        changed = math.fsum(indented[strand] for strand in strands) / (1.0 - one.line.flexure_share)
+        changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
         motor = balance.frame.motor
         low, high = sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band)
     return ComparedScene(

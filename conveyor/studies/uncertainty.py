@@ -294,7 +294,8 @@ def _flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
         Variant(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends
     )
     low, high = (text(share) for share in ends)
-    return _Variation("flexure share", low, text(calculation.flexure_share), high, scenes)
+    given = "by law" if calculation.flexure_share is None else text(calculation.flexure_share)
+    return _Variation("flexure share", low, given, high, scenes)
 
 
 def _temperature(conveyor: Conveyor, change: float) -> _Variation:
@@ -329,6 +330,8 @@ def _with_cover(conveyor: Conveyor, factor: float) -> Conveyor:
 
 def _with_cleaners(conveyor: Conveyor, factor: float) -> Conveyor:
     route = conveyor.route
+    if not route.cleaners:
+        return conveyor
     cleaners = [c.replace(pressure=scaled(c.pressure, factor)) for c in route.cleaners]
     return conveyor.replace(route=route.replace(cleaners=cleaners))
 

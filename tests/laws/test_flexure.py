@@ -49,6 +49,32 @@ def test_soft_belt_needs_no_stiffness_and_is_the_sag():
         assert 1 - near / limit == pytest.approx(epsilon**2 / 6, rel=0.01)
 
 
+def test_the_measured_coefficient_gives_the_site_its_share():
+    # belt 39.5 kg/m and 1764 N/m of coal, sets 2 m apart: 11 % of 61.7 N a set; 4302 N a set is printed to 0.5 N
+    load = 1764.0 + 39.5 * 9.80665
+    span = {"spacing": 2.0, "relative_sag": 0.01, "coefficient": flexure.FLEXURE_COEFFICIENT.value}
+    assert flexure.sag_flexure_resistance(load, **span) == pytest.approx(0.11 * 61.7, rel=1.0 / 4302.0)
+    # its band: a sag there of 2 and of 0.5 % instead of 1 %
+    low, high = flexure.FLEXURE_COEFFICIENT.low, flexure.FLEXURE_COEFFICIENT.high
+    for sag, coefficient in ((0.02, low), (0.005, high)):
+        at = {"spacing": 2.0, "relative_sag": sag, "coefficient": coefficient}
+        assert flexure.sag_flexure_resistance(load, **at) == pytest.approx(0.11 * 61.7, rel=1.0 / 4302.0)
+
+
+def test_load_and_sag_are_the_soft_belt_with_its_loss_as_coefficient():
+    # h/a = q a/(8 T), c = 4 tan δ/π
+    sag, c = 1500.0 * 1.2 / (8 * 50e3), 4 / math.pi * 0.1
+    law = flexure.sag_flexure_resistance(1500.0, spacing=1.2, relative_sag=sag, coefficient=c)
+    assert law == pytest.approx(
+        flexure.belt_flexure_resistance(1500.0, bending_stiffness=0.0, **SPAN), rel=ROUNDING
+    )
+    for refused in ({"relative_sag": 0.2}, {"spacing": 0.0}, {"coefficient": -1.0}):
+        with pytest.raises(InputError, match=next(iter(refused))):
+            flexure.sag_flexure_resistance(
+                1.0, **{"spacing": 1.0, "relative_sag": 0.01, "coefficient": 0.1} | refused
+            )
+
+
 def test_stiff_belt_is_the_continuous_beam():
     # T → 0: 4 π tan δ q² a⁴/(16 π⁴ D) ζ(3)
     zeta3 = 1.2020569031595942

@@ -58,10 +58,47 @@ def by_hand(stretch, tension):
     )
 
 
-def test_the_share_is_the_default(result):
-    assert all(stretch.span_flexure is None for stretch in result.line.stretches)
-    others = along(result, "indentation") + along(result, "idler_rotation")
-    assert along(result, "flexure") == pytest.approx(0.11 / 0.89 * others, rel=1e-12)
+def test_load_and_sag_are_the_default(result):
+    # c of one site: 11 % of 61.7 N a set under 4302 N at 1 % sag; sag 1 % carry, 2 % return
+    c, sag = 0.11 * 61.7 / (4302.0 * 0.01), {"carry": 0.01, "return": 0.02}
+    expected = [
+        c * sag[s.strand] * s.line_mass * 9.81 * math.cos(s.inclination) * s.length
+        for s in result.line.stretches
+    ]
+    assert along(result, "flexure") == pytest.approx(np.array(expected), rel=1e-12)
+    assert any("load x sag x 0.158 (0.079 to 0.316) assumed" in w for w in told(result))
+    assert any("(carry 1 %, return 2 %)" in a for a in assumptions(result.conveyor))
+
+
+def test_the_default_follows_neither_rubber_nor_drag(result):
+    """Cold rubber, heavier rolls: flexure stays as it is."""
+    line = result.conveyor
+    roll = line.idlers.carry.roll.replace(drag="6 N")
+    changed = line.replace(
+        ambient=line.ambient.replace(temperature="5 degC"),
+        idlers=line.idlers.replace(carry=line.idlers.carry.replace(roll=roll)),
+    )
+    other = calculate(changed)
+    assert other.balance.forces.indentation != pytest.approx(result.balance.forces.indentation, rel=0.01)
+    assert along(other, "flexure") == pytest.approx(along(result, "flexure"), rel=1e-14)
+
+
+def test_an_empty_belt_flexes_under_its_own_weight(line):
+    empty = calculate(line.replace(material=line.material.replace(flow="0 t/h")))
+    for stretch, force in zip(empty.line.stretches, along(empty, "flexure"), strict=True):
+        weight = 27.0 * 1.2 * 9.81 * math.cos(stretch.inclination) * stretch.length
+        sag = 0.01 if stretch.strand == "carry" else 0.02
+        assert force == pytest.approx(0.11 * 61.7 / 43.02 * sag * weight, rel=1e-12)
+
+
+def test_a_share_is_one_on_request(line):
+    made = line.replace(calculation=line.calculation.replace(flexure_share="11 %"))
+    found = calculate(made)
+    assert all(stretch.span_flexure is None for stretch in found.line.stretches)
+    others = along(found, "indentation") + along(found, "idler_rotation")
+    assert along(found, "flexure") == pytest.approx(0.11 / 0.89 * others, rel=1e-12)
+    assert not any("calculation.flexure not given" in w for w in told(found))
+    assert any("Flexure of belt and bulk is 11 % of the main resistance" in a for a in assumptions(made))
 
 
 def test_flexure_of_the_belt_at_the_least_tension(line):
@@ -99,8 +136,9 @@ def test_flexure_of_the_bulk_adds_to_the_loaded_strand_only(line):
     assert along(both, "flexure") == pytest.approx(along(belt, "flexure") + np.array(added), rel=1e-12)
 
 
-def test_splitting_a_section_changes_no_flexure(line):
-    made = with_flexure(line, belt=BELT, bulk=BULK)
+@pytest.mark.parametrize("laws", [{"belt": BELT, "bulk": BULK}, None])
+def test_splitting_a_section_changes_no_flexure(line, laws):
+    made = line if laws is None else with_flexure(line, **laws)
     halves = [made.route.sections[1].replace(name=f"half {i}", length="170 m", lift="0.75 m") for i in (1, 2)]
     sections = [made.route.sections[0], *halves, *made.route.sections[2:]]
     split = made.replace(route=made.route.replace(sections=sections))

@@ -9,7 +9,7 @@ import pytest
 
 from conveyor.checks import checks
 from conveyor.errors import InputError
-from conveyor.laws.resistance import bearing_roll_drag, oil_viscosity
+from conveyor.laws.resistance import bearing_roll_drag, oil_viscosity, service_roll_drag
 from conveyor.laws.roll_life import heavier_bearing_load
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
@@ -55,6 +55,27 @@ def told(found):
 def test_one_figure_is_the_drag_of_every_roll(line):
     for stretch in carry_stretches(carry_roll(line, drag="1.9 N")):
         assert stretch.drags == (1.9, 1.9, 1.9)
+
+
+def test_without_drag_a_roll_is_in_service_or_at_its_limit(line):
+    for stretch in carry_stretches(line):
+        for borne, drag in zip(stretch.loads, stretch.drags, strict=True):
+            expected = service_roll_drag(
+                borne.force, belt_speed=5.0, roll_diameter=0.159, roll_length=0.465, air_temperature=293.15
+            ).force
+            assert drag == pytest.approx(expected, rel=1e-12)
+    limit = line.replace(calculation=line.calculation.replace(roll_drag="acceptance limit"))
+    assert all(stretch.drags == (2.45, 2.45, 2.45) for stretch in carry_stretches(limit))
+    # the air counts, the covers do not; and the variants of a study know it
+    frost = line.replace(ambient=line.ambient.replace(temperature="-10 degC", belt_temperature="20 degC"))
+    cold, warm = (calculate(each).balance.forces for each in (frost, line))
+    assert cold.parts["idler_rotation"] > 1.5 * warm.parts["idler_rotation"]
+    assert cold.indentation == pytest.approx(warm.indentation, rel=1e-12)
+
+
+def test_a_roll_too_small_for_a_usual_bearing_needs_its_drag(line):
+    with pytest.raises(InputError, match=r"idlers\.carry\.roll: drag not given: roll_diameter = 0\.03"):
+        Line.of(carry_roll(line, diameter="30 mm"))
 
 
 def test_a_flat_line_is_one_figure(line):
@@ -183,8 +204,11 @@ def test_a_law_that_fails_names_its_field(line, law, message):
 
 
 def test_remarks_follow_the_law(line):
-    assert "Roll drag does not depend on speed, load or temperature." in assumptions(line)
-    assert any("idlers.carry: roll drag not given, 2.45 N" in w for w in told(calculate(line)))
+    limit = line.replace(calculation=line.calculation.replace(roll_drag="acceptance limit"))
+    assert "Roll drag does not depend on speed, load or temperature." in assumptions(limit)
+    assert any("usual bearings at the temperature they warm themselves to" in a for a in assumptions(line))
+    assert any("idlers.carry: roll drag not given, 2.45 N" in w for w in told(calculate(limit)))
+    assert any("a roll assumed (bearings 6305, usual grease and seals" in w for w in told(calculate(line)))
     cold = line.replace(ambient=line.ambient.replace(temperature="-10 degC", belt_temperature="20 degC"))
     made = carry_roll(cold, drag_law=BEARING)
     said = told(calculate(made))

@@ -148,6 +148,7 @@ def test_feeding_lies_behind_a_tail_drive():
     assert feeding == pytest.approx(11.16e3, rel=1e-3)
     given = copy.deepcopy(FED)
     given["route"]["take_up"] = {"kind": "gravity", "position": "head", "tension": "14.3 kN"}
+    given["calculation"] = {**given.get("calculation", {}), "not_given": "nothing"}
     conveyor = from_data(given)
     found = closed(conveyor, 0.003)
     carry, back = (r.total for r in along(found))

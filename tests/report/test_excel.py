@@ -20,7 +20,7 @@ from conveyor.report.cells import LONGEST
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
 SHEETS = [
-    "Summary", "Results", "Inputs", "Sections", "Resistances", "Rolls", "Tensions", "States", "Loop",
+    "Summary", "Results", "Defaults", "Inputs", "Sections", "Resistances", "Rolls", "Tensions", "States", "Loop",
     "Indentation", "Rubber", "Checks and notes",
 ]  # fmt: skip
 

@@ -27,7 +27,13 @@ from conveyor.laws.resistance.defaults import (
     TILT_COEFFICIENT_45,
     Default,
 )
-from conveyor.laws.resistance.flexure import belt_flexure_resistance, bulk_flexure_bound, rankine_coefficients
+from conveyor.laws.resistance.flexure import (
+    FLEXURE_COEFFICIENT,
+    belt_flexure_resistance,
+    bulk_flexure_bound,
+    rankine_coefficients,
+    sag_flexure_resistance,
+)
 from conveyor.laws.resistance.idlers import (
     RollDrag,
     default_roll_drag,
@@ -79,6 +85,13 @@ from conveyor.laws.resistance.secondary import (
     cleaner_resistance,
     skirt_resistance,
 )
+from conveyor.laws.resistance.service_drag import (
+    SERVICE_DRAG,
+    ServiceDrag,
+    roll_end_cooling,
+    service_roll_drag,
+    usual_bearing,
+)
 
 __all__ = [
     "BEARING_F0",
@@ -88,6 +101,7 @@ __all__ = [
     "BULK_ON_SKIRT_FRICTION",
     "CLEANER_FRICTION",
     "CLEANER_PRESSURE",
+    "FLEXURE_COEFFICIENT",
     "FLEXURE_SHARE",
     "FRICTION_FACTOR",
     "FRICTION_FACTOR_DOWNHILL",
@@ -101,6 +115,7 @@ __all__ = [
     "ROLL_DRAG_TO_178",
     "ROLL_ON_BELT_FRICTION",
     "SCRAPING_FACTOR",
+    "SERVICE_DRAG",
     "SHORTEST_FOR_FACTOR",
     "TEST_LOAD",
     "TEST_ROTATION",
@@ -110,6 +125,7 @@ __all__ = [
     "Default",
     "RollDrag",
     "RollDragParts",
+    "ServiceDrag",
     "acceleration_length",
     "acceleration_resistance",
     "acceleration_skirt_resistance",
@@ -140,11 +156,15 @@ __all__ = [
     "pulley_load",
     "rankine_coefficients",
     "roll_drag",
+    "roll_end_cooling",
     "roll_line_mass",
     "roll_rotation",
+    "sag_flexure_resistance",
     "secondary_resistance",
     "section_main_resistance",
+    "service_roll_drag",
     "skirt_resistance",
     "slope_resistance",
     "steel_cord_wrap_resistance",
+    "usual_bearing",
 ]

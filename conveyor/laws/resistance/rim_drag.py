@@ -129,7 +129,7 @@ def bearing_roll_drag(
     Load shared equally by the bearings. The bearing's temperature is the ambient one plus its own heating, which
     is not computed: the viscosity at the ambient temperature is on the safe side, in the cold by a multiple (an oil
     of 100 mm²/s at 40 degC gives 1.0 N there, 7 N at 0 degC, 34 N at -20 degC for a 159 mm roll at 5 m/s). Cold
-    running needs a measured drag or the bearing's own temperature.
+    running needs a measured drag or the bearing's own temperature, as `service_roll_drag` solves it.
 
     Examples
     --------

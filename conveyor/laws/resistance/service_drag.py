@@ -1,0 +1,259 @@
+"""Drag of a roll in service of which nothing is known but its size: usual bearings, grease and seals.
+
+Sources: Palmgren (moments of a bearing, see `roll_bearing`); boundary dimensions of ISO 15, static ratings as makers
+list them. Which bearing, grease and seal is usual, and how they cool, is general knowledge.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+from scipy.optimize import brentq
+
+from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.rim_drag import RollDragParts, bearing_roll_drag, roll_rotation
+from conveyor.laws.resistance.roll_bearing import (
+    BEARING_F0,
+    BEARING_F1_EXPONENT,
+    BEARING_F1_FACTOR,
+    bearing_no_load_moment,
+    oil_viscosity,
+)
+from conveyor.require import require, require_not_negative, require_positive
+
+
+@dataclass(frozen=True, slots=True)
+class Bearing:
+    """A deep-groove ball bearing.
+
+    Parameters
+    ----------
+    name : str
+        As in the trade.
+    bore, outside : float
+        Diameters [m].
+    static_rating : float
+        C0 [N].
+    """
+
+    name: str
+    bore: float
+    outside: float
+    static_rating: float
+
+    @property
+    def mean_diameter(self) -> float:
+        """Mean of bore and outside diameter [m]."""
+        return 0.5 * (self.bore + self.outside)
+
+
+USUAL_BEARINGS: Final = (
+    (0.051, Bearing("6201", 0.012, 0.032, 3.1e3)),
+    (0.076, Bearing("6203", 0.017, 0.040, 4.75e3)),
+    (0.108, Bearing("6204", 0.020, 0.047, 6.55e3)),
+    (0.133, Bearing("6205", 0.025, 0.052, 7.8e3)),
+    (0.159, Bearing("6305", 0.025, 0.062, 11.6e3)),
+    (0.219, Bearing("6306", 0.030, 0.072, 16.0e3)),
+    (math.inf, Bearing("6308", 0.040, 0.090, 24.0e3)),
+)
+"""Roll diameter up to [m], its bearings; general knowledge."""
+
+
+def _middle(default: Default) -> float:
+    return 0.5 * (default.low + default.high)
+
+
+SERVICE_F0: Final = _middle(BEARING_F0)  # [-]
+SERVICE_F1_FACTOR: Final = _middle(BEARING_F1_FACTOR)  # [-]
+USUAL_OIL: Final = ((313.15, 100e-6), (373.15, 11e-6))  # base oil ISO VG 100: [K], [m²/s]; general knowledge
+SEAL_STRESS: Final = Default(
+    500.0, 250.0, 750.0,
+    "grease in a labyrinth; a 159 mm roll then drags its acceptance limit of 2.45 N in the acceptance test", True,
+)  # [Pa]  # fmt: skip
+SEAL_LENGTH: Final = 0.020  # [m], of the filled gap; only its product with the stress counts
+AIR_FILM: Final = Default(25.0, 15.0, 40.0, "heat to the air from a surface at some m/s", True)  # [W/(m² K)]
+SHELL_CONDUCTANCE: Final = 50.0 * 0.004  # [W/K], steel 50 W/(m K) of 4 mm; general knowledge
+SERVICE_DRAG: Final = Default(
+    1.0,
+    0.5,
+    1.5,
+    "drag over the central one: f0, z and the stress in the seal all at the ends of their ranges",
+    True,
+)  # [-]
+_FIRST_STEP: Final = 8.0  # [K], above the air
+_CLOSED: Final = 1e-10  # [K]
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceDrag:
+    """Drag of a roll in service.
+
+    Parameters
+    ----------
+    parts : RollDragParts
+        At the rim, by cause [N].
+    bearing_temperature : float
+        Of the running bearings [K].
+    """
+
+    parts: RollDragParts
+    bearing_temperature: float
+
+    @property
+    def force(self) -> float:
+        """Whole drag at the rim [N]."""
+        return self.parts.force
+
+
+def usual_bearing(roll_diameter: float) -> Bearing:
+    """Return the bearing that a roll of this diameter usually has.
+
+    Parameters
+    ----------
+    roll_diameter : float
+        D [m], more than the smallest bearing's outside diameter.
+
+    Returns
+    -------
+    Bearing
+        Of `USUAL_BEARINGS`.
+
+    Raises
+    ------
+    InputError
+        No bearing of the table fits.
+
+    Examples
+    --------
+    >>> usual_bearing(0.133).name, usual_bearing(0.159).name, usual_bearing(0.245).name
+    ('6205', '6305', '6308')
+    """
+    smallest = USUAL_BEARINGS[0][1].outside
+    fits = smallest < roll_diameter < math.inf
+    require(fits, "roll_diameter", roll_diameter, f"more than {smallest:g} m is needed; give the roll's drag")
+    return next(bearing for largest, bearing in USUAL_BEARINGS if roll_diameter <= largest)
+
+
+def roll_end_cooling(roll_diameter: float, *, roll_length: float) -> float:
+    """Heat that one end of a roll gives to the air per kelvin, h π D [l tanh(L/(2 l)) + D/4], l² = k s/h (derived).
+
+    Parameters
+    ----------
+    roll_diameter : float
+        D [m], positive.
+    roll_length : float
+        L of the shell [m], positive.
+
+    Returns
+    -------
+    float
+        Conductance of one end [W/K]: the disc, and half the shell as a fin of steel.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(roll_end_cooling(0.159, roll_length=0.465), 2)
+    1.6
+    """
+    require_positive(roll_diameter=roll_diameter, roll_length=roll_length)
+    film = AIR_FILM.value
+    reach = math.sqrt(SHELL_CONDUCTANCE / film)
+    fin = reach * math.tanh(roll_length / (2.0 * reach))
+    return film * math.pi * roll_diameter * (fin + roll_diameter / 4.0)
+
+
+def service_roll_drag(
+    roll_load: float, *, belt_speed: float, roll_diameter: float, roll_length: float, air_temperature: float
+) -> ServiceDrag:
+    """Drag of a roll in service with usual bearings, grease and labyrinth seals that warm themselves (Palmgren).
+
+    Parameters
+    ----------
+    roll_load : float
+        P, radial, of both bearings together [N], at least 0.
+    belt_speed : float
+        v [m/s], positive.
+    roll_diameter : float
+        D [m], see `usual_bearing`.
+    roll_length : float
+        L of the shell [m], positive.
+    air_temperature : float
+        Around the rolls [K], positive.
+
+    Returns
+    -------
+    ServiceDrag
+        Drag at the rim, temperature of the bearings.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range, or the usual grease is solid in that air.
+
+    Notes
+    -----
+    f0 and z are in the middle of Palmgren's ranges for greased ball bearings; a seal has the moment 2 π r² b τ of a
+    shear stress τ in its grease at the bearing's outside radius r, whatever the speed. The bearing's temperature is
+    where its friction heats as much as the roll's end cools, M ω = G (T - T_air): a few kelvin in summer, 12 K at
+    -20 degC, where the drag is then three times, not thirty times, that at 20 degC. `SERVICE_DRAG` is its band.
+    Worn, wet or misaligned rolls are not in it.
+
+    Examples
+    --------
+    >>> drag = service_roll_drag(
+    ...     250.0, belt_speed=5.41, roll_diameter=0.159, roll_length=0.465, air_temperature=293.15
+    ... )
+    >>> round(drag.force, 1), round(drag.bearing_temperature - 293.15, 1)
+    (2.4, 4.0)
+    """
+    require_not_negative(roll_load=roll_load)
+    require_positive(belt_speed=belt_speed, air_temperature=air_temperature)
+    bearing, cooling = usual_bearing(roll_diameter), roll_end_cooling(roll_diameter, roll_length=roll_length)
+    seal = SEAL_STRESS.value * 2.0 * math.pi * (bearing.outside / 2.0) ** 2 * SEAL_LENGTH
+    rotation = roll_rotation(belt_speed, roll_diameter=roll_diameter)
+    (cool, thick), (warm, thin) = USUAL_OIL
+
+    def oil(temperature: float) -> float:
+        return oil_viscosity(
+            temperature,
+            first_temperature=cool,
+            first_viscosity=thick,
+            second_temperature=warm,
+            second_viscosity=thin,
+        )
+
+    cold = bearing_roll_drag(
+        roll_load,
+        belt_speed=belt_speed,
+        roll_diameter=roll_diameter,
+        mean_diameter=bearing.mean_diameter,
+        viscosity=oil(air_temperature),
+        static_rating=bearing.static_rating,
+        f0=SERVICE_F0,
+        f1_factor=SERVICE_F1_FACTOR,
+        f1_exponent=BEARING_F1_EXPONENT.value,
+        seal_moment=seal,
+    )
+
+    def parts(temperature: float) -> RollDragParts:
+        """At this temperature only the oil is another."""
+        moment = bearing_no_load_moment(
+            SERVICE_F0, viscosity=oil(temperature), rotation=rotation, mean_diameter=bearing.mean_diameter
+        )
+        return replace(cold, no_load=2.0 * moment / (roll_diameter / 2.0))
+
+    def surplus(temperature: float) -> float:
+        """Heat of one end that the air does not take [W]."""
+        return 0.5 * parts(temperature).force * belt_speed - cooling * (temperature - air_temperature)
+
+    low, step = air_temperature, _FIRST_STEP
+    while surplus(low + step) > 0.0:  # friction falls as the oil warms, so this ends
+        low, step = low + step, 2.0 * step
+    balanced = float(brentq(surplus, low, low + step, xtol=_CLOSED))
+    return ServiceDrag(parts(balanced), balanced)

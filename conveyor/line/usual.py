@@ -1,0 +1,71 @@
+"""What stands at every conveyor, where the spec does not say it: a loading point, cleaners, end pulleys.
+
+Figures are those of the worked example of ISO 5048 (skirts as long as the belt runs in a second and 0.625 of its width
+apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, and general knowledge (two
+cleaners, shafts of a fifth of the pulley).
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from conveyor.laws.tension import PULLEY_FACTOR
+from conveyor.models import Cleaner, Conveyor, Feeding, Pulley
+from conveyor.units import from_si, quantity, si
+
+SKIRT_SECONDS: Final = 4.8 / 4.8  # [s], worked example of ISO 5048: 4.8 m at 4.8 m/s
+SKIRT_WIDTH: Final = 0.75 / 1.2  # [-], worked example of ISO 5048: over the belt's width
+CLEANER_COUNT: Final = 2  # general knowledge: one at the head pulley, one behind it
+CLEANER_THICKNESS: Final = "8 mm"  # worked example of ISO 5048
+SHAFT: Final = 0.2  # [-], general knowledge: over the pulley's diameter
+
+
+def feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
+    """Loading points, and whether they are assumed."""
+    given = conveyor.route.feeding_points
+    bears = conveyor.route.sections[0].loaded and si(conveyor.material.flow) > 0.0
+    if given or not bears or not _assumes(conveyor):
+        return given, False
+    belt = conveyor.belt
+    usual = Feeding(
+        skirt_length=from_si(SKIRT_SECONDS * si(belt.speed), "length"),
+        skirt_width=from_si(SKIRT_WIDTH * si(belt.width), "length"),
+    )
+    return (usual,), True
+
+
+def cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
+    """Cleaners, and whether they are assumed."""
+    given = conveyor.route.cleaners
+    if given or not _assumes(conveyor):
+        return given, False
+    usual = Cleaner(
+        count=CLEANER_COUNT, width=conveyor.belt.width, thickness=quantity(CLEANER_THICKNESS, "thickness")
+    )
+    return (usual,), True
+
+
+def pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
+    """Pulleys, and whether they are assumed: the least that the carcass bears (others like EP), without weight."""
+    given = conveyor.route.pulleys
+    if given or not _assumes(conveyor):
+        return given, False
+    carcass = conveyor.belt.carcass
+    factor = next((c for kind, c in PULLEY_FACTOR.items() if kind == carcass.kind), PULLEY_FACTOR["EP"])
+    diameter = factor * si(carcass.thickness)
+    usual = tuple(
+        Pulley.model_construct(  # a carcass of 50 mm would ask for more than any pulley is
+            name=end,
+            position=end,
+            diameter=from_si(diameter, "length"),
+            shaft_diameter=from_si(SHAFT * diameter, "length"),
+            mass=from_si(0.0, "mass"),
+            section=None,
+        )
+        for end in ("head", "tail")
+    )
+    return usual, True
+
+
+def _assumes(conveyor: Conveyor) -> bool:
+    return conveyor.calculation.not_given == "usual values"

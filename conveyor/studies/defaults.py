@@ -1,0 +1,208 @@
+"""The range of power from what the spec does not give: every default in use at both ends of its band.
+
+Forces are linear in what a default scales, so no contact is solved again: its forces are scaled and the loop of
+tensions is closed around them. Bands are taken to be independent; changes down and changes up add as the root of their
+squares. A default is one line of `DEFAULTS`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.forces import Force
+from conveyor.laws.resistance import (
+    CLEANER_PRESSURE,
+    FLEXURE_COEFFICIENT,
+    ROLL_ON_BELT_FRICTION,
+    SERVICE_DRAG,
+    Default,
+)
+from conveyor.line.roll_drags import assumed_share
+from conveyor.line.stretches import Stretch
+from conveyor.loop.balance import balance
+from conveyor.models import Conveyor
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.studies.uncertainty import Effect, root_of_squares
+
+Shares: TypeAlias = NDArray[np.float64] | float
+"""Of a force what rests on a default [-]: of every stretch, shape (2n,), or at one place."""
+Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """A default of the spec: what it scales, how far it may be off, what replaces it.
+
+    Attributes
+    ----------
+    key, what : str
+        For figures in files; for people.
+    low, high : float
+        The forces that rest on it over those computed, between which nine tenths lie [-].
+    give : str
+        Fields that replace it.
+    share : callable
+        Of a conveyor and a force of it the share that rests on this default; 0 where it is not in use.
+    """
+
+    key: str
+    what: str
+    low: float
+    high: float
+    give: str
+    share: Share
+
+
+def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed:
+    """A default whose forces are proportional to a figure with its range."""
+    return Assumed(key, what, of.low / of.value, of.high / of.value, give, share)
+
+
+def along(key: str, used: Callable[[Conveyor, Stretch], float]) -> Share:
+    """Share of a force along the belt that rests on a default on every stretch."""
+
+    def share(found: CalculatedConveyor, force: Force) -> Shares:
+        if force.key != key:
+            return 0.0
+        return np.array([used(found.conveyor, stretch) for stretch in found.line.stretches])
+
+    return share
+
+
+def usual(*keys: str) -> Share:
+    """All of the forces of usual parts that stand in for missing ones."""
+    return lambda _found, force: float(force.assumed and force.key in keys)
+
+
+def _drag(conveyor: Conveyor, stretch: Stretch) -> float:
+    return assumed_share(conveyor, stretch.idlers, stretch.drags)
+
+
+def _flexure(conveyor: Conveyor, _stretch: Stretch) -> float:
+    calculation = conveyor.calculation
+    return float(calculation.flexure is None and calculation.flexure_share is None)
+
+
+def _pressed(found: CalculatedConveyor, force: Force) -> float:
+    """Whether a cleaner is given without its pressure."""
+    names = [each.name for each in found.balance.singles if each.key == "cleaner"]
+    cleaner = dict(zip(names, found.conveyor.route.cleaners, strict=False)).get(force.name)
+    return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
+
+
+DEFAULTS: Final = (
+    banded("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
+           along("idler_rotation", _drag)),
+    banded("flexure", "flexure of belt and bulk over load and sag", FLEXURE_COEFFICIENT,
+           "calculation.flexure or flexure_share", along("flexure", _flexure)),
+    banded("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION, "idlers.*.tilt_angle: 0 deg",
+           along("tilt", lambda _conveyor, _stretch: 1.0)),
+    Assumed("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding", usual("acceleration")),
+    Assumed("skirts", "usual skirts", 0.5, 2.0, "route.feeding", usual("loading_skirts", "skirts")),
+    Assumed("cleaners", "usual cleaners", 0.5, CLEANER_PRESSURE.high / CLEANER_PRESSURE.value, "route.cleaners",
+            usual("cleaner")),
+    banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
+    Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
+)  # fmt: skip
+"""Every default with a band; one more line is one more default.
+
+Of usual parts general knowledge: bulk that lands at half the belt's speed, half and twice the skirts, one cleaner or
+two pressed as hard as any, half and twice the pulleys' resistance.
+"""
+
+
+@dataclass(frozen=True)
+class AssumedEffect(Effect):
+    """What a default in use does to the power; `key` and `give` as of `Assumed`.
+
+    Attributes
+    ----------
+    low_factor, high_factor : float
+        Ends of its band [-].
+    """
+
+    key: str = ""
+    give: str = ""
+    low_factor: float = 1.0
+    high_factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class PowerRange:
+    """The motor power with what the defaults leave open.
+
+    Attributes
+    ----------
+    motor, low, high : float
+        At the motors' shafts, as computed and between which nine tenths lie [W].
+    effects : tuple of AssumedEffect
+        One a default in use, the largest swing first.
+    notes : tuple of str
+        Ends of bands without an answer, and why.
+    """
+
+    motor: float
+    low: float
+    high: float
+    effects: tuple[AssumedEffect, ...]
+    notes: tuple[str, ...] = ()
+
+
+def power_range(found: CalculatedConveyor) -> PowerRange:
+    """Range of the motor power from the defaults in use.
+
+    Parameters
+    ----------
+    found : CalculatedConveyor
+        Of `calculate`.
+
+    Returns
+    -------
+    PowerRange
+        The band, and every default with what it does.
+
+    Notes
+    -----
+    On vertical curves the rolls keep their loads. A default at an end of whose band the loop has no answer is left out
+    and noted.
+    """
+    motor = found.balance.power.motor
+    effects, notes = [], []
+    for assumed in DEFAULTS:
+        if not any(_rests(assumed, found, force) for force in found.balance.every):
+            continue
+        try:
+            low, high = (_motor(found, assumed, factor) for factor in (assumed.low, assumed.high))
+        except NoSolutionError as error:
+            notes.append(f"{assumed.what} at an end of its band: {error}")
+            continue
+        effects.append(
+            AssumedEffect(
+                assumed.what, f"x {assumed.low:.3g}", "x 1", f"x {assumed.high:.3g}", low, high,
+                assumed.key, assumed.give, assumed.low, assumed.high,
+            )
+        )  # fmt: skip
+    effects.sort(key=lambda effect: -effect.swing)
+    return PowerRange(motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes))
+
+
+def _rests(assumed: Assumed, found: CalculatedConveyor, force: Force) -> bool:
+    """Whether a force rests on a default."""
+    return bool(np.any(np.asarray(assumed.share(found, force)) * np.asarray(force.newtons)))
+
+
+def _motor(found: CalculatedConveyor, assumed: Assumed, factor: float) -> float:
+    """Motor power with the forces of a default scaled, the loop closed again [W]."""
+
+    def scaled(force: Force) -> Force:
+        return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(found, force)))
+
+    along = tuple(map(scaled, found.balance.along))
+    frame = found.balance.frame.scaled(scaled)
+    return balance(frame, along, found.balance.unit_main).power.motor

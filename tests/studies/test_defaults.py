@@ -1,0 +1,142 @@
+"""Range of power from defaults: each scaled force by hand, correlated strands, what is given leaves it, usual parts."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.models import Conveyor
+from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.studies.defaults import power_range
+from conveyor.studies.uncertainty import root_of_squares
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+ROUNDING = 1e-10  # sums of 40 forces whose lift cancels in part, and a loop closed to 1e-13
+
+
+def drags(line: Conveyor, drag: str) -> Conveyor:
+    sets = {s: getattr(line.idlers, s) for s in ("carry", "return_")}
+    named = {s: idlers.replace(roll=idlers.roll.replace(drag=drag)) for s, idlers in sets.items()}
+    return line.replace(idlers=line.idlers.replace(carry=named["carry"], return_=named["return_"]))
+
+
+def calculated(line: Conveyor, **changes: object) -> Conveyor:
+    return line.replace(calculation=line.calculation.replace(rtol=1e-4, **changes))
+
+
+@pytest.fixture(scope="module")
+def line() -> Conveyor:
+    return calculated(conveyor.load(SPECS / "in_plant_us.yaml"))
+
+
+@pytest.fixture(scope="module")
+def bare(line: Conveyor) -> Conveyor:
+    """Nothing stands anywhere, so that the power is linear in every force."""
+    route = line.route.replace(feeding=None, cleaners=[], pulleys=[])
+    return calculated(line.replace(route=route), not_given="nothing")
+
+
+def test_each_default_scales_its_force_and_nothing_else(bare):
+    found = calculate(bare)
+    left = power_range(found)
+    parts, watts = found.balance.forces.parts, found.line.speed / found.line.efficiency
+    assert {one.key for one in left.effects} == {"roll_drag", "flexure"}
+    for one in left.effects:
+        force = parts["idler_rotation" if one.key == "roll_drag" else "flexure"]
+        for factor, power in ((one.low_factor, one.motor_low), (one.high_factor, one.motor_high)):
+            assert power - left.motor == pytest.approx((factor - 1.0) * force * watts, rel=ROUNDING)
+    assert (left.low, left.high) == root_of_squares(left.motor, left.effects)
+    rotation, flexure = parts["idler_rotation"] * watts, parts["flexure"] * watts
+    assert left.motor - left.low == pytest.approx(math.hypot(0.5 * rotation, 0.5 * flexure), rel=ROUNDING)
+    assert left.high - left.motor == pytest.approx(math.hypot(0.5 * rotation, flexure), rel=ROUNDING)
+    swings = [one.swing for one in left.effects]
+    assert swings == sorted(swings, reverse=True)
+
+
+def test_what_is_given_is_in_no_range(bare):
+    known = calculated(drags(bare, "2 N"), flexure_share="10 %")
+    left = power_range(calculate(known))
+    assert left.effects == ()
+    assert (left.low, left.high) == (left.motor, left.motor)
+    one_strand = bare.idlers.carry.replace(roll=bare.idlers.carry.roll.replace(drag="2 N"))
+    half = calculated(bare.replace(idlers=bare.idlers.replace(carry=one_strand)), flexure_share="10 %")
+    found = calculate(half)
+    (drag,) = power_range(found).effects
+    rotation = next(force for force in found.balance.along if force.key == "idler_rotation").by_strand()[
+        "return"
+    ]
+    watts = 0.5 * rotation / 0.9 * found.line.speed / found.line.efficiency
+    # the share of flexure is the spec's; its force stays as it is
+    assert drag.motor_high - found.balance.power.motor == pytest.approx(0.9 * watts, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("name", ["in_plant_us", "downhill"])
+def test_the_loop_is_closed_again(name):
+    """Wraps and bearings follow the tension: the same as rolls that drag half as much more, calculated anew."""
+    given = calculated(conveyor.load(SPECS / f"{name}.yaml"))
+    (drag,) = (one for one in power_range(calculate(given)).effects if one.key == "roll_drag")
+    for factor, power in ((drag.low_factor, drag.motor_low), (drag.high_factor, drag.motor_high)):
+        (again,) = calculate_many([Variant(given, roll_drag=factor)])
+        assert power == pytest.approx(again.balance.power.motor, rel=ROUNDING)
+
+
+def test_usual_parts_stand_in_for_missing_ones(line, bare):
+    missing = calculated(bare, not_given="usual values")
+    found = calculate(missing)
+    singles = {force.name: force for force in found.balance.singles}
+    assert all(force.assumed and force.source.endswith("usual figures") for force in singles.values())
+    # 1500 short tons/h from rest to 600 fpm; skirts of a second, 0.625 of 48 in apart; two blades of 48 in x 8 mm
+    flow, speed = 1500.0 * 907.18474 / 3600.0, 600.0 * 0.3048 / 60.0
+    assert singles["acceleration of the bulk"].total == pytest.approx(flow * speed, rel=1e-9)
+    volume, density = flow / (95.0 * 16.018463374), 95.0 * 16.018463374
+    skirts = 0.7 * volume**2 * density * 9.81 * speed / (speed**2 * (0.625 * 48 * 0.0254) ** 2)
+    assert singles["skirts beyond the loading zone"].total == pytest.approx(skirts, rel=1e-8)
+    assert singles["cleaner 1 (x2)"].total == pytest.approx(2 * 48 * 0.0254 * 0.008 * 3e4 * 0.6, rel=1e-12)
+    # EP: 108 times the carcass of 0.2 in
+    assert [pulley.diameter for pulley in found.line.pulleys] == pytest.approx(
+        [108 * 0.2 * 0.0254] * 2, rel=1e-12
+    )
+    assert not found.belt_duty.pulleys  # nothing to check of pulleys nobody chose
+    assert {"feeding", "skirts", "cleaners", "pulleys"} <= {one.key for one in power_range(found).effects}
+    # what is given is not added to
+    partly = calculated(missing.replace(route=missing.route.replace(cleaners=line.route.cleaners)))
+    part = calculate(partly)
+    assert sum(force.key == "cleaner" for force in part.balance.singles) == 1
+    (pressure,) = (
+        one for one in power_range(part).effects if one.key == "cleaner_pressure"
+    )  # not given there
+    scraped = part.balance.forces.special * (1e5 / 3e4 - 1.0) * speed / 0.93
+    assert pressure.motor_high - part.balance.power.motor > 0.0
+    assert pressure.motor_high - part.balance.power.motor < 1.1 * scraped  # its wraps too, skirts not
+    assert not any(force.assumed for force in calculate(line).balance.singles)
+
+
+def test_nothing_lands_on_an_empty_belt_nor_stands_where_nothing_is_asked_for(bare):
+    empty = calculated(bare.replace(material=bare.material.replace(flow="0 t/h")), not_given="usual values")
+    keys = {force.key for force in calculate(empty).balance.singles}
+    assert keys == {"cleaner", "wrap", "pulley_bearings"}
+    assert calculate(bare).balance.singles == ()
+
+
+def test_reports_say_the_range_and_what_to_replace_first(line):
+    found = conveyor.analyse(line)
+    left = power_range(found)
+    told = found.to_dict()["defaults"]
+    assert told["motor_kW"] == {"low": pytest.approx(left.low / 1e3), "high": pytest.approx(left.high / 1e3)}
+    assert told["replace_first"] == left.effects[0].give
+    assert [one["key"] for one in told["in_use"]] == [one.key for one in left.effects]
+    note = found.contents(system="SI")["defaults"].note
+    low, motor, high = (f"{power / 1e3:.1f} kW" for power in (left.low, left.motor, left.high))
+    assert note.startswith(
+        f"Motor power {motor}, {low.removesuffix(' kW')} to {high} from what was not given (nine tenths); "
+    )
+    assert "replace first: drag of the rolls in service (idlers.*.roll.drag or drag_law)." in note
+    assert " hp from what was" in found.contents(system="US")["defaults"].note
+    cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]
+    pressed = line.replace(route=line.route.replace(cleaners=cleaners))
+    known = conveyor.analyse(calculated(drags(pressed, "2 N"), flexure_share="10 %"))
+    assert "defaults" not in known.contents()
+    assert known.to_dict()["defaults"]["motor_kW"] == {"low": None, "high": None}
