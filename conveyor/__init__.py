@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from conveyor.analysis import (
         Analysis,
+        CalibrationStudy,
         CaseStudy,
         Comparison,
         DutyStudy,
         analyse,
         analyse_cases,
         analyse_duty,
+        calibrate,
         compare,
         compare_compounds,
     )
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
+    "CalibrationStudy": "conveyor.analysis",
     "CaseStudy": "conveyor.analysis",
     "Comparison": "conveyor.analysis",
     "Conveyor": "conveyor.models",
@@ -45,6 +48,7 @@ _WHERE = {
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
     "analyse_duty": "conveyor.analysis",
+    "calibrate": "conveyor.analysis",
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
@@ -52,6 +56,7 @@ _WHERE = {
 
 __all__ = [
     "Analysis",
+    "CalibrationStudy",
     "CaseStudy",
     "Comparison",
     "Conveyor",
@@ -66,6 +71,7 @@ __all__ = [
     "analyse",
     "analyse_cases",
     "analyse_duty",
+    "calibrate",
     "compare",
     "compare_compounds",
     "load",

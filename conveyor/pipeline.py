@@ -266,7 +266,13 @@ class _Loaded:
 
 def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> CalculatedConveyor | _Step:
     """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
-    along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
+    along = along_the_belt(
+        loaded.line,
+        loaded.fixed,
+        contacts.indentation,
+        roll_drag=variant.roll_drag,
+        calibration=variant.conveyor.calculation.calibration,
+    )
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:
         return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)

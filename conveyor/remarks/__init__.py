@@ -54,6 +54,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
                 *_contact(conveyor),
                 *roll_warnings(found),
                 *_left_out(found),
+                *_calibration(conveyor),
                 *_drive(found),
                 *(check.why for check in checked if check.verdict != "pass" and check.why is not None),
             )
@@ -122,6 +123,18 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             yield said("route.feeding not given: acceleration of the bulk and skirts are not in the figures")
     if not line.scrapers:
         yield said("route.cleaners not given: no cleaner in the figures")
+
+
+def _calibration(conveyor: Conveyor) -> Iterator[Said]:
+    given = conveyor.calculation.calibration
+    if given is None or all(factor == 1.0 for factor in given.factors.values()):
+        return
+    factors = ", ".join(f"{name.replace('_', ' ')} x {value:g}" for name, value in given.factors.items())
+    source = "no source given" if given.source is None else quoted(given.source)
+    yield said(
+        f"calculation.calibration: {factors} ({source}) in forces, tensions and power; figures of single rolls are "
+        "without it"
+    )
 
 
 def _drive(found: CalculatedConveyor) -> Iterator[Said]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 from openpyxl import Workbook
 
@@ -20,6 +20,7 @@ from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
 from conveyor.report.places import MOST_ROWS, Page, file_name
 
+Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
     "Summary": cover.summary,
     "Results": sheets.single,
@@ -79,10 +80,10 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def files(contents: Contents, path: Path) -> dict[Path, bytes]:
-    """Workbook of a report and the tables too long for it, by the files they go to; as `write`."""
+def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
+    """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
     with _uncollected():
-        book, content = build(contents, path.stem), BytesIO()
+        book, content = build(contents, path.stem, fills), BytesIO()
         try:
             book.save(content)  # by way of temporary files
         except OSError as error:
@@ -104,9 +105,14 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def build(contents: Contents, stem: str = "") -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it."""
-    about, fills = contents.document, COMPARISON_SHEETS if contents.document.facts else SHEETS
+def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Workbook:
+    """Workbook of a report, not yet saved; `stem` names files beside it.
+
+    `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
+    """
+    about = contents.document
+    if fills is None:
+        fills = COMPARISON_SHEETS if about.facts else SHEETS
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
