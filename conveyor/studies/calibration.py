@@ -37,7 +37,7 @@ TYPICAL_ERROR: Final = 0.02
 """Standard deviation of a measured power over itself, where bands are judged before residuals say it: general knowledge
 (a power meter of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
 TOLD_APART: Final = 0.25
-"""Half width of a band up to which a factor is told: wider, it says less than a designer's guess (general knowledge)."""
+"""Half width of a band up to which a factor is told: wider, it says less than a guess does (general knowledge)."""
 POOR_FIT: Final = 0.01
 """Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
 LARGEST_FACTOR: Final = 10.0
