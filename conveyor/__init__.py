@@ -18,12 +18,14 @@ if TYPE_CHECKING:
         CaseStudy,
         Comparison,
         DutyStudy,
+        VerificationSheet,
         analyse,
         analyse_cases,
         analyse_duty,
         calibrate,
         compare,
         compare_compounds,
+        verify_sheet,
     )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
@@ -45,6 +47,7 @@ _WHERE = {
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
+    "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
     "analyse_duty": "conveyor.analysis",
@@ -52,6 +55,7 @@ _WHERE = {
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
+    "verify_sheet": "conveyor.analysis",
 }
 
 __all__ = [
@@ -67,6 +71,7 @@ __all__ = [
     "RangeError",
     "RubberCompound",
     "ValidityWarning",
+    "VerificationSheet",
     "__version__",
     "analyse",
     "analyse_cases",
@@ -75,6 +80,7 @@ __all__ = [
     "compare",
     "compare_compounds",
     "load",
+    "verify_sheet",
 ]
 
 

@@ -24,6 +24,7 @@ from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import uncertainty as range_study
+from conveyor.studies import verification as verification_study
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -392,6 +393,27 @@ class CalibrationStudy(calibration_study.CalculatedCalibration):
         return plain(self)
 
 
+class VerificationSheet(verification_study.CalculatedVerification):
+    """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a compound, cover, roll, speed and temperature; units in the names."""
+        return self.contents()["per_width"].frame()
+
+    def contents(self, system: System = "SI") -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.verifying import of_verification
+
+        return of_verification(self, system)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON; units in the keys."""
+        from conveyor.report.verifying import plain
+
+        return plain(self)
+
+
 def _faced(plain: Any, face: Callable[..., Face]) -> Face:
     """Results with their face."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
@@ -412,6 +434,9 @@ analyse_cases = _facing(case_study.analyse_cases, CaseStudy)
 analyse_duty = _facing(duty_study.analyse_duty, DutyStudy)
 study_ranges = _facing(range_study.study, UncertaintyStudy)
 compare_compounds = _facing(compound_study.compare_compounds, Comparison)
+
+
+verify_sheet = _facing(verification_study.verification, VerificationSheet)
 
 
 def studies(conveyor: Conveyor, *, progress: study.Progress | None = None) -> Studies:

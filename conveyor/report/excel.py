@@ -46,9 +46,23 @@ COMPARISON_SHEETS: Final = {
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
+VERIFICATION_SHEETS: Final = {
+    "About": sheets.about,
+    "N per width": sheets.to_compare,
+    "Idler set": sheets.to_compare,
+}
 _WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them."""
-_PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
+_PORTRAIT: Final = (
+    "Summary",
+    "Resistances",
+    "States",
+    "Loop",
+    "Indentation",
+    "Rubber",
+    CHECKS_AND_NOTES,
+    "About",
+)
 
 
 def write(contents: Contents, path: Path) -> Path:
@@ -110,16 +124,15 @@ def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Wor
 
     `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
     """
-    about = contents.document
-    if fills is None:
-        fills = COMPARISON_SHEETS if about.facts else SHEETS
+    about, own = contents.document, fills is None
+    fills = fills if fills is not None else COMPARISON_SHEETS if about.facts else SHEETS
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
     book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
     for title in dict.fromkeys((*fills, *contents.sheets)):
-        if title in contents.sheets or title not in _WHERE_ASKED:
+        if title in contents.sheets or (own and title not in _WHERE_ASKED):
             sheet = book.create_sheet(title)
             fills.get(title, sheets.stacked)(Page(sheet, contents, stem))
             print_set_up(sheet, header, paper=about.paper, portrait=title in _PORTRAIT)
