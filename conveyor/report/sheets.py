@@ -22,6 +22,7 @@ _CURVES_COLUMN = "H"
 _CHART_ROWS = 20
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _PAGE_ROWS = 110  # of a compound that still fit its page
+_NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
 """Bars that one chart shows legibly."""
 _FILLED = 1.05  # of a line's width that text takes before it breaks at a word
@@ -161,13 +162,13 @@ def about(page: Page) -> None:
 
 
 def to_compare(page: Page) -> None:
-    """A table to fill in: names of rows and header in view, a new sheet of paper for every new first two names."""
+    """A table to fill in: names of rows and header in view, a new sheet of paper for every new first name."""
     (key,) = page.contents.of(page.sheet.title)
     part = page.contents[key].on_sheet()
     place = page.headed(key, frozen=f"{get_column_letter(part.named + 1)}3", widest=44)
-    names = [[column.get(row) for column in part.columns[:2]] for row in part.rows]
+    names = [part.columns[0].get(row) for row in part.rows]
     for i, (before, after) in enumerate(pairwise(names), start=place.header + 1):
-        if before != after:
+        if before != after and len(names) > _NEW_PAGE:
             page.sheet.row_breaks.append(Break(id=i))
 
 

@@ -72,7 +72,7 @@ def lines(found: CalculatedVerification) -> Iterator[str]:
     if found.conveyor is not None:
         yield (
             f'The idler set is the most loaded carry set of "{found.conveyor.name}" at its flow and speed: the sum '
-            "of its rolls, each under its own distribution of load."
+            "of its rolls, each under its own distribution of load, moduli as its calculation.strain says."
         )
     yield (
         "Please fill in the marked columns for the same roll, cover, speed, temperature and line load, measured or "
