@@ -83,7 +83,7 @@ HEAD = "motor power [kW],flow [t/h]"
     ("lines", "said"),
     [
         ([HEAD], r"no run in it; the first line names columns"),
-        (["power [kW],flow [t/h]", "1,2"], r'runs.csv:1: column 1 "power \[kW\]": not known; allowed: motor power, mains'),
+        (["power [kW],flow [t/h]", "1,2"], r'runs.csv:1: column 1 "power \[kW\]": not known; allowed: motor'),
         (["motor power [kW],note", "1,2"], r"runs.csv:1: column 1: no column flow"),
         (["flow [t/h],note", "1,2"], r"no column motor power \[kW\] or mains power \[kW\]"),
         ([f"{HEAD},mass flow [t/h]", "1,2,3"], r'column 3 "mass flow \[t/h\]": is there twice'),

@@ -1,4 +1,4 @@
-"""Factors from measured power: made from known factors they come back; what the data do not tell apart is one factor."""
+"""Factors from measured power: known ones come back; what the runs do not tell apart is one factor."""
 
 from __future__ import annotations
 
@@ -231,7 +231,7 @@ def test_what_cannot_be_calibrated_is_refused():
         conveyor.calibrate(given, [run.replace(power="0.1 kW") for run in empty], error=0.02)
     with pytest.raises(InputError, match=r"run 2: no standard deviation, others have one"):
         conveyor.calibrate(given, [empty[0].replace(deviation="1 kW"), empty[1]])
-    with pytest.raises(InputError, match="run 1: .*t/h"):
+    with pytest.raises(InputError, match=r"run 1: .*t/h"):
         conveyor.calibrate(given, states((20000, 15)))
     with pytest.raises(InputError, match=r"error = 2: a standard deviation over the power, between 0 and 1"):
         conveyor.calibrate(given, full, error=2.0)
