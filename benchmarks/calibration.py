@@ -100,8 +100,9 @@ def main(conveyors: int, draws: int) -> None:
         print(
             f"{name:40} {share:6.1%} of {len(each):4} bands hold, +-{math.sqrt(share * (1 - share) / len(each)):.1%}"
         )
+    spread, mean = np.std(off), np.mean(off)
     print(
-        f"power at full load, 15 degC: off by {np.std(off):.2%} (one standard deviation), {np.mean(off):+.2%} in the mean"
+        f"power at full load, 15 degC: off by {spread:.2%} (one standard deviation), {mean:+.2%} in the mean"
     )
     print(f"{refused} of {conveyors * draws} refused; {perf_counter() - begun:.0f} s")
 

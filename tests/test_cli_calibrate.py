@@ -1,4 +1,4 @@
-"""`conveyor calibrate` and `verify-sheet` as users run them: outputs, exit codes, one message where something is wrong."""
+"""`conveyor calibrate` and `verify-sheet` as users run them: outputs, exit codes, messages."""
 
 from __future__ import annotations
 
