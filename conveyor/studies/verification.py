@@ -11,7 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
-from typing import Final, TypeAlias
+from typing import Annotated, Any, Final, TypeAlias
+
+from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
 from conveyor.arguments import checked
@@ -19,10 +21,11 @@ from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeErr
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
 from conveyor.laws.softening import softened_cover
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import CalculatedConveyor, Progress, StretchResult, Variant, calculate_many
 from conveyor.rubber import AmplitudeFactors, PronySeries
-from conveyor.units import Quantity, in_si, text
+from conveyor.units import Bounds, Length, LineForce, Quantity, Thickness, in_si, text
 
 Given: TypeAlias = Iterable[str | Quantity]
 LINE_LOADS: Final = ("1 N/mm", "2 N/mm", "4 N/mm", "6 N/mm", "8 N/mm")
@@ -35,7 +38,14 @@ tests of low-resistance covers (219 mm roll, 7 mm cover, 1 to 8 N/mm, 20 degC: C
 SPACING: Final = 1.2
 """Of the rolls [m]; a confined cover forgets a roll within a few thicknesses, so it hardly matters."""
 MOST_POINTS: Final = 100_000
-_LOWEST, _HIGHEST = 1.0, 1e5  # line loads [N/m]: from far below a bare belt to ten times the heaviest roll
+_AXES: Final[dict[str, tuple[str, TypeAdapter[Any]]]] = {
+    "line_loads": ("line force", TypeAdapter(Annotated[LineForce, Bounds(ge="1 N/m", le="100 kN/m")])),
+    "temperatures": ("temperature", TypeAdapter(EarthTemperature)),
+    "roll_diameters": ("length", TypeAdapter(Annotated[Length, Bounds(ge="20 mm", le="1 m")])),
+    "speeds": ("speed", TypeAdapter(BeltSpeed)),
+    "covers": ("thickness", TypeAdapter(Annotated[Thickness, Bounds(ge="1 mm", le="100 mm")])),
+}
+"""Kind of every axis, and what is allowed: as fields of a spec are, line loads to ten times the heaviest roll's."""
 
 
 @dataclass(frozen=True)
@@ -184,16 +194,10 @@ def verification(
     if not chosen:
         raise InputError("compounds: give at least one; `conveyor shelf` lists those at hand")
     scenes = tuple(
-        product(
-            _axis(covers, "thickness", "covers", 1e-3, 0.1),
-            _axis(roll_diameters, "length", "roll_diameters", 0.02, 1.0),
-            _axis(speeds, "speed", "speeds", 1e-3, 20.0),
-        )
+        product(_axis("covers", covers), _axis("roll_diameters", roll_diameters), _axis("speeds", speeds))
     )
-    loads = _axis(line_loads, "line force", "line_loads", _LOWEST, _HIGHEST)
-    warmth = _axis(
-        TEMPERATURES if temperatures is None else temperatures, "temperature", "temperatures", 173.15, 473.15
-    )
+    loads = _axis("line_loads", line_loads)
+    warmth = _axis("temperatures", TEMPERATURES if temperatures is None else temperatures)
     count = len(chosen) * len(loads) * len(warmth) * len(scenes)
     if count > MOST_POINTS:
         raise InputError(
@@ -215,14 +219,16 @@ def verification(
     return CalculatedVerification(chosen, loads, tuple(rows), tuple(sets), conveyor, softened)
 
 
-def _axis(given: Given, kind: str, name: str, low: float, high: float) -> tuple[float, ...]:
+def _axis(name: str, given: Given) -> tuple[float, ...]:
     """Values of an axis, SI, each once and in order."""
+    kind, allowed = _AXES[name]
     found = []
     for item in given:
-        value = in_si(item if isinstance(item, str) else text(item), kind)
-        if not low <= value <= high:
-            raise InputError(f"{name}: got {item}, allowed: {low:g} to {high:g} in SI units")
-        found.append(value)
+        try:
+            value: Quantity = allowed.validate_python(item)
+        except ValidationError as error:
+            raise InputError(f"{name}: {error.errors()[0]['msg']}") from None
+        found.append(in_si(text(value), kind))
     if not found:
         raise InputError(f"{name}: give at least one")
     return tuple(sorted(set(found)))

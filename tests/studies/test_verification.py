@@ -107,7 +107,7 @@ def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
     ("changed", "said"),
     [
         ({"line_loads": ["4"]}, '"4"'),
-        ({"covers": ["7 m"]}, "covers: got 7 m, allowed: 0.001 to 0.1 in SI units"),
+        ({"covers": ["7 m"]}, "covers: got 7 m, allowed: >= 0.001 m and <= 0.1 m"),
         ({"speeds": []}, "speeds: give at least one"),
         ({"line_loads": [f"{1 + 0.0001 * k:.4f} N/mm" for k in range(100_001)]}, "at most 100,000 are calculated"),
     ],
