@@ -25,7 +25,6 @@ from conveyor.cli.app import (
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
-from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from conveyor.report.columns import Table
@@ -138,6 +137,7 @@ def _share(given: str) -> float:
 def _shown(part: Table, system: System) -> Any:
     """A table of the report on the terminal, units below names."""
     from conveyor.cli.terminal import table, words
+    from conveyor.units.presentation import unit
 
     made = table(part.heading)
     for column in part.columns:

@@ -38,6 +38,9 @@ TYPICAL_ERROR: Final = 0.02
 (a power meter of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
 TOLD_APART: Final = 0.25
 """Half width of a band up to which a factor is told: wider, it says less than a guess does (general knowledge)."""
+UNLIKE: Final = 0.2
+"""Standard deviation by which factors that are joined may differ from their mean: general knowledge (friction factors
+of like conveyors spread as much). It is in the bands of the other factors."""
 POOR_FIT: Final = 0.01
 """Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
 LARGEST_FACTOR: Final = 10.0
@@ -491,6 +494,7 @@ def _judged(
         )
     weighed = slopes / sigma[:, None]
     covariance = np.linalg.inv(weighed.T @ weighed)
+    covariance += _of_joined(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
     spread = np.sqrt(np.diag(covariance))
     factors = tuple(
         FittedFactor(group, value, value - ends * one, value + ends * one)
@@ -505,6 +509,27 @@ def _judged(
         _calibration(grouping, values), factors, correlation, power, scene.sigma(power) if not estimated else sigma,
         chi_square, freedom, stated, tuple(notes),
     )  # fmt: skip
+
+
+def _of_joined(
+    scene: _Scene, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
+) -> Array:
+    """Covariance of the factors from the differences inside joined ones, which are means as the runs weigh them.
+
+    With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
+    A_k J_i δ_i.
+    """
+    found = np.zeros((len(grouping), len(grouping)))
+    for k, (group, value) in enumerate(zip(grouping, values, strict=True)):
+        if len(group) > 1:
+            apart = tuple((name,) for name in group)
+            others = [g for i, g in enumerate(grouping) if i != k]
+            fixed = [v for i, v in enumerate(values) if i != k]
+            slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
+            moved = solved @ slopes
+            moved[k] = 0.0
+            found += UNLIKE**2 * moved @ moved.T
+    return found
 
 
 def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:

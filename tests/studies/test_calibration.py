@@ -156,6 +156,22 @@ def test_flexure_by_law_is_joined_where_it_acts_like_another():
     assert found.calibration.idler_rotation == pytest.approx(0.8, rel=1e-5)
 
 
+def test_joined_factors_that_differ_are_in_the_bands_of_the_others(monkeypatch: pytest.MonkeyPatch):
+    """What 0.2 up in one and 0.2 down in the other moves the third by is √2 of the deviation that its band takes in."""
+    given, runs = line(calculation=BY_LAW), states(*EMPTY_AND_FULL)
+    truth = with_factors(given, indentation=1.2, idler_rotation=1.1, flexure=0.8)
+    powers = measured(truth, runs)
+    found = conveyor.calibrate(given, powers, error=0.02).factors
+    monkeypatch.setattr("conveyor.studies.calibration.UNLIKE", 0.0)
+    errors_only = conveyor.calibrate(given, powers, error=0.02).factors
+    assert [factor.forces for factor in found] == [("indentation", "flexure"), ("idler_rotation",)]
+    assert found[0] == errors_only[0]
+    moved = 1.1 - found[1].value
+    taken_in = math.sqrt((found[1].high - 1.1 + moved) ** 2 - (errors_only[1].high - 1.1 + moved) ** 2)
+    # weights are shares of the calculated power, which differs by a few per cent
+    assert taken_in == pytest.approx(1.645 * moved / math.sqrt(2.0), rel=0.05)
+
+
 def test_power_at_the_mains_is_that_of_the_shaft_over_the_train():
     given = line(calculation=QUICK, drive={"train": TRAIN})
     truth = with_factors(given, indentation=1.3, idler_rotation=0.8)
