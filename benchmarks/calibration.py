@@ -1,6 +1,6 @@
 """Do the bands of `conveyor calibrate` hold what they say? Conveyors with known factors, measured with noise.
 
-    python benchmarks/calibration.py [CONVEYORS] [DRAWS]      # 20 and 10
+    python benchmarks/calibration.py [CONVEYORS] [DRAWS]      # 20 and 5
 
 Every conveyor is an example spec of another length and lift, its factors drawn evenly (indentation and flexure 0.7 to
 2, idler rotation 0.6 to 1.6); runs empty, at half and full load, at 0, 15 and 30 degC; power with 2 % noise, DRAWS
@@ -41,7 +41,7 @@ def drawn(rng: np.random.Generator) -> Conveyor:
         for section in spec.route.sections
     ]
     return spec.replace(
-        route=spec.route.replace(sections=sections), calculation=spec.calculation.replace(rtol=1e-4)
+        route=spec.route.replace(sections=sections), calculation=spec.calculation.replace(rtol=1e-3)
     )
 
 
@@ -115,4 +115,4 @@ def shares(spec: Conveyor) -> bool:
 
 if __name__ == "__main__":
     given = [int(word) for word in sys.argv[1:]]
-    main(*(given + [20, 10][len(given) :]))
+    main(*(given + [20, 5][len(given) :]))
