@@ -14,14 +14,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from conveyor.analysis import (
         Analysis,
+        CalibrationStudy,
         CaseStudy,
         Comparison,
         DutyStudy,
+        VerificationSheet,
         analyse,
         analyse_cases,
         analyse_duty,
+        calibrate,
         compare,
         compare_compounds,
+        verify_sheet,
     )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
@@ -32,6 +36,7 @@ if TYPE_CHECKING:
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
     "Analysis": "conveyor.analysis",
+    "CalibrationStudy": "conveyor.analysis",
     "CaseStudy": "conveyor.analysis",
     "Comparison": "conveyor.analysis",
     "Conveyor": "conveyor.models",
@@ -42,16 +47,20 @@ _WHERE = {
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
+    "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
     "analyse_duty": "conveyor.analysis",
+    "calibrate": "conveyor.analysis",
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
+    "verify_sheet": "conveyor.analysis",
 }
 
 __all__ = [
     "Analysis",
+    "CalibrationStudy",
     "CaseStudy",
     "Comparison",
     "Conveyor",
@@ -62,13 +71,16 @@ __all__ = [
     "RangeError",
     "RubberCompound",
     "ValidityWarning",
+    "VerificationSheet",
     "__version__",
     "analyse",
     "analyse_cases",
     "analyse_duty",
+    "calibrate",
     "compare",
     "compare_compounds",
     "load",
+    "verify_sheet",
 ]
 
 

@@ -6,7 +6,7 @@ these faces.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, wraps
 from pathlib import Path
@@ -15,13 +15,16 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from conveyor import studies as study
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks
-from conveyor.models import Conveyor, RubberCompound
+from conveyor.models import Conveyor, MeasuredRun, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.remarks import assumptions, warnings
+from conveyor.runs import read_runs
+from conveyor.studies import calibration as calibration_study
 from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import uncertainty as range_study
+from conveyor.studies import verification as verification_study
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -363,6 +366,57 @@ class Comparison(compound_study.CalculatedComparison):
         return comparing.notebook(self)
 
 
+class CalibrationStudy(calibration_study.CalculatedCalibration):
+    """Factors from measured power, with their tables."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a factor with its band."""
+        from conveyor.report.calibrating import factors
+
+        return factors(self).frame()
+
+    @cached_property
+    def residuals(self) -> pd.DataFrame:
+        """One row a run: measured, calculated before and after; units in the names."""
+        from conveyor.report.calibrating import runs
+
+        return runs(self).frame()
+
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.calibrating import of_calibration
+
+        return of_calibration(self, chosen(self.conveyor.report.units, system))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON; units in the keys."""
+        from conveyor.report.calibrating import plain
+
+        return plain(self)
+
+
+class VerificationSheet(verification_study.CalculatedVerification):
+    """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a compound, cover, roll, speed and temperature; units in the names."""
+        return self.contents()["per_width"].frame()
+
+    def contents(self, system: System = "SI") -> Contents:
+        """Everything a report holds, in a system of units."""
+        from conveyor.report.verifying import of_verification
+
+        return of_verification(self, system)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON; units in the keys."""
+        from conveyor.report.verifying import plain
+
+        return plain(self)
+
+
 def _faced(plain: Any, face: Callable[..., Face]) -> Face:
     """Results with their face."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
@@ -385,6 +439,9 @@ study_ranges = _facing(range_study.study, UncertaintyStudy)
 compare_compounds = _facing(compound_study.compare_compounds, Comparison)
 
 
+verify_sheet = _facing(verification_study.verification, VerificationSheet)
+
+
 def studies(conveyor: Conveyor, *, progress: study.Progress | None = None) -> Studies:
     """Calculate what the spec asks for; as `conveyor.studies.studies`."""
     found = study.studies(conveyor, progress=progress)
@@ -393,6 +450,21 @@ def studies(conveyor: Conveyor, *, progress: study.Progress | None = None) -> St
         duty=None if found.duty is None else _faced(found.duty, DutyStudy),
         uncertainty=None if found.uncertainty is None else _faced(found.uncertainty, UncertaintyStudy),
     )
+
+
+def calibrate(
+    conveyor: Conveyor, runs: str | Path | Sequence[MeasuredRun], **options: Any
+) -> CalibrationStudy:
+    """Factors on forces from measured power, of a file or of runs; as `conveyor.studies.calibration.calibrate`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
+    >>> conveyor.calibrate(line, "runs.csv").table  # doctest: +SKIP
+    """
+    given = read_runs(runs) if isinstance(runs, str | Path) else runs
+    return _faced(calibration_study.calibrate(conveyor, given, **options), CalibrationStudy)
 
 
 def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:

@@ -39,6 +39,7 @@ from conveyor.laws.resistance import (
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.places import Spot
 from conveyor.line.stretches import STRANDS, Strand, Stretch
+from conveyor.models import Calibration
 
 Array = NDArray[np.float64]
 ForceKind = Literal["main", "secondary", "special", "lift"]
@@ -182,7 +183,12 @@ def without_rubber(line: Line) -> WithoutRubber:
 
 
 def along_the_belt(
-    line: Line, fixed: WithoutRubber, indentation: Array, *, roll_drag: float = 1.0
+    line: Line,
+    fixed: WithoutRubber,
+    indentation: Array,
+    *,
+    roll_drag: float = 1.0,
+    calibration: Calibration | None = None,
 ) -> tuple[Force, ...]:
     """Return the forces along the belt.
 
@@ -196,13 +202,18 @@ def along_the_belt(
         Indentation resistance of every stretch [N].
     roll_drag : float
         Drag of all rolls over the computed one [-].
+    calibration : Calibration, optional
+        Factors on indentation, rotation and flexure; 1 without.
     """
-    rotation = roll_drag * fixed.rotation
+    factors = calibration or Calibration()
+    indentation = factors.indentation * indentation
+    rotation = factors.idler_rotation * roll_drag * fixed.rotation
     flexure, share = fixed.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([
             flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
+    flexure = factors.flexure * flexure
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),

@@ -286,7 +286,11 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) 
     """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
-        loaded.line, loaded.fixed, level * contacts.indentation, roll_drag=variant.roll_drag
+        loaded.line,
+        loaded.fixed,
+        level * contacts.indentation,
+        roll_drag=variant.roll_drag,
+        calibration=variant.conveyor.calculation.calibration,
     )
     found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
     if not loaded.line.curved:

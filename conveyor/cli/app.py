@@ -38,7 +38,10 @@ class _InOrder(typer.core.TyperGroup):
         )
 
 
-ORDER = ("new", "power", "compare", "template", "fit", "shelf", "contact", "validate", "schema")
+ORDER = (
+    "new", "power", "compare", "calibrate", "template", "fit", "shelf", "verify-sheet", "contact", "validate",
+    "schema",
+)  # fmt: skip
 
 app = typer.Typer(
     name="conveyor",

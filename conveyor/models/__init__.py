@@ -8,6 +8,7 @@ from conveyor.models.conveyor import Conveyor
 from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.idlers import Idlers, IdlerSet
 from conveyor.models.material import BulkMaterial
+from conveyor.models.methods import CALIBRATED, Calibration
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
 from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.report import Report
@@ -25,16 +26,19 @@ from conveyor.models.rubber_data import (
     TableShift,
     WLFShift,
 )
+from conveyor.models.runs import MeasuredRun
 from conveyor.models.train import DrivePart
 from conveyor.models.uncertainty import Uncertainty
 
 __all__ = [
+    "CALIBRATED",
     "Ambient",
     "ArrheniusShift",
     "Band",
     "Belt",
     "BulkMaterial",
     "Calculation",
+    "Calibration",
     "Carcass",
     "Cleaner",
     "Conveyor",
@@ -52,6 +56,7 @@ __all__ = [
     "Idlers",
     "LoadCase",
     "MeasuredRange",
+    "MeasuredRun",
     "Model",
     "Operation",
     "Prony",

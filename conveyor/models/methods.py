@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Final, Self
 
 from pydantic import Field, model_validator
 
@@ -55,3 +55,26 @@ class Cema(Model):
     """Kt, 1 above freezing."""
     idler_friction: Annotated[Force, Bounds(ge="0 N", le="1 kN")]
     """Ai of one idler set (1.5 to 2.8 lbf by roll diameter and series)."""
+
+
+CALIBRATED: Final = ("indentation", "idler_rotation", "flexure")
+"""Keys of the forces that a calibration has a factor for."""
+Factor = Annotated[Number, Field(gt=0, le=10)]
+
+
+class Calibration(Model):
+    """Factors on forces along the belt, from measured power (`conveyor calibrate`) or from experience."""
+
+    indentation: Factor = 1.0
+    """On the indentation of the covers by the rolls."""
+    idler_rotation: Factor = 1.0
+    """On the drag of all rolls."""
+    flexure: Factor = 1.0
+    """On the flexure of belt and bulk; flexure that is a share of the main resistance follows the other two as well."""
+    source: Annotated[str, Field(min_length=1, max_length=500)] | None = None
+    """Where they are from: conveyor, date, number of runs."""
+
+    @property
+    def factors(self) -> dict[str, float]:
+        """Every factor by the key of its force."""
+        return {name: getattr(self, name) for name in CALIBRATED}

@@ -13,7 +13,7 @@ from conveyor.models.compound import RubberCompound
 from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
-from conveyor.models.methods import Cema, Flexure
+from conveyor.models.methods import Calibration, Cema, Flexure
 from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
 from conveyor.models.route import Route
 from conveyor.units import Acceleration, Bounds, Fraction, Quantity, quantity, si, text
@@ -58,6 +58,8 @@ class Calculation(Model):
     """Flexure of belt and bulk as a share of the main resistance, instead of load and sag."""
     flexure: Flexure | None = None
     """Laws for the flexure, instead of load and sag by one measured site."""
+    calibration: Calibration | None = None
+    """Factors on indentation, idler rotation and flexure, from measured power; 1 without."""
     cema: Cema | None = None
     """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")

@@ -11,6 +11,7 @@ from conveyor.models.cases import LoadCase
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.route import Route, Section
+from conveyor.models.runs import MeasuredRun
 from conveyor.units import Quantity, from_si, si
 
 CoverChoice = Literal["bottom", "top", "both"]
@@ -194,3 +195,33 @@ def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor
     """
     at = float(f"{conveyor.temperature + change:.9g}")
     return with_temperature(conveyor, from_si(at, "temperature", "K"))
+
+
+def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]:
+    """The conveyor as it ran in each of the runs; runs of one state are one conveyor.
+
+    Raises
+    ------
+    InputError
+        The bulk does not fit the belt; the run is named.
+    RangeError
+        A compound is not known at a run's temperature.
+    """
+    known: dict[tuple[float | None, ...], Conveyor] = {}
+    for number, run in enumerate(runs, start=1):
+        if run.state not in known:
+            try:
+                known[run.state] = _as_run(conveyor, run)
+            except (InputError, RangeError) as error:
+                raise type(error)(f"run {number}: {error}") from None
+    return [known[run.state] for run in runs]
+
+
+def _as_run(conveyor: Conveyor, run: MeasuredRun) -> Conveyor:
+    found = conveyor.replace(material=conveyor.material.replace(flow=run.flow))
+    if run.speed is not None:
+        found = found.replace(belt=found.belt.replace(speed=run.speed))
+    if run.air_temperature is not None:
+        ambient = {"temperature": run.air_temperature, "belt_temperature": run.temperature}
+        return found.replace(ambient=found.ambient.replace(**ambient))
+    return found if run.temperature is None else with_temperature(found, run.temperature)

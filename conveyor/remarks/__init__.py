@@ -60,6 +60,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
                 *_contact(conveyor),
                 *roll_warnings(found),
                 *_left_out(found),
+                *_calibration(conveyor),
                 *_drive(found),
                 *(
                     _of_case(check, check.why)
@@ -192,6 +193,18 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             f"route.cleaners not given: {line.scrapers[0].count} as wide as the belt assumed, pressed as in the worked "
             "example of ISO 5048 (general knowledge)"
         )
+
+
+def _calibration(conveyor: Conveyor) -> Iterator[Said]:
+    given = conveyor.calculation.calibration
+    if given is None or all(factor == 1.0 for factor in given.factors.values()):
+        return
+    factors = ", ".join(f"{name.replace('_', ' ')} x {value:g}" for name, value in given.factors.items())
+    source = "no source given" if given.source is None else quoted(given.source)
+    yield said(
+        f"calculation.calibration: {factors} ({source}) in forces, tensions and power; figures of single rolls are "
+        "without it"
+    )
 
 
 def _drive(found: CalculatedConveyor) -> Iterator[Said]:

@@ -10,7 +10,7 @@ from datetime import date
 from typing import Any
 
 from openpyxl.cell.cell import Cell, MergedCell
-from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
+from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
@@ -30,6 +30,9 @@ GREY = Font(name="Calibri", italic=True, color="666666")
 LINK = Font(name="Calibri", underline="single", color=ACCENT)
 PALE = PatternFill("solid", fgColor="E8EEF5")
 TOTAL = Border(top=Side(style="thin", color=ACCENT))
+ASKED = PatternFill("solid", fgColor="FFF9DB")
+_LINE = Side(style="thin", color="B5A55A")
+_BOX = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
 _HEADER = Font(name="Calibri", bold=True, color="FFFFFF")
 _FILL = PatternFill("solid", fgColor=ACCENT)
 _LEFT = Alignment(horizontal="left", indent=1)
@@ -120,6 +123,8 @@ def table(
         )
         if each.kind == "verdict":
             _judge(sheet, at, values)
+        if each.asked:
+            _ask(sheet, at, len(values))
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
         wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
@@ -191,6 +196,13 @@ def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
             look = VERDICTS[value]
             cell = sheet.cell(i, at[1])
             cell.font, cell.fill, cell.alignment = look.font, look.fill, _CENTRE
+
+
+def _ask(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
+    """Mark cells that the reader is to fill in."""
+    for i in range(at[0], at[0] + count):
+        cell = sheet.cell(i, at[1])
+        cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
 
 
 def _worded(value: Any) -> Any:

@@ -59,6 +59,8 @@ class Column:
         Whether the line of totals has its sum.
     sparse : bool
         Whether it is left out where no row has a value.
+    asked : bool
+        Whether its cells are left empty for the reader to fill in.
     key : str
         A stable name; without it made of the label.
     """
@@ -71,6 +73,7 @@ class Column:
     json: str = ""
     total: bool = False
     sparse: bool = False
+    asked: bool = False
     key: str = ""
 
     def __post_init__(self) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 from openpyxl import Workbook
 
@@ -20,6 +20,7 @@ from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
 from conveyor.report.places import MOST_ROWS, Page, file_name
 
+Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
     "Summary": cover.summary,
     "Results": sheets.single,
@@ -47,9 +48,23 @@ COMPARISON_SHEETS: Final = {
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
+VERIFICATION_SHEETS: Final = {
+    "About": sheets.about,
+    "N per width": sheets.to_compare,
+    "Idler set": sheets.to_compare,
+}
 _WHERE_ASKED: Final = ("Defaults", "Load cases", "Case checks", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
-_PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
+_PORTRAIT: Final = (
+    "Summary",
+    "Resistances",
+    "States",
+    "Loop",
+    "Indentation",
+    "Rubber",
+    CHECKS_AND_NOTES,
+    "About",
+)
 
 
 def write(contents: Contents, path: Path) -> Path:
@@ -81,10 +96,10 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def files(contents: Contents, path: Path) -> dict[Path, bytes]:
-    """Workbook of a report and the tables too long for it, by the files they go to; as `write`."""
+def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
+    """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
     with _uncollected():
-        book, content = build(contents, path.stem), BytesIO()
+        book, content = build(contents, path.stem, fills), BytesIO()
         try:
             book.save(content)  # by way of temporary files
         except OSError as error:
@@ -106,16 +121,20 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def build(contents: Contents, stem: str = "") -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it."""
-    about, fills = contents.document, COMPARISON_SHEETS if contents.document.facts else SHEETS
+def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Workbook:
+    """Workbook of a report, not yet saved; `stem` names files beside it.
+
+    `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
+    """
+    about, own = contents.document, fills is None
+    fills = fills if fills is not None else COMPARISON_SHEETS if about.facts else SHEETS
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
     book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
     for title in dict.fromkeys((*fills, *contents.sheets)):
-        if title in contents.sheets or title not in _WHERE_ASKED:
+        if title in contents.sheets or (own and title not in _WHERE_ASKED):
             sheet = book.create_sheet(title)
             fills.get(title, sheets.stacked)(Page(sheet, contents, stem))
             print_set_up(sheet, header, paper=about.paper, portrait=title in _PORTRAIT)

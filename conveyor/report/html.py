@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import date
 from importlib.metadata import version
@@ -77,20 +77,21 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def build(contents: Contents) -> Html:
-    """Page of the tables and drawings of a report."""
+def build(contents: Contents, parts: Sequence[tuple[str, str]] | None = None) -> Html:
+    """Page of the tables and drawings of a report; its parts, else those of a conveyor or a comparison."""
     about = contents.document
-    compared = bool(about.facts)
-    made = (
-        f"conveyor {version('conveyor')}, {date.today().isoformat()}, spec SHA-256 {about.fingerprint[:16]}"
-    )
+    if parts is None:
+        parts = COMPARISON_PARTS if about.facts else PARTS
+    made = f"conveyor {version('conveyor')}, {date.today().isoformat()}"
+    if about.fingerprint:
+        made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = facts(about.said.items(), "facts document") if about.said else Html("")
-    parts = [_part(contents, *named) for named in (COMPARISON_PARTS if compared else PARTS)]
+    filled = [_part(contents, *named) for named in parts]
     return page(
         about.title,
         f"{about.kind}, {date.today().isoformat()}",
         joined([document, _top(contents)]),
-        [part for part in parts if part.content],
+        [part for part in filled if part.content],
         made,
         paper=about.paper,
     )

@@ -47,8 +47,8 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
             *(
                 element("th", cell, scope="row", class_=how)
                 if j < shown.named
-                else element("td", cell, class_=how)
-                for j, (cell, how) in enumerate(zip(cells, classes, strict=True))
+                else element("td", cell, class_="asked" if column.asked else how)
+                for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True))
             ),
         )
 
@@ -91,7 +91,7 @@ def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
     if column.kind == NAMED:
         return _with_unit(value, row.unit(system).sign)
     if _missing(value):
-        return escaped(_NOTHING)
+        return escaped("" if column.asked else _NOTHING)
     if column.kind == "verdict" and value in _MARKS:
         return verdict(value)
     return escaped(shown.unit(column, row, system).written(value))

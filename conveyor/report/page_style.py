@@ -64,6 +64,7 @@ thead .n { white-space: normal; }
 tbody .name { white-space: nowrap; }
 .wide table { font-size: .8rem; }
 .wide th, .wide td { padding: .28rem .4rem; }
+.asked { background: var(--open-pale); border: 1px solid var(--line); min-width: 3.5rem; }
 .unit { white-space: nowrap; font-weight: 400; }
 .long { overflow-wrap: anywhere; min-width: 11rem; }
 .verdict { display: inline-block; padding: 0 .5rem; border-radius: .2rem; font-weight: 600; white-space: nowrap; }

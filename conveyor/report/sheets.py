@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date
 from importlib.metadata import version
+from itertools import pairwise
 
 from openpyxl.styles import Alignment
 from openpyxl.utils import get_column_letter
@@ -21,6 +22,7 @@ _CURVES_COLUMN = "H"
 _CHART_ROWS = 20
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _PAGE_ROWS = 110  # of a compound that still fit its page
+_NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
 """Bars that one chart shows legibly."""
 _FILLED = 1.05  # of a line's width that text takes before it breaks at a word
@@ -144,6 +146,30 @@ def notes(page: Page) -> None:
     place = page.place("provenance", row, widest=70)
     told = {"checks", "remarks", "provenance"}
     page.below(place, [key for key in contents.of(sheet.title) if key not in told])
+
+
+def about(page: Page) -> None:
+    """What a sheet to fill in is of, what its figures are, and who fills it in."""
+    sheet, head = page.sheet, page.contents.document
+    put(sheet["A1"], head.title, TITLE)
+    for row, (name, value) in enumerate(head.facts, start=2):
+        put(sheet.cell(row, 1), name, GREY)
+        put(sheet.cell(row, 2), value)
+    sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 26, 60
+    row = paragraphs(sheet, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption"))
+    told = {"remarks"}
+    page.stacked([key for key in page.contents.of(sheet.title) if key not in told], row)
+
+
+def to_compare(page: Page) -> None:
+    """A table to fill in: names of rows and header in view, a new sheet of paper for every new first name."""
+    (key,) = page.contents.of(page.sheet.title)
+    part = page.contents[key].on_sheet()
+    place = page.headed(key, frozen=f"{get_column_letter(part.named + 1)}3", widest=44)
+    names = [part.columns[0].get(row) for row in part.rows]
+    for i, (before, after) in enumerate(pairwise(names), start=place.header + 1):
+        if before != after and len(names) > _NEW_PAGE:
+            page.sheet.row_breaks.append(Break(id=i))
 
 
 def ranking(page: Page) -> None:

@@ -1,0 +1,135 @@
+"""`conveyor verify-sheet`: the sheet that a designer sends to a belt maker."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from conveyor.cli.app import (
+    AsJson,
+    Force,
+    Quiet,
+    Shelves,
+    UnitsOption,
+    WebPage,
+    Workbook,
+    app,
+    examples,
+    json_text,
+    print_text,
+    progress,
+    say,
+    values,
+)
+from conveyor.cli.outputs import Outputs
+from conveyor.errors import InputError
+from conveyor.files import marks
+
+if TYPE_CHECKING:
+    from conveyor.units import System
+
+_AXES = {
+    "--load": ("line_loads", "N/mm", "N/m", "lbf/in"),
+    "--temperature": ("temperatures", "degC", "degF"),
+    "--roll": ("roll_diameters", "mm", "in"),
+    "--speed": ("speeds", "m/s", "fpm"),
+    "--cover": ("covers", "mm", "in"),
+}
+"""Options, what they are called in Python, and their units, the first without one."""
+
+
+@app.command(
+    "verify-sheet",
+    short_help="Write a sheet for a belt maker to fill in.",
+    epilog=examples(
+        "conveyor verify-sheet standard-cover low-rolling-resistance-cover -o sheet.xlsx",
+        'conveyor verify-sheet mine.yaml --load "1:8:1 N/mm" --roll "194 mm" --html sheet.html',
+        "conveyor verify-sheet s100 --spec overland.yaml --temperature -10:30:10 -o sheet.xlsx",
+    ),
+)
+def verify_sheet(
+    compounds: Annotated[
+        list[str],
+        typer.Argument(metavar="COMPOUND...", help="Shelf names or compound files.", show_default=False),
+    ],
+    spec: Annotated[
+        Path | None,
+        typer.Option("--spec", metavar="SPEC", help="Conveyor whose most loaded carry set is shown as well."),
+    ] = None,
+    load: Annotated[
+        str | None,
+        typer.Option(metavar="VALUES", help="Line loads: from:to:step or a,b,c; else 1 to 8 N/mm."),
+    ] = None,
+    temperature: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VALUES", help="Of the cover; else -20 to 40 degC as far as compounds are known."
+        ),
+    ] = None,
+    roll: Annotated[
+        str | None, typer.Option(metavar="VALUES", help="Diameters of rolls; else 159, 194, 219 mm.")
+    ] = None,
+    speed: Annotated[
+        str | None, typer.Option(metavar="VALUES", help="Of the belt; else 2.5, 5, 7.5 m/s.")
+    ] = None,
+    cover: Annotated[
+        str | None, typer.Option(metavar="VALUES", help="Thickness of the cover; else 6, 7, 8 mm.")
+    ] = None,
+    softened: Annotated[
+        bool,
+        typer.Option(
+            "--softened", help="Moduli at the strain of every roll, where known: half a second a figure."
+        ),
+    ] = False,
+    output: Workbook = None,
+    html: WebPage = None,
+    units: UnitsOption = None,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    shelf: Shelves = None,
+) -> None:
+    """What compounds lose under rolls, beside empty columns for a maker's tests, as a workbook and a page."""
+    to = Outputs(spec, *compounds, force=force)
+    to.file("--output", output, ".xlsx", kind=marks.REPORT)
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    if output is None and html is None and not as_json:
+        raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
+    import conveyor
+    from conveyor.report import excel, verifying
+    from conveyor.report import html as page
+
+    line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
+    system: System = units.value if units is not None else "SI" if line is None else line.report.units
+    given = dict(zip(_AXES, (load, temperature, roll, speed, cover), strict=True))
+    axes: dict[str, Any] = {
+        _AXES[option][0]: values(text, option, *_AXES[option][1:])
+        for option, text in given.items()
+        if text is not None
+    }
+    with progress(silent=quiet or as_json) as told:
+        found = conveyor.verify_sheet(
+            compounds,
+            conveyor=line,
+            softened=softened,
+            shelves=shelf or (),
+            progress=None if told is None else partial(told, "compounds"),
+            **axes,
+        )
+    contents = found.contents(system)
+    if output is not None:
+        to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
+    if html is not None:
+        to.add("page", html, {html: page.build(contents, verifying.PARTS).encode()})
+    figures = json_text(found.to_dict())
+    written = to.save()
+    if as_json:
+        print_text(figures)
+    elif not quiet:
+        without = sum(row.reason != "" for row in found.rows) + sum(row.reason != "" for row in found.sets)
+        say(
+            f"{len(found.rows)} rows, {len(found.sets)} of an idler set; {without} without a figure", *written
+        )

@@ -1,0 +1,176 @@
+"""The sheet that a designer sends to a belt maker: ours beside empty columns for theirs; every table declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib.metadata import version
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final
+
+from conveyor.models import Report
+from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table
+from conveyor.report.tables import Remark
+from conveyor.units import System
+from conveyor.units.presentation import unit
+
+if TYPE_CHECKING:
+    from conveyor.studies.verification import CalculatedVerification
+
+ABOUT: Final = "About"
+PER_WIDTH: Final = "N per width"
+PER_SET: Final = "Idler set"
+PARTS: Final = (
+    ("assumptions", "What these figures are"),
+    ("to-fill-in", "To fill in"),
+    ("per-width", "Resistance per width"),
+    ("per-set", "Resistance of an idler set"),
+)
+"""Parts of the page."""
+_TO_FILL_IN: Final = (
+    "maker", "belt or compound", "laboratory", "standard of the test", "date of the test", "remarks",
+)  # fmt: skip
+
+
+def of_verification(found: CalculatedVerification, system: System) -> Contents:
+    """Every table of a verification sheet in a unit system."""
+    names = ", ".join(compound.name for compound in found.compounds)
+    facts = (
+        ("compounds", names),
+        ("calculated by", f"conveyor {version('conveyor')}"),
+        ("conveyor of the idler set", "none" if found.conveyor is None else found.conveyor.name),
+    )
+    title = f"Rolling resistance of {names}"
+    report = Report() if found.conveyor is None else found.conveyor.report
+    about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), 0.0, facts)
+    parts = (what(found), to_fill_in(), per_width(found, system), per_set(found))
+    return Contents(about, tuple(part for part in parts if not part.empty), system)
+
+
+def what(found: CalculatedVerification) -> Table:
+    """What the figures are and rest on, a line each."""
+    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
+    rows = tuple(Remark(("assumption", line)) for line in lines(found))
+    return Table("remarks", ABOUT, "What these figures are", columns, rows)
+
+
+def lines(found: CalculatedVerification) -> Iterator[str]:
+    """What the figures are and rest on."""
+    yield (
+        "Indentation rolling resistance of the cover alone, of one rigid roll in steady running: force per width "
+        "against the belt's motion under a line load; without roll drag, flexure of the belt and losses of the rig."
+    )
+    yield (
+        "Contact is plane strain, frictionless, of a cover bonded to a carcass that does not give (confined); "
+        "the line load is even over the width."
+    )
+    for compound in found.compounds:
+        yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=found.softened)}.'
+    yield (
+        "Figures follow from the compound's small-sample dynamic moduli and are not scaled to rolling tests; published "
+        "tests of whole belts lie above such figures. That is what the empty columns are for."
+    )
+    if found.conveyor is not None:
+        yield (
+            f'The idler set is the most loaded carry set of "{found.conveyor.name}" at its flow and speed: the sum '
+            "of its rolls, each under its own distribution of load, moduli as its calculation.strain says."
+        )
+    yield (
+        "Please fill in the marked columns for the same roll, cover, speed, temperature and line load, measured or "
+        "from your own test-based calculation, and say which."
+    )
+
+
+def _strain(compound: Any, *, softened: bool) -> str:
+    known = compound.strain_dependence
+    if known is None:
+        return "linear, its moduli at the strain they were measured at"
+    if softened:
+        return "moduli at the strain of every roll, where its strain sweeps reach; elsewhere those of the master curve"
+    return "linear, moduli at the strain of its master curve; its strain sweeps are not used here"
+
+
+def to_fill_in() -> Table:
+    """Who tested what."""
+    columns = (
+        Column("of the test", "text", lambda row: row),
+        Column("maker", "text", lambda _: None, asked=True),
+    )
+    page = (OnPage("to-fill-in", "Of the test"),)
+    return Table("to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, page)
+
+
+def per_width(found: CalculatedVerification, system: System) -> Table:
+    """One row a compound, cover, roll, speed and temperature; two columns a line load, ours and theirs."""
+    strength = unit("strength", system)
+    pairs: list[Column] = []
+    for k, load in enumerate(found.line_loads):
+        said = f"{strength.shown(load):.4g} {strength.sign}"
+        pairs += [
+            Column(f"at {said}, ours", "line force", _resistance(k), key=f"ours_{k + 1}"),
+            Column("maker", "line force", lambda _: None, asked=True, key=f"maker_{k + 1}"),
+        ]
+    columns = (
+        Column("compound", "text", attrgetter("compound")),
+        Column("cover", "size", attrgetter("cover")),
+        Column("roll", "size", attrgetter("diameter")),
+        Column("belt speed", "speed", attrgetter("speed"), key="speed"),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        *pairs,
+        Column("no figure because", "text", lambda row: row.reason or None, sparse=True),
+    )
+    heading = "Indentation resistance per width under line loads"
+    page = (OnPage("per-width", heading),)
+    return Table("per_width", PER_WIDTH, heading, columns, found.rows, page, named=5)
+
+
+def _resistance(k: int) -> Callable[[Any], Any]:
+    return lambda row: row.resistances[k]
+
+
+def per_set(found: CalculatedVerification) -> Table:
+    """One row a compound and temperature."""
+    columns = (
+        Column("compound", "text", attrgetter("compound")),
+        Column("section", "text", attrgetter("section")),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("load of the set", "force", attrgetter("load")),
+        Column("ours", "force", attrgetter("resistance")),
+        Column("maker", "force", lambda _: None, asked=True),
+        Column("no figure because", "text", lambda row: row.reason or None, sparse=True),
+    )
+    heading = "Indentation resistance of the most loaded carry set"
+    page = (OnPage("per-set", heading),)
+    return Table("per_set", PER_SET, heading, columns, found.sets, page, named=3)
+
+
+def plain(found: CalculatedVerification) -> dict[str, Any]:
+    """Plain numbers for JSON; units in the keys."""
+    return {
+        "compounds": [compound.name for compound in found.compounds],
+        "softened": found.softened,
+        "line_loads_N_per_m": list(found.line_loads),
+        "rows": [
+            {
+                "compound": row.compound,
+                "cover_m": row.cover,
+                "roll_diameter_m": row.diameter,
+                "speed_m_per_s": row.speed,
+                "temperature_K": row.temperature,
+                "resistance_N_per_m": list(row.resistances),
+                "reason": row.reason,
+            }
+            for row in found.rows
+        ],
+        "sets": [
+            {
+                "compound": row.compound,
+                "section": row.section,
+                "temperature_K": row.temperature,
+                "load_N": row.load,
+                "resistance_N": row.resistance,
+                "reason": row.reason,
+            }
+            for row in found.sets
+        ],
+        "what": list(lines(found)),
+    }

@@ -1,0 +1,563 @@
+"""Factors on indentation, idler rotation and flexure from measured power: which the runs tell apart, with bands.
+
+Every run is the conveyor of the spec at its flow, speed and temperature; their contacts are solved side by side,
+once. The forces are then scaled and the loop of tensions is closed again (Gauss-Newton: the power is all but linear in
+the factors), weighted least squares. Factors that the runs do not tell apart become one; of all ways to join them that
+with the most factors is taken whose bands say something. Derived; least squares and bands as in every textbook (Seber
+and Lee, Linear Regression Analysis, 2003, chapters 3 and 5).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import version
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import chdtrc, stdtrit
+
+from conveyor.arguments import checked
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.forces import along_the_belt
+from conveyor.loop.balance import balance
+from conveyor.models import CALIBRATED, Calibration, Conveyor, MeasuredRun
+from conveyor.models.variants import with_runs
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
+from conveyor.studies.uncertainty import COVERED
+
+Array = NDArray[np.float64]
+Group = tuple[str, ...]
+Grouping = tuple[Group, ...]
+
+TYPICAL_ERROR: Final = 0.02
+"""Standard deviation of a measured power over itself, where bands are judged before residuals say it: general knowledge
+(a power meter of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
+TOLD_APART: Final = 0.25
+"""Half width of a band up to which a factor is told: wider, it says less than a guess does (general knowledge)."""
+UNLIKE: Final = 0.2
+"""Standard deviation by which factors that are joined may differ from their mean: general knowledge (friction factors
+of like conveyors spread as much). It is in the bands of the other factors."""
+POOR_FIT: Final = 0.01
+"""Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
+LARGEST_FACTOR: Final = 10.0
+_DIGITS: Final = 6
+_STEP: Final = (
+    1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
+)
+_SETTLED: Final = 1e-7
+_MOST: Final = 30
+
+
+@dataclass(frozen=True)
+class FittedFactor:
+    """A factor that the runs tell, one for all its forces, between whose ends nine tenths lie [-]."""
+
+    forces: tuple[str, ...]
+    value: float
+    low: float
+    high: float
+
+    @property
+    def name(self) -> str:
+        """Its forces in words."""
+        return _words(self.forces)
+
+
+@dataclass(frozen=True)
+class CalibratedRun:
+    """A run: measured, as computed without factors and with them [W], and the error it was weighed with [W]."""
+
+    run: MeasuredRun
+    measured: float
+    before: float
+    after: float
+    error: float
+
+    @property
+    def difference(self) -> float:
+        """Calculated less measured over measured [-]."""
+        return self.after / self.measured - 1.0
+
+    @property
+    def difference_before(self) -> float:
+        """As `difference`, without factors [-]."""
+        return self.before / self.measured - 1.0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CalculatedCalibration:
+    """Factors from measured power.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        With the factors as its `calculation.calibration`.
+    factors : tuple of FittedFactor
+        Those that the runs tell apart, with bands.
+    held : tuple of str
+        Forces whose factor stays 1.
+    correlation : ndarray, shape (n, n)
+        Of the factors.
+    runs : tuple of CalibratedRun
+        In the order given.
+    chi_square : float
+        Squares of differences over errors, summed; the degrees of freedom where errors are estimated.
+    freedom : int
+        Runs less factors.
+    error : float or None
+        Standard deviation of a power over itself: given, or from the residuals; None where the runs state their own.
+    estimated : bool
+        Whether it is from the residuals.
+    notes : tuple of str
+        What is not told apart, and what else to know.
+    """
+
+    conveyor: Conveyor
+    factors: tuple[FittedFactor, ...]
+    held: tuple[str, ...]
+    correlation: Array
+    runs: tuple[CalibratedRun, ...]
+    chi_square: float
+    freedom: int
+    error: float | None
+    estimated: bool
+    notes: tuple[str, ...]
+
+    @property
+    def calibration(self) -> Calibration:
+        """The factors as the spec takes them."""
+        given = self.conveyor.calculation.calibration
+        return Calibration() if given is None else given
+
+    @property
+    def fragment(self) -> str:
+        """Part of a spec, YAML, to paste."""
+        lines = [f"    {name}: {value:g}" for name, value in self.calibration.factors.items()]
+        return "\n".join(
+            ["calculation:", "  calibration:", *lines, f'    source: "{self.calibration.source}"', ""]
+        )
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{f.name} {f.value:.3f} ({f.low:.3f} to {f.high:.3f})" for f in self.factors)
+        return f'CalibrationStudy("{self.conveyor.name}": {told}; {len(self.runs)} runs)'
+
+
+@checked
+def calibrate(
+    conveyor: Conveyor,
+    runs: Sequence[MeasuredRun],
+    *,
+    error: float | None = None,
+    factors: Sequence[str] | None = None,
+    rtol: float | None = None,
+    progress: Progress | None = None,
+) -> CalculatedCalibration:
+    """Fit factors on forces to measured power.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec; a calibration that it has is left out, and replaced.
+    runs : sequence of MeasuredRun
+        Measured power.
+    error : float, optional
+        Standard deviation of a power over itself [-], of runs that do not state theirs; without it from the residuals.
+    factors : sequence of str, optional
+        Which of indentation, idler_rotation and flexure are wanted, each for itself, the others stay 1; without it as
+        many as the runs tell apart, others joined.
+    rtol : float, optional
+        Relative tolerance of the contacts [-]; that of the spec without it.
+    progress : callable, optional
+        Called with what is done and the whole.
+
+    Returns
+    -------
+    CalculatedCalibration
+        Factors with bands, runs with residuals, what is not told apart.
+
+    Raises
+    ------
+    InputError
+        Fewer runs than factors, runs at the mains without the train's efficiency, runs that brake without theirs or
+        against the calculation, factors that are not told apart or come out negative.
+    NoSolutionError, RangeError
+        A run has no answer.
+
+    Notes
+    -----
+    Bands hold nine tenths: from the errors stated, widened by the root of chi square over its degrees of freedom where
+    that is improbable (below 1 %), or from the residuals, with Student's t. The forces that have no factor (lift, tilt,
+    secondary resistances) and the efficiencies are taken as the spec says.
+    """
+    _check(conveyor, runs, error, factors)
+    plain = conveyor.replace(calculation=conveyor.calculation.replace(calibration=None))
+    solve = partial(calculate_many, rtol=rtol, progress=progress)
+    scene = _Scene.of(plain, runs, Calibration(), error, solve)
+    before = scene.power(Calibration())
+    _check_direction(runs, before, "as calculated")
+    free, notes = _free(scene, factors)
+    for _ in range(_MOST):
+        chosen, found = _chosen(scene, free, wanted=factors is not None)
+        if not scene.curved or scene.solved_with(found.calibration):
+            break
+        scene = _Scene.of(plain, runs, found.calibration, error, solve)
+    else:
+        raise NoSolutionError("the factors and the loads on vertical curves do not settle: fit fewer factors")
+    _check_direction(runs, found.power, "with the factors")
+    source = f"{len(runs)} measured runs, conveyor calibrate {version('conveyor')}"
+    made = found.calibration.replace(source=source)
+    calibrated = conveyor.replace(calculation=conveyor.calculation.replace(calibration=made))
+    relations = [*notes, *_not_told(runs, chosen), *found.notes]
+    figures = (each.tolist() for each in (scene.measured, before, found.power, found.sigma))
+    columns = zip(runs, *figures, strict=True)
+    return CalculatedCalibration(
+        conveyor=calibrated,
+        factors=found.factors,
+        held=tuple(name for name in CALIBRATED if not any(name in group for group in chosen)),
+        correlation=found.correlation,
+        runs=tuple(CalibratedRun(*column) for column in columns),
+        chi_square=found.chi_square,
+        freedom=found.freedom,
+        error=found.error,
+        estimated=scene.error is None and scene.stated is None,
+        notes=tuple(relations),
+    )
+
+
+def _check(
+    conveyor: Conveyor, runs: Sequence[MeasuredRun], error: float | None, factors: Sequence[str] | None
+) -> None:
+    """Refuse what no fit can mend."""
+    unknown = [name for name in factors or () if name not in CALIBRATED]
+    if unknown or (factors is not None and not factors):
+        raise InputError(f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED)}")
+    if error is not None and not 0.0 < error < 1.0:
+        raise InputError(
+            f"error = {error:g}: a standard deviation over the power, between 0 and 1, is needed"
+        )
+    wanted = 1 if factors is None else len(set(factors))
+    if len(runs) < wanted or not runs:
+        raise InputError(f"{len(runs)} runs for {wanted} factors: give as many runs as factors at least")
+    for number, run in enumerate(runs, start=1):
+        if run.at == "mains" and not conveyor.drive.knows_mains:
+            raise InputError(
+                f"run {number}: its power is that at the mains, and drive.train has no part between mains and motor "
+                "shaft: add the motor and the converter (side: mains), or measure at the shaft"
+            )
+        if run.watts == 0.0:
+            raise InputError(f"run {number}: a power of 0 tells nothing of the friction; remove it")
+        if run.watts < 0.0 and conveyor.drive.regeneration_efficiency is None:
+            raise InputError(
+                f"run {number}: the belt drives its motors, and drive.regeneration_efficiency is not given: give it"
+            )
+    stated = [run.deviation is not None for run in runs]
+    if any(stated) and not all(stated) and error is None:
+        raise InputError(
+            f"run {1 + stated.index(False)}: no standard deviation, others have one; complete it, or give one for all "
+            "others (error)"
+        )
+
+
+def _check_direction(runs: Sequence[MeasuredRun], power: Array, how: str) -> None:
+    for number, (run, watts) in enumerate(zip(runs, power.tolist(), strict=True), start=1):
+        if run.watts * watts <= 0.0:
+            raise InputError(
+                f"run {number}: measured {run.watts / 1e3:.4g} kW, {how} {watts / 1e3:.4g} kW: one drives, the other "
+                "brakes, and the drive's efficiency counts either way; leave the run out, or look at route and flow"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """The runs with their contacts solved under a calibration (which on vertical curves loads the rolls)."""
+
+    found: tuple[CalculatedConveyor, ...]
+    at: tuple[str, ...]
+    measured: Array
+    stated: Array | None
+    error: float | None
+    under: Calibration
+
+    @classmethod
+    def of(
+        cls,
+        conveyor: Conveyor,
+        runs: Sequence[MeasuredRun],
+        under: Calibration,
+        error: float | None,
+        solve: Callable[[list[Variant]], list[CalculatedConveyor | NoAnswer]],
+    ) -> _Scene:
+        """Solve the runs; those of one state once."""
+        made = conveyor.replace(calculation=conveyor.calculation.replace(calibration=under))
+        states = dict(zip((run.state for run in runs), with_runs(made, runs), strict=True))
+        answers = dict(zip(states, solve(list(map(Variant, states.values()))), strict=True))
+        found = []
+        for number, run in enumerate(runs, start=1):
+            answer = answers[run.state]
+            if not isinstance(answer, CalculatedConveyor):
+                raise type(answer)(f"run {number}: {answer}")
+            found.append(answer)
+        measured = np.array([run.watts for run in runs])
+        own = [run.deviation_watts for run in runs]
+        stated = None
+        if any(value is not None for value in own):
+            shares = (error or 0.0) * abs(measured)
+            stated = np.array([value or share for value, share in zip(own, shares.tolist(), strict=True)])
+        return cls(tuple(found), tuple(run.at for run in runs), measured, stated, error, under)
+
+    @property
+    def curved(self) -> bool:
+        """Whether tensions load the rolls."""
+        return self.found[0].line.curved
+
+    def solved_with(self, calibration: Calibration) -> bool:
+        """Whether the contacts were solved under these factors, to the digits that are given."""
+        pairs = zip(self.under.factors.values(), calibration.factors.values(), strict=True)
+        return all(abs(a - b) <= 10.0**-4 for a, b in pairs)
+
+    def power(self, calibration: Calibration) -> Array:
+        """Power of every run where it was measured [W], the loop closed again around scaled forces."""
+        known: dict[int, tuple[float, float]] = {}
+        watts = []
+        for k, (one, at) in enumerate(zip(self.found, self.at, strict=True)):
+            first = next(i for i in range(k + 1) if self.found[i] is one)
+            if first not in known:
+                along = along_the_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration)
+                made = balance(one.balance.frame, along, one.balance.unit_main).power
+                known[first] = made.motor, made.mains
+            watts.append(known[first][at == "mains"])
+        return np.array(watts)
+
+    def slopes(self, grouping: Grouping, values: Sequence[float], power: Array) -> Array:
+        """Derivatives of the powers by the factors of groups [W], shape (n, groups)."""
+        columns = []
+        for k in range(len(grouping)):
+            moved = [value * (1.0 + _STEP * (i == k)) for i, value in enumerate(values)]
+            columns.append((self.power(_calibration(grouping, moved)) - power) / (_STEP * values[k]))
+        return np.array(columns).T
+
+    def sigma(self, power: Array) -> Array:
+        """Errors the runs are weighed with [W]: stated, or the share of what is calculated."""
+        return self.stated if self.stated is not None else (self.error or 1.0) * abs(power)
+
+
+def _calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
+    return Calibration(
+        **{name: value for group, value in zip(grouping, values, strict=True) for name in group}
+    )
+
+
+def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Group, list[str]]:
+    """Factors that change something, and why others do not."""
+    notes = []
+    forces = {name: max(abs(_total(one, name)) for one in scene.found) for name in CALIBRATED}
+    free = [name for name in CALIBRATED if forces[name] > 0.0]
+    if "flexure" in free and scene.found[0].fixed.flexure is None:
+        if factors is None:
+            free.remove("flexure")
+        notes.append(
+            "flexure is a share of the main resistance here: it follows indentation and idler rotation, "
+            "a factor of its own cannot be told apart"
+        )
+    if factors is not None:
+        idle = [name for name in factors if forces[name] == 0.0]
+        if idle:
+            raise InputError(f"factors: {_words(idle)} is no force of this conveyor: leave it out")
+        free = [name for name in CALIBRATED if name in factors]
+    return tuple(free), notes
+
+
+def _total(one: CalculatedConveyor, name: str) -> float:
+    return next(force.total for force in one.balance.along if force.key == name)
+
+
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """Factors of a grouping, rounded as they are given."""
+
+    calibration: Calibration
+    factors: tuple[FittedFactor, ...]
+    correlation: Array
+    power: Array
+    sigma: Array
+    chi_square: float
+    freedom: int
+    error: float | None
+    notes: tuple[str, ...]
+
+
+def _groupings(free: Group) -> Iterator[list[Grouping]]:
+    """Ways to join factors, by their number: each for itself, two joined, all joined."""
+    yield [tuple((name,) for name in free)]
+    if len(free) == 3:
+        a, b, c = free
+        yield [((a, c), (b,)), ((a,), (b, c)), ((a, b), (c,))]
+    if len(free) > 1:
+        yield [(free,)]
+
+
+def _chosen(scene: _Scene, free: Group, *, wanted: bool) -> tuple[Grouping, _Fit]:
+    """The most factors whose bands say something.
+
+    Raises
+    ------
+    InputError
+        Not even one factor is told, or not those that are wanted.
+    """
+    reasons = []
+    for ways in _groupings(free):
+        judged = sorted(((_expected_width(scene, way), way) for way in ways), key=lambda pair: pair[0])
+        for width, way in judged:
+            if width > TOLD_APART:
+                reasons.append(
+                    f"{_said(way)}: not told apart, a band of more than ±{TOLD_APART:g} is to be expected"
+                )
+                continue
+            fit = _fit(scene, way)
+            if isinstance(fit, _Fit):
+                return way, fit
+            reasons.append(f"{_said(way)}: {fit}")
+        if wanted:
+            break
+    raise InputError(
+        "; ".join(reasons)
+        + ". Give more runs, empty and full ones and at several temperatures, or ask for fewer factors"
+    )
+
+
+def _expected_width(scene: _Scene, grouping: Grouping) -> float:
+    """Widest half band of a grouping's factors before any residual is seen [-]; infinite where they cannot be told."""
+    ones = [1.0] * len(grouping)
+    power = scene.power(Calibration())
+    error = scene.sigma(power) * (TYPICAL_ERROR if scene.error is None and scene.stated is None else 1.0)
+    freedom = len(power) - len(grouping) - (scene.error is None and scene.stated is None)
+    if freedom < 0:
+        return math.inf
+    weighed = scene.slopes(grouping, ones, power) / error[:, None]
+    if np.linalg.matrix_rank(weighed, tol=None) < len(grouping):
+        return math.inf
+    spread = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
+    return float(_normal() * spread.max())
+
+
+def _normal() -> float:
+    return _student(10**9)
+
+
+def _student(freedom: int) -> float:
+    """Standard deviations from the middle of a band to its ends."""
+    return float(stdtrit(freedom, 0.5 + 0.5 * COVERED))
+
+
+def _fit(scene: _Scene, grouping: Grouping) -> _Fit | str:
+    """Gauss-Newton on the closed loop; or why its factors are of no use."""
+    values = [1.0] * len(grouping)
+    for _ in range(_MOST):
+        power = scene.power(_calibration(grouping, values))
+        slopes, sigma = scene.slopes(grouping, values, power), scene.sigma(power)
+        step = np.linalg.lstsq(slopes / sigma[:, None], (scene.measured - power) / sigma, rcond=None)[0]
+        values = [value + float(change) for value, change in zip(values, step, strict=True)]
+        for group, value in zip(grouping, values, strict=True):
+            if not 0.0 < value <= LARGEST_FACTOR:
+                return f"the factor of {_words(group)} comes out as {value:.3g}"
+        if float(abs(step).max()) <= _SETTLED:
+            break
+    else:
+        return "does not settle"
+    values = [float(f"{value:.{_DIGITS}g}") for value in values]
+    calibration = _calibration(grouping, values)
+    power = scene.power(calibration)
+    return _judged(scene, grouping, values, power, scene.slopes(grouping, values, power))
+
+
+def _judged(
+    scene: _Scene, grouping: Grouping, values: list[float], power: Array, slopes: Array
+) -> _Fit | str:
+    """Bands of fitted factors; or which of them says nothing."""
+    sigma, freedom = scene.sigma(power), len(power) - len(values)
+    chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
+    error, ends, notes = scene.error, _normal(), []
+    estimated = scene.error is None and scene.stated is None
+    if estimated:
+        error = math.sqrt(chi_square / freedom)
+        sigma, chi_square, ends = error * sigma, float(freedom), _student(freedom)
+    elif freedom > 0 and chdtrc(freedom, chi_square) < POOR_FIT:
+        wider = math.sqrt(chi_square / freedom)
+        sigma, ends = sigma * wider, _student(freedom)
+        notes.append(
+            f"the differences are {wider:.2g} times the errors stated (probability below {POOR_FIT:.0%}): the errors "
+            "are larger, or something else than these factors differs; the bands are widened by it"
+        )
+    weighed = slopes / sigma[:, None]
+    covariance = np.linalg.inv(weighed.T @ weighed)
+    covariance += _of_joined(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
+    spread = np.sqrt(np.diag(covariance))
+    factors = tuple(
+        FittedFactor(group, value, value - ends * one, value + ends * one)
+        for group, value, one in zip(grouping, values, spread.tolist(), strict=True)
+    )
+    for factor in factors:
+        if factor.high - factor.value > TOLD_APART:
+            return f"the factor of {factor.name} has a band of ±{factor.high - factor.value:.2g}"
+    correlation = covariance / np.outer(spread, spread)
+    stated = None if scene.stated is not None else error
+    return _Fit(
+        _calibration(grouping, values), factors, correlation, power, scene.sigma(power) if not estimated else sigma,
+        chi_square, freedom, stated, tuple(notes),
+    )  # fmt: skip
+
+
+def _of_joined(
+    scene: _Scene, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
+) -> Array:
+    """Covariance of the factors from the differences inside joined ones, which are means as the runs weigh them.
+
+    With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
+    A_k J_i δ_i.
+    """
+    found = np.zeros((len(grouping), len(grouping)))
+    for k, (group, value) in enumerate(zip(grouping, values, strict=True)):
+        if len(group) > 1:
+            apart = tuple((name,) for name in group)
+            others = [g for i, g in enumerate(grouping) if i != k]
+            fixed = [v for i, v in enumerate(values) if i != k]
+            slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
+            moved = solved @ slopes
+            moved[k] = 0.0
+            found += UNLIKE**2 * moved @ moved.T
+    return found
+
+
+def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
+    """What the runs do not tell apart, and what would."""
+    for group in grouping:
+        if len(group) > 1:
+            yield (
+                f"{_kind_of_runs(runs)}: {_words(group)} cannot be told apart; one factor for them. Empty and full "
+                "runs tell losses under load from constant ones, several temperatures rubber from rolls"
+            )
+
+
+def _kind_of_runs(runs: Sequence[MeasuredRun]) -> str:
+    """What is alike in all runs, in words."""
+    flows, temperatures = ({run.state[k] for run in runs} for k in (0, 2))
+    flow = "empty runs only" if flows == {0.0} else "runs at one flow only" if len(flows) == 1 else ""
+    alike = [flow] if flow else []
+    if len(temperatures) == 1:
+        alike.append("at one temperature only" if flow else "runs at one temperature only")
+    return ", ".join(alike) or "these runs"
+
+
+def _said(grouping: Grouping) -> str:
+    if len(grouping) == 1:
+        return f"one factor for {_words(grouping[0])}"
+    return "; ".join(_words(group) for group in grouping)
+
+
+def _words(forces: Sequence[str]) -> str:
+    *others, last = [force.replace("_", " ") for force in forces]
+    return f"{', '.join(others)} and {last}" if others else last

@@ -1,0 +1,326 @@
+"""What a compound loses under single rolls over line load, temperature, roll, cover and speed: to be held to tests.
+
+Rows of laboratories (DIN 22123, AS 1334.13, CEMA-7 test one roll under line loads at temperatures and speeds) are
+computed as the rolls of a conveyor are, all contacts side by side.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Annotated, Any, Final, TypeAlias
+
+from pydantic import TypeAdapter, ValidationError
+
+from conveyor import shelf
+from conveyor.arguments import checked
+from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
+from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
+from conveyor.laws.softening import softened_cover
+from conveyor.line.anchors import anchor
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.operation import BeltSpeed, EarthTemperature
+from conveyor.models.variants import with_compound
+from conveyor.pipeline import CalculatedConveyor, Progress, StretchResult, Variant, calculate_many
+from conveyor.rubber import PronySeries
+from conveyor.rubber.anchor import Anchor
+from conveyor.units import Bounds, Length, LineForce, Quantity, Thickness, in_si, text
+
+Given: TypeAlias = Iterable[str | Quantity]
+LINE_LOADS: Final = ("1 N/mm", "2 N/mm", "4 N/mm", "6 N/mm", "8 N/mm")
+TEMPERATURES: Final = ("-20 degC", "-10 degC", "0 degC", "10 degC", "20 degC", "30 degC", "40 degC")
+ROLL_DIAMETERS: Final = ("159 mm", "194 mm", "219 mm")
+SPEEDS: Final = ("2.5 m/s", "5 m/s", "7.5 m/s")
+COVERS: Final = ("6 mm", "7 mm", "8 mm")
+"""What laboratories test at, and designers build: rolls of ISO 1537; loads, temperatures and covers of the published
+tests of low-resistance covers (219 mm roll, 7 mm cover, 1 to 8 N/mm, 20 degC: CEMA-7)."""
+SPACING: Final = 1.2
+"""Of the rolls [m]; a confined cover forgets a roll within a few thicknesses, so it hardly matters."""
+MOST_POINTS: Final = 100_000
+_AXES: Final[dict[str, tuple[str, TypeAdapter[Any]]]] = {
+    "line_loads": ("line force", TypeAdapter(Annotated[LineForce, Bounds(ge="1 N/m", le="100 kN/m")])),
+    "temperatures": ("temperature", TypeAdapter(EarthTemperature)),
+    "roll_diameters": ("length", TypeAdapter(Annotated[Length, Bounds(ge="20 mm", le="1 m")])),
+    "speeds": ("speed", TypeAdapter(BeltSpeed)),
+    "covers": ("thickness", TypeAdapter(Annotated[Thickness, Bounds(ge="1 mm", le="100 mm")])),
+}
+"""Kind of every axis, and what is allowed: as fields of a spec are, line loads to ten times the heaviest roll's."""
+
+
+@dataclass(frozen=True)
+class VerificationRow:
+    """A compound under a roll at a temperature and speed: what it loses at every line load, or why that is not known.
+
+    Attributes
+    ----------
+    compound : str
+        Its name.
+    cover, diameter, speed, temperature : float
+        Thickness, roll [m]; belt speed [m/s]; of the cover [K].
+    resistances : tuple of float or None
+        Indentation resistance per width at every line load [N/m].
+    reason : str
+        Why there is none.
+    """
+
+    compound: str
+    cover: float
+    diameter: float
+    speed: float
+    temperature: float
+    resistances: tuple[float | None, ...]
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class SetRow:
+    """A compound under the most loaded idler set of a conveyor: what its rolls lose [N], or why that is not known.
+
+    Attributes
+    ----------
+    compound, section : str
+        Its name; where the set stands.
+    temperature, load : float or None
+        Of the cover [K]; of all rolls of the set [N].
+    resistance : float or None
+        Indentation resistance of the set [N].
+    reason : str
+        Why there is none.
+    """
+
+    compound: str
+    section: str
+    temperature: float
+    load: float | None
+    resistance: float | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CalculatedVerification:
+    """What compounds lose, to be held to a maker's tests.
+
+    Attributes
+    ----------
+    compounds : tuple of RubberCompound
+        In the order given.
+    line_loads : tuple of float
+        Of the columns [N/m].
+    rows : tuple of VerificationRow
+        By compound, cover, roll, speed, temperature.
+    sets : tuple of SetRow
+        Of the conveyor, where one is given.
+    conveyor : Conveyor or None
+        Whose sets.
+    softened : bool
+        Whether moduli are those at the strain of each roll, where the compound knows it.
+    """
+
+    compounds: tuple[RubberCompound, ...]
+    line_loads: tuple[float, ...]
+    rows: tuple[VerificationRow, ...]
+    sets: tuple[SetRow, ...]
+    conveyor: Conveyor | None
+    softened: bool
+
+    def __repr__(self) -> str:
+        names = ", ".join(compound.name for compound in self.compounds)
+        return f"VerificationSheet({names}: {len(self.rows)} rows at {len(self.line_loads)} line loads)"
+
+
+@checked
+def verification(
+    compounds: Iterable[str | RubberCompound],
+    *,
+    line_loads: Given = LINE_LOADS,
+    temperatures: Given | None = None,
+    roll_diameters: Given = ROLL_DIAMETERS,
+    speeds: Given = SPEEDS,
+    covers: Given = COVERS,
+    conveyor: Conveyor | None = None,
+    softened: bool = False,
+    shelves: Iterable[str | Path] = (),
+    rtol: float = 1e-6,
+    progress: Progress | None = None,
+) -> CalculatedVerification:
+    """Calculate what compounds lose under single rolls, and under an idler set of a conveyor.
+
+    Parameters
+    ----------
+    compounds : iterable of str or RubberCompound
+        Shelf names, paths of compound files, or compounds.
+    line_loads, roll_diameters, speeds, covers : iterable of str or Quantity
+        Each with its unit ("4 N/mm", "194 mm", "5 m/s", "7 mm").
+    temperatures : iterable of str or Quantity, optional
+        Of the cover; without them -20 to 40 degC as far as each compound is known.
+    conveyor : Conveyor, optional
+        Whose most loaded carry set is calculated at the temperatures with each compound as its bottom cover.
+    softened : bool
+        Take moduli at the strain of every roll and load where the compound knows it (half a second a figure), not at
+        that of its master curve.
+    shelves : iterable of path
+        Further folders of compounds.
+    rtol : float
+        Relative tolerance of the contacts [-].
+    progress : callable, optional
+        Called with the rows done and their total.
+
+    Returns
+    -------
+    CalculatedVerification
+        Rows; those without an answer with the reason.
+
+    Raises
+    ------
+    InputError
+        No compound, a value without unit or of a size that no roll has, more than 100,000 figures.
+
+    Examples
+    --------
+    >>> found = verification(
+    ...     ["s100"],
+    ...     line_loads=["2 N/mm"],
+    ...     temperatures=["20 degC"],
+    ...     roll_diameters=["219 mm"],
+    ...     speeds=["5 m/s"],
+    ...     covers=["7 mm"],
+    ... )
+    >>> round(found.rows[0].resistances[0], 2)
+    6.43
+    """
+    extra = tuple(shelves)
+    chosen = tuple(c if isinstance(c, RubberCompound) else shelf.compound(c, extra=extra) for c in compounds)
+    if not chosen:
+        raise InputError("compounds: give at least one; `conveyor shelf` lists those at hand")
+    scenes = tuple(
+        product(_axis("covers", covers), _axis("roll_diameters", roll_diameters), _axis("speeds", speeds))
+    )
+    loads = _axis("line_loads", line_loads)
+    warmth = _axis("temperatures", TEMPERATURES if temperatures is None else temperatures)
+    count = len(chosen) * len(loads) * len(warmth) * len(scenes)
+    if count > MOST_POINTS:
+        raise InputError(
+            f"{count:,} figures are asked for, at most {MOST_POINTS:,} are calculated; give fewer values"
+        )
+    rows: list[VerificationRow] = []
+    sets: list[SetRow] = []
+    for done, compound in enumerate(chosen):
+        if progress is not None:
+            progress(done, len(chosen))
+        known = {at: _series(compound, at) for at in warmth}
+        if temperatures is None:
+            known = {at: series for at, series in known.items() if isinstance(series, PronySeries)}
+        rows += _rows(compound, known, scenes, loads, softened=softened, rtol=rtol)
+        if conveyor is not None:
+            sets += _sets(conveyor, compound, tuple(known))
+    if progress is not None:
+        progress(len(chosen), len(chosen))
+    return CalculatedVerification(chosen, loads, tuple(rows), tuple(sets), conveyor, softened)
+
+
+def _axis(name: str, given: Given) -> tuple[float, ...]:
+    """Values of an axis, SI, each once and in order."""
+    kind, allowed = _AXES[name]
+    found = []
+    for item in given:
+        try:
+            value: Quantity = allowed.validate_python(item)
+        except ValidationError as error:
+            raise InputError(f"{name}: {error.errors()[0]['msg']}") from None
+        found.append(in_si(text(value), kind))
+    if not found:
+        raise InputError(f"{name}: give at least one")
+    return tuple(sorted(set(found)))
+
+
+def _series(compound: RubberCompound, temperature: float) -> PronySeries | RangeError:
+    try:
+        return compound.series(temperature)
+    except RangeError as error:
+        return error
+
+
+def _rows(
+    compound: RubberCompound,
+    known: Mapping[float, PronySeries | RangeError],
+    scenes: Sequence[tuple[float, float, float]],
+    loads: tuple[float, ...],
+    *,
+    softened: bool,
+    rtol: float,
+) -> Iterator[VerificationRow]:
+    """Every row of a compound: the contacts of all of them in one batch."""
+    asked: list[tuple[VerificationRow, list[RollContact], list[tuple[float, float]]]] = []
+    for (cover, diameter, speed), (temperature, series) in product(scenes, known.items()):
+        row = VerificationRow(compound.name, cover, diameter, speed, temperature, (None,) * len(loads))
+        if isinstance(series, RangeError):
+            asked.append((replace(row, reason=str(series)), [], []))
+            continue
+        roll = RollContact(diameter / 2.0, SPACING, cover, speed, series, compound.poisson_ratio)
+        if not softened or compound.strain_dependence is None:
+            asked.append((row, [roll], [(loads[0], loads[-1])]))
+            continue
+        try:
+            each = [_softened(roll, load, compound, temperature) for load in loads]
+            asked.append((row, each, [(load, load) for load in loads]))
+        except (NoSolutionError, RangeError) as error:
+            asked.append((replace(row, reason=str(error)), [], []))
+    contacts = [contact for _, each, _ in asked for contact in each]
+    lowest, highest = ([span[end] for _, _, each in asked for span in each] for end in (0, 1))
+    curves = iter(indentation_curves(contacts, lowest, highest, rtol) if contacts else ())
+    level = anchor(compound, softened=softened)
+    for row, each, _ in asked:
+        yield _filled(row, [next(curves) for _ in each], loads, level)
+
+
+def _softened(roll: RollContact, load: float, compound: RubberCompound, temperature: float) -> RollContact:
+    factors = compound.amplitude_factors()
+    if factors is None:
+        return roll
+    swept = compound.swept_series(temperature)
+    return replace(roll, rubber=softened_cover(roll, load, factors, temperature, swept)[0])
+
+
+def _filled(
+    row: VerificationRow,
+    curves: Sequence[IndentationCurve | NoSolutionError],
+    loads: tuple[float, ...],
+    level: Anchor | None,
+) -> VerificationRow:
+    """A row with what its curves say, one for all loads or one for each, at the level of the compound's tests."""
+    found: list[IndentationCurve] = []
+    for curve in curves:
+        if isinstance(curve, NoSolutionError):
+            return replace(row, reason=str(curve))
+        found.append(curve)
+    if not found:
+        return row
+    each = found * len(loads) if len(found) == 1 else found
+    factors = [1.0 if level is None else float(level.factor(w, row.temperature)) for w in loads]
+    lost = (f * float(c.resistance(w)) for f, c, w in zip(factors, each, loads, strict=True))
+    return replace(row, resistances=tuple(lost))
+
+
+def _sets(conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]) -> Iterator[SetRow]:
+    """The most loaded carry set of a conveyor on a compound at every temperature."""
+    try:
+        made = with_compound(conveyor, compound, "bottom")
+    except ConveyorError as error:
+        yield from (SetRow(compound.name, "", at, None, None, str(error)) for at in temperatures)
+        return
+    answers = calculate_many([Variant(made, temperature=at) for at in temperatures])
+    for at, answer in zip(temperatures, answers, strict=True):
+        if not isinstance(answer, CalculatedConveyor):
+            yield SetRow(compound.name, "", at, None, None, str(answer))
+            continue
+        carry = [stretch for stretch in answer.stretches if stretch.stretch.strand == "carry"]
+        heaviest = max(carry, key=_load)
+        lost = math.fsum(roll.resistance for roll in heaviest.rolls)
+        yield SetRow(compound.name, heaviest.stretch.section, at, _load(heaviest), lost)
+
+
+def _load(stretch: StretchResult) -> float:
+    return math.fsum(roll.load.force for roll in stretch.rolls)

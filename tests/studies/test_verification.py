@@ -1,0 +1,119 @@
+"""The sheet for a belt maker: our figures are those of single contacts, theirs are empty, a gap has its reason."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.errors import InputError
+from conveyor.indentation import RollContact, indentation_resistance
+from conveyor.report import excel, html, verifying
+from conveyor.report.cells import ASKED
+from conveyor.studies.verification import SPACING
+from tests.loop.loop_lines import line
+
+ONE = {"temperatures": ["20 degC"], "roll_diameters": ["219 mm"], "speeds": ["5 m/s"], "covers": ["7 mm"]}
+
+
+def test_figures_are_those_of_a_single_contact():
+    found = conveyor.verify_sheet(["standard-cover"], line_loads=["1 N/mm", "8 N/mm"], **ONE)
+    (row,) = found.rows
+    compound = shelf.compound("standard-cover")
+    roll = RollContact(0.1095, SPACING, 0.007, 5.0, compound.series(293.15), compound.poisson_ratio)
+    for load, resistance in zip((1e3, 8e3), row.resistances, strict=True):
+        # a load curve is good to its rtol of 1e-6, the single contact to its own
+        assert resistance == pytest.approx(float(indentation_resistance(roll, load).resistance), rel=3e-6)
+
+
+def test_a_softened_figure_lies_below_where_the_rubber_softens():
+    """Strain sweeps of S100 lower E" at 3 % strain to 0.76 and E' to 0.68: f of rubber goes with E"/E'^(4/3)."""
+    linear, softened = (
+        conveyor.verify_sheet(["s100"], line_loads=["8 N/mm"], softened=yes, **ONE).rows[0].resistances[0]
+        for yes in (False, True)
+    )
+    assert linear is not None
+    assert softened is not None
+    assert softened / linear == pytest.approx(0.76 / 0.685 ** (4.0 / 3.0), rel=0.1)
+
+
+def test_a_temperature_without_data_has_its_reason_and_no_figure():
+    found = conveyor.verify_sheet(
+        ["s100"], line_loads=["2 N/mm"], **ONE | {"temperatures": ["20 degC", "150 degC"]}
+    )
+    known, unknown = found.rows
+    assert known.reason == ""
+    assert unknown.resistances == (None,)
+    assert "150 degC" in unknown.reason
+    frame = found.table
+    assert frame["no figure because"].tolist()[1] == unknown.reason
+
+
+def test_without_temperatures_each_compound_is_asked_where_it_is_known():
+    found = conveyor.verify_sheet(
+        ["s100"], line_loads=["2 N/mm"], **{k: v for k, v in ONE.items() if k != "temperatures"}
+    )
+    assert all(row.reason == "" for row in found.rows)
+    assert {round(row.temperature - 273.15) for row in found.rows} <= set(range(-20, 41, 10))
+
+
+def test_the_set_is_the_most_loaded_one_of_the_conveyor():
+    given = line(calculation={"strain": "off"})
+    found = conveyor.verify_sheet(["s100"], line_loads=["2 N/mm"], conveyor=given, **ONE)
+    (row,) = found.sets
+    carry = [s for s in conveyor.analyse(given).stretches if s.stretch.strand == "carry"]
+    loads = [math.fsum(roll.load.force for roll in s.rolls) for s in carry]
+    heaviest = carry[loads.index(max(loads))]
+    assert row.load == pytest.approx(max(loads), rel=1e-12)
+    # the bottom cover is of S100 and the covers are at 20 degC as in the spec; contacts to the rtol of 1e-6
+    assert row.resistance == pytest.approx(math.fsum(roll.resistance for roll in heaviest.rolls), rel=1e-6)
+
+
+def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
+    found = conveyor.verify_sheet(["s100", "standard-cover"], line_loads=["1 N/mm", "2 N/mm"], **ONE)
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(excel.files(found.contents(), path, excel.VERIFICATION_SHEETS)[path])
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames == ["About", "N per width"]
+    sheet = book["N per width"]
+    heads = [cell.value for cell in sheet[2]]
+    assert heads[5:9] == ["at 1 N/mm, ours [N/m]", "maker [N/m]", "at 2 N/mm, ours [N/m]", "maker [N/m]"]
+    for row in sheet.iter_rows(min_row=3, max_row=4, min_col=6, max_col=9):
+        ours, theirs = row[0::2], row[1::2]
+        assert all(isinstance(cell.value, float) for cell in ours)
+        assert all(
+            cell.value is None and cell.fill.fgColor.rgb == f"00{ASKED.fgColor.rgb[2:]}" for cell in theirs
+        )
+        assert not any(cell.protection.locked for cell in theirs)
+    assert sheet.freeze_panes == "F3"
+    assert sheet.print_title_rows == "$1:$2"
+    assert str(sheet.page_setup.paperSize) == sheet.PAPERSIZE_A4
+
+
+def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
+    found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm"], **ONE)
+    written = html.build(found.contents("US"), verifying.PARTS)
+    assert '<td class="asked"></td>' in written
+    assert "bonded to a carcass that does not give (confined)" in written
+    assert "at 5.71 lbf/in, ours" in written
+    assert "SHA-256" not in written
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"line_loads": ["4"]}, '"4"'),
+        ({"covers": ["7 m"]}, "covers: got 7 m, allowed: >= 0.001 m and <= 0.1 m"),
+        ({"speeds": []}, "speeds: give at least one"),
+        ({"line_loads": [f"{1 + 0.0001 * k:.4f} N/mm" for k in range(100_001)]}, "at most 100,000 are calculated"),
+    ],
+)  # fmt: skip
+def test_what_no_roll_has_is_refused(changed: dict[str, list[str]], said: str):
+    with pytest.raises(InputError, match=said):
+        conveyor.verify_sheet(["s100"], **ONE | changed)
+    with pytest.raises(InputError, match="compounds: give at least one"):
+        conveyor.verify_sheet([])
