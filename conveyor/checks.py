@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
+from conveyor.laws.belt import RATED_START
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import DriveUnit
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -194,8 +195,11 @@ def not_slack(tension: float, subject: Said, why: Said | None = None) -> Check:
 
 
 def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
-    """The belt's strength over its tension in steady running."""
-    yield steady_safety(found.belt_duty, said("safety of the belt, steady"))
+    """The belt's strength over its tension in steady running; not asked of a belt given by its rating alone."""
+    duty = found.belt_duty
+    if duty.safety_steady is None and duty.rating is not None:
+        return
+    yield steady_safety(duty, said("safety of the belt, steady"))
 
 
 def steady_safety(duty: BeltDuty, subject: Said) -> Check:
@@ -212,6 +216,31 @@ def steady_safety(duty: BeltDuty, subject: Said) -> Check:
     )
     made = compared("belt_safety", subject, safety, "at least", needed, "safety", why=why)
     return replace(made, asked=asked)
+
+
+def belt_rating(found: CalculatedConveyor) -> Iterator[Check]:
+    """The tension per width against what the belt is rated for; said only where a rating is given."""
+    duty = found.belt_duty
+    yield from rated_tensions(
+        duty, said("belt tension per width, steady"), said("belt tension per width, all states")
+    )
+
+
+def rated_tensions(duty: BeltDuty, steady: Said, unsteady: Said) -> Iterator[Check]:
+    """A belt's tensions per width against its rating: steady at most that, starting and stopping somewhat more."""
+    if duty.rating is None:
+        return
+    over_rated = f"{RATED_START:g} times the rated tension, general knowledge"
+    for subject, calculated, most, source in (
+        (steady, duty.per_width_steady, duty.rating, "rated tension"),
+        (unsteady, duty.per_width, RATED_START * duty.rating, over_rated),
+    ):
+        why = said(
+            "the belt is rated for {}, it bears {}", (duty.rating, "belt rating"), (calculated, "belt rating")
+        )
+        yield compared(
+            "belt_rating", subject, calculated, "at most", most, "belt rating", source=source, why=why
+        )
 
 
 def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
@@ -480,6 +509,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     take_up_tension,
     slack_belt,
     belt_safety,
+    belt_rating,
     belt_breakage,
     splice_strength,
     pulley_diameter,

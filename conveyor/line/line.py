@@ -30,7 +30,7 @@ _MOST_DRIVEN_WRAP = math.radians(270.0)
 
 @dataclass(frozen=True)
 class BeltBody:
-    """The belt itself: width, thickness, carcass [m], strength and stiffness per width [N/m], None where not given."""
+    """The belt itself: width, thickness, carcass [m]; strength, rating, stiffness per width [N/m], None not given."""
 
     width: float
     thickness: float
@@ -38,6 +38,7 @@ class BeltBody:
     carcass: str
     carcass_thickness: float
     strength: float | None
+    rating: float | None
     stiffness: float | None
     splice_strength: float | None
     splice_making: Condition
@@ -142,8 +143,8 @@ class LoopShape:
     """The stretches in the order the belt meets them from the head: return strand, then carry strand.
 
     Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
-    belt, bulk and rolls [kg], the rolls' as if it were all at their rims, on the safe side; `least` the least tension
-    for the sag [N].
+    belt, bulk and rolls [kg], the rolls' as reduced to their rims where given, else all of it, on the safe
+    side; `least` the least tension for the sag [N].
     """
 
     stretches: tuple[Stretch, ...]
@@ -292,7 +293,7 @@ class Line:
         """The stretches as the belt meets them from the head."""
         stretches = loop_order(self.stretches)
         length = np.array([s.length for s in stretches])
-        moving = [s.line_mass + s.set_mass / s.spacing for s in stretches]
+        moving = [s.line_mass + s.rim_mass / s.spacing for s in stretches]
         return LoopShape(
             stretches=stretches,
             length=length,
@@ -326,6 +327,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         carcass=carcass.kind,
         carcass_thickness=si(carcass.thickness),
         strength=_known(carcass.strength),
+        rating=_known(carcass.rating),
         stiffness=_known(carcass.stiffness),
         splice_strength=_known(carcass.splice_strength),
         splice_making=carcass.splice_making,

@@ -24,8 +24,7 @@ DragLaw = Callable[[float], float]
 
 def roll_at(idlers: IdlerSet, place: int) -> Roll:
     """Roll at a place of the set, left to right."""
-    middle = idlers.rolls in {3, 5} and place == idlers.rolls // 2
-    return idlers.middle if middle else idlers.roll
+    return idlers.roll_at(place)
 
 
 class SetDrags:
@@ -44,7 +43,11 @@ class SetDrags:
     def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: str) -> None:
         speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
         rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
-        self._laws = [_law(roll, speed, air, _field(idlers, roll, strand)) for roll in rolls]
+        self._laws = (
+            [_law(roll, speed, air, _field(idlers, roll, strand)) for roll in rolls]
+            if idlers.drag is None
+            else [_evenly(si(idlers.drag) / idlers.rolls)] * idlers.rolls
+        )
         self._known: dict[tuple[int, float], float] = {}
         self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
 
@@ -79,7 +82,11 @@ def _law(roll: Roll, speed: float, air: float, field: str) -> DragLaw:
         return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), field)
     if isinstance(law, BearingDrag):
         return _named(_bearing(law, diameter, speed, air, field), field)
-    drag = running_drag(roll).force
+    return _evenly(running_drag(roll).force)
+
+
+def _evenly(drag: float) -> DragLaw:
+    """The same drag under any load."""
     return lambda _load: drag
 
 

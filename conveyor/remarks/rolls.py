@@ -112,6 +112,7 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
     conveyor = found.conveyor
     return (
+        *_mass_warnings(conveyor),
         *_drag_warnings(conveyor),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
@@ -121,6 +122,16 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     )
 
 
+def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
+    """Where the reduced mass of a set must stand for all of it."""
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        if idlers.reduced_only:
+            yield said(
+                f"idlers.{strand}: rotating_mass not given, reduced_mass ({text(idlers.reduced_mass)}) stands for "
+                "it in the classical estimate too, which it lowers a little"
+            )
+
+
 def _drag_warnings(conveyor: Conveyor) -> Iterator[Said]:
     air, at = conveyor.air_temperature, text(conveyor.ambient.temperature)
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
@@ -128,7 +139,7 @@ def _drag_warnings(conveyor: Conveyor) -> Iterator[Said]:
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air, at)
-            elif law is None:
+            elif law is None and idlers.drag is None:
                 drag = running_drag(roll)
                 if drag.assumed:
                     yield said(

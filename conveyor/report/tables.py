@@ -48,7 +48,7 @@ from conveyor.report.study_tables import of_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.units import Quantity, System, text
-from conveyor.units.presentation import MONEY, strength_of, unit
+from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import band_words
 
 CURVE_POINTS: Final = 25
@@ -121,7 +121,8 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}, every {shown(of.spacing, 'length')}"
 
-    strength = "" if carcass.strength is None else f", {strength_of(carcass.strength, system)}"
+    strength = "" if carcass.strength is None else f", breaking {strength_of(carcass.strength, system)}"
+    rating = "" if carcass.rating is None else f", rated {rating_of(carcass.rating, system)}"
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     rows = (
         Figure("length", "length", conveyor.route.length),
@@ -130,7 +131,7 @@ def identity(conveyor: Conveyor, system: System) -> Table:
         Figure("belt speed", "speed", conveyor.belt_speed),
         Figure("mass flow", "mass flow", conveyor.mass_flow),
         Figure("temperature of the covers", "temperature", conveyor.temperature),
-        Figure("belt", "text", f"{carcass.kind}{strength}"),
+        Figure("belt", "text", f"{carcass.kind}{strength}{rating}"),
         Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
@@ -551,6 +552,9 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
         Figure("safety, steady", "ratio", duty.safety_steady),
         Figure("safety, all states", "ratio", duty.safety),
         Figure("classic safety asked for", "ratio", duty.safety_needed),
+        Figure("tension per width, steady", "strength", duty.per_width_steady),
+        Figure("tension per width, all states", "strength", duty.per_width),
+        Figure("rated tension per width", "strength", duty.rating),
         Figure("strength the splice asks for", "strength", duty.strength_needed),
         Figure("least diameter of drive pulleys", "size", duty.drive_diameter),
     )  # fmt: skip

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Final
 
 from conveyor.arguments import checked
-from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
+from conveyor.checks import Check, drive_power, not_slack, rated_tensions, steady_safety, verdict
 from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
 from conveyor.loop.settled import holds
@@ -315,6 +315,11 @@ def _safety_check(study: CalculatedCases) -> Iterator[Check]:
     tightest = max(study.results, key=lambda result: result.found.belt_duty.largest_steady)
     if tightest.found.belt_duty.safety_steady is not None:
         yield steady_safety(tightest.found.belt_duty, _of_case("safety of the belt, steady", tightest))
+    yield from rated_tensions(
+        tightest.found.belt_duty,
+        _of_case("belt tension per width, steady", tightest),
+        _of_case("belt tension per width, all states", tightest),
+    )
 
 
 def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tuple[MotorChoice, ...]:

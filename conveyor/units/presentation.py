@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
 from conveyor.units.quantities import Quantity, System, quantity, si
-from conveyor.units.sentences import belt_strength
+from conveyor.units.sentences import belt_rating, belt_strength
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 MONEY: Final = "money "
@@ -241,5 +241,10 @@ def chosen(own: System, system: System | None) -> System:
 
 
 def strength_of(value: Quantity, system: System) -> str:
-    """Write a belt's strength per width as belts are named."""
+    """Write a belt's breaking strength per width as belts are named."""
     return belt_strength(si(value), system)
+
+
+def rating_of(value: Quantity, system: System) -> str:
+    """Write a belt's rated working tension per width."""
+    return belt_rating(si(value), system)
