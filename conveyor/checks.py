@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from conveyor.laws.belt import RATED_START
+from conveyor.laws.motion import Stop
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import DriveUnit
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -23,6 +24,8 @@ from conveyor.units.sentences import Said, band_words, quoted, said
 Verdict = Literal["pass", "FAIL", "not checked"]
 Relation = Literal["at least", "at most"]
 
+_AT_MOST: Final[Relation] = "at most"
+_AT_LEAST: Final[Relation] = "at least"
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
 
@@ -318,36 +321,39 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
 
 
 def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
-    """The motors give the starting force, and it overcomes the resistance after standstill."""
+    """The motors give what a controlled start asks, or accelerate the belt over its whole run-up; it breaks away."""
     start = found.motions.start
     if start.force <= 0.0:
         return
-    if start.available is not None:
-        why = said(
-            "the motors give {} at the start (drive.torque_factor), {} are asked for (drive.start_factor): more power, "
-            "torque or a softer start",
-            (start.available, "force"),
-            (start.force, "force"),
-        )
-        yield compared(
-            "starting_force",
-            "starting force, motors",
-            start.force,
-            "at most",
-            start.available,
-            "force",
-            why=why,
-        )
+    if start.available is not None and start.least is not None:
+        if start.asked is not None:
+            why = said(
+                "the motors give {} at the start (drive.torque_factor, torque_curve), {} are asked for "
+                f"(drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady force; "
+                "more power, torque or a softer start",
+                (start.least, "force"),
+                (start.asked, "force"),
+            )
+            given, limit, relation = start.asked, start.least, _AT_MOST
+        else:
+            why = said(
+                "the motors give {} at least in their run-up (drive.torque_factor, torque_curve), the belt needs {}: "
+                "more  power or torque",
+                (start.least, "force"),
+                (found.balance.settled.force, "force"),
+            )
+            given, limit, relation = start.least, found.balance.settled.force, _AT_LEAST
+        yield compared("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
     why = said(
         "the starting force of {} does not overcome the resistance after standstill, up to {}: "
-        "raise drive.start_factor",
-        (start.force, "force"),
+        "raise drive.start_factor or the motors' torque",
+        (start.standstill, "force"),
         (start.breakaway, "force"),
     )
     yield compared(
         "breakaway",
         "starting force after standstill",
-        start.force,
+        start.standstill,
         "at least",
         start.breakaway,
         "force",
@@ -356,20 +362,38 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def comes_to_rest(found: CalculatedConveyor) -> Iterator[Check]:
-    """The conveyor stops without power, with its brakes where it has any."""
+    """The conveyor stops without power by friction alone, or by its brakes; each beside the other."""
     moving, brakes = found.motions, math.fsum(found.line.brakes)
-    stopping = moving.coasting_least if moving.braked is None else moving.braked
+    alone, stopped = moving.coasting_least, moving.braked
+    why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
+    if moving.runaway is not None:
+        why = said(
+            "the conveyor does not stop by itself and has no brake, it runs away at {}: give drive.brake_force",
+            (moving.runaway, "acceleration"),
+        )
+    words = _rest(alone, moving.runaway)
+    safe = alone is not None or stopped is not None
+    asked = said(
+        "a stop, least friction" if brakes == 0.0 else "a stop, or brakes that make one; least friction"
+    )
+    yield Check(
+        "comes_to_rest", said("comes to rest without power and brake"), None if alone is None else alone.time, None,
+        "duration", words, asked, verdict(holds=safe), why,
+    )  # fmt: skip
     if brakes > 0.0:
         why = said("brakes of {} do not stop the conveyor", (brakes, "force"))
-    else:
-        why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
-    words = said("does not")
+        yield Check(
+            "comes_to_rest", said("comes to rest without power, brakes on"), None if stopped is None else stopped.time,
+            None, "duration", _rest(stopped, None), said("a stop, least friction"), verdict(holds=stopped is not None),
+            why,
+        )  # fmt: skip
+
+
+def _rest(stopping: Stop | None, runaway: float | None) -> Said:
+    """How a conveyor comes to rest, in words."""
     if stopping is not None:
-        words = said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
-    yield Check(
-        "comes_to_rest", said("comes to rest without power"), None if stopping is None else stopping.time, None,
-        "time", words, said("a stop, least friction"), verdict(holds=stopping is not None), why,
-    )  # fmt: skip
+        return said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
+    return said("does not") if runaway is None else said("runs away at {}", (runaway, "acceleration"))
 
 
 def holding(found: CalculatedConveyor) -> Iterator[Check]:

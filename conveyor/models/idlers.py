@@ -161,7 +161,7 @@ class IdlerSet(Model):
                 given = "drag" if roll.drag_law is None else "drag_law"
                 message = f"given beside drag {text(self.drag)} of the whole set; give one of the two"
                 yield Problem((name, given), message)
-        if 0.0 < self._turning < self.rim_mass:
+        if self.reduced_mass is not None and 0.0 < self._turning < self.rim_mass:
             message = f"got {text(self.reduced_mass)}, more than all that turns; correct one of the two"
             yield Problem(("reduced_mass",), message)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from conveyor.checks import Check
+from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor
@@ -120,6 +121,11 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             )
         if not line.loading and line.flow > 0.0:
             yield said("route.feeding not given: acceleration of the bulk and skirts are not in the figures")
+    for point in line.loading:
+        if point.lift == 0.0:
+            yield said(
+                f"tripper at the {quoted(point.place)}: tripper_lift not given or 0: no lift of its bulk in the figures"
+            )
     if not line.scrapers:
         yield said("route.cleaners not given: no cleaner in the figures")
 
@@ -135,7 +141,29 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )
-    if "start_factor" not in drive.model_fields_set:
-        yield said(f"drive.start_factor not given: {drive.start_factor:g} assumed, 1.2 to 1.5 are usual")
+    line = found.line
+    if line.start_factor is None:
+        usual = f"{START_FACTOR.low:g} to {START_FACTOR.high:g} are usual"
+        if not line.torque_curve or balance.settled.force <= 0.0:
+            yield said(f"drive.start_factor not given: {START_FACTOR.value:g} assumed, {usual}")
+        else:
+            yield said(
+                "drive.start_factor not given: an uncontrolled start, all that the motors give reaches the belt"
+            )
+    if line.start_factor is None and line.torque_curve and any(each.power is None for each in line.drives):
+        yield said("drive.installed_power not given: the motors' torque is not known, their start neither")
+    assumed = [each for each in line.drives if not each.mass_given]
+    for each in assumed:
+        if each.power is None:
+            yield said(
+                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia), nor its power: they'
+                " are not in start and stop"
+            )
+        else:
+            yield said(
+                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia): {{}} at the belt '
+                f"assumed, {DRIVE_INERTIA.value:g} s of its rated power ({DRIVE_INERTIA.source}; general knowledge)",
+                (each.reduced_mass, "mass"),
+            )
     if balance.power.mains < 0.0 and earns_nothing(found.conveyor.operation):
         yield said("operation.feed_in_price not given: energy that is fed back earns nothing")

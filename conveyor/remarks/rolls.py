@@ -125,7 +125,7 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
 def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
     """Where the reduced mass of a set must stand for all of it."""
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        if idlers.reduced_only:
+        if idlers.reduced_mass is not None and idlers.reduced_only:
             yield said(
                 f"idlers.{strand}: rotating_mass not given, reduced_mass ({text(idlers.reduced_mass)}) stands for "
                 "it in the classical estimate too, which it lowers a little"

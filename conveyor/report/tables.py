@@ -81,6 +81,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         take_up(analysis),
         conditions(analysis),
         start_stop(analysis),
+        brakes(analysis),
         belt_strength_table(analysis),
         pulleys(analysis),
         vertical_curves(analysis),
@@ -515,10 +516,13 @@ def start_stop(a: CalculatedConveyor) -> Table:
         Figure("moving mass", "mass", moving.moving_mass),
         Figure("rotating mass of the drives", "mass", moving.rotating_mass),
         Figure("drive force at start", "force", start.force),
+        Figure("drive force at start over steady", "ratio", start.factor),
         Figure("acceleration at start", "acceleration", start.acceleration),
         Figure("time over the whole speed range", "duration", start.time),
         Figure("motor torque at start over rated", "ratio", start.torque_factor),
+        Figure("force asked of the motors", "force", start.asked),
         Figure("force the motors give", "force", start.available),
+        Figure("drive force at rest", "force", start.standstill),
         Figure("resistance after standstill, at most", "force", start.breakaway),
     ]  # fmt: skip
     for label, stop in (
@@ -532,15 +536,36 @@ def start_stop(a: CalculatedConveyor) -> Table:
                 Figure(f"stopping time, {label}", "duration", stop.time),
                 Figure(f"stopping distance, {label}", "length", stop.distance),
             ]  # fmt: skip
+    radius = a.line.drives[0].radius
+    torque = None if radius is None else moving.brake_to_hold * radius
+    gripping = moving.gripping_speed if a.line.brake_delay > 0.0 else None
     braking, starting = (None, None) if slip is None else (-slip.braking, slip.starting)
     rows += [
         Figure("brake for the deceleration wanted", "force", moving.brake_to_stop),
         Figure(f"{holder} to hold", "force", moving.brake_to_hold),
+        Figure("torque to hold, at the first drive's pulley", "torque", torque, key="torque_to_hold"),
+        Figure("runaway, drives and brakes off", "acceleration", moving.runaway),
+        Figure("speed at which the brakes grip", "speed", gripping),
         Figure("hardest braking before the bulk slides", "acceleration", braking),
         Figure("highest acceleration before the bulk slides", "acceleration", starting),
     ]  # fmt: skip
     page = (OnPage("start-stop", "Start, stop and the limits of the bulk"),)
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
+
+
+def brakes(a: CalculatedConveyor) -> Table:
+    """Torque and heat of every brake in a stop with the least friction that is certain."""
+    whole, heat = math.fsum(a.line.brakes), a.motions.braking_heat
+    columns = (
+        Column("drive", "text", attrgetter("name")),
+        Column("brake force", "force", attrgetter("brake")),
+        Column(
+            "brake torque at the pulley", "torque", lambda d: None if d.radius is None else d.brake * d.radius
+        ),
+        Column("heat of a stop", "heat", lambda d: None if heat is None else heat * d.brake / whole),
+    )
+    rows = tuple(drive for drive in a.line.drives if drive.brake is not None)
+    return Table("brakes", "Loop", "Brakes", columns, rows, (OnPage("start-stop", "Brakes"),))
 
 
 def belt_strength_table(a: CalculatedConveyor) -> Table:

@@ -147,7 +147,7 @@ def test_not_given_is_not_checked(line):
 
 def test_downhill_without_brake_does_not_stop():
     of = found(conveyor.load(SPECS / "downhill.yaml"))
-    assert of["comes to rest without power"].verdict == "FAIL"
+    assert of["comes to rest without power and brake"].verdict == "FAIL"
     assert of["motor power, drive"].found.endswith("(generating)")
     assert of["safety of the belt, steady"].verdict == "FAIL"
 
