@@ -76,9 +76,10 @@ class LoadingPoint:
 
 @dataclass(frozen=True)
 class Scraper:
-    """A cleaner or several alike: area that touches the belt [m²], pressure [Pa], friction [-]."""
+    """A cleaner or several alike: width [m], area that touches the belt [m²], pressure [Pa], friction [-]."""
 
     count: int
+    width: float
     area: float
     pressure: float
     friction: float
@@ -144,11 +145,19 @@ class TakeUpUnit:
 
 @dataclass(frozen=True)
 class CemaFactors:
-    """Ky, Kt [-] and Ai [N] of the classic form of CEMA."""
+    """What the classic form of CEMA takes: Ky, Kt, Cs [-], Ai, Tp (None by its table), accessories [N], hs [m], N/m."""
 
     flexure: float
     temperature: float
     idler_friction: float
+    skirt_factor: float
+    skirt_depth: float
+    seals: float
+    cleaner: float
+    plough: float
+    pulleys: float | None
+    drive_pulleys: float
+    accessories: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -383,7 +392,11 @@ def _belt_friction(conveyor: Conveyor) -> float:
 def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
     return tuple(
         Scraper(
-            cleaner.count, si(cleaner.width) * si(cleaner.thickness), si(cleaner.pressure), cleaner.friction
+            count=cleaner.count,
+            width=si(cleaner.width),
+            area=si(cleaner.width) * si(cleaner.thickness),
+            pressure=si(cleaner.pressure),
+            friction=cleaner.friction,
         )
         for cleaner in conveyor.route.cleaners
     )
@@ -525,4 +538,16 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
 def _cema(factors: Cema | None) -> CemaFactors | None:
     if factors is None:
         return None
-    return CemaFactors(factors.flexure_factor, factors.temperature_factor, si(factors.idler_friction))
+    return CemaFactors(
+        flexure=factors.flexure_factor,
+        temperature=factors.temperature_factor,
+        idler_friction=si(factors.idler_friction),
+        skirt_factor=factors.skirt_factor or 0.0,
+        skirt_depth=_given(factors.skirt_depth, 0.0),
+        seals=si(factors.skirt_seals),
+        cleaner=si(factors.cleaner_friction),
+        plough=si(factors.plough_friction),
+        pulleys=_known(factors.pulley_friction),
+        drive_pulleys=si(factors.drive_pulley_friction),
+        accessories=si(factors.accessories),
+    )

@@ -242,6 +242,10 @@ def _other_warnings(conveyor: Conveyor) -> Iterator[Said]:
         )
     if conveyor.calculation.cema is not None:
         yield said(
-            "CEMA classic form: formulas as commonly reproduced, Ky, Kt and Ai from the spec, one Ky for the whole "
-            "conveyor; skirts, cleaners and ploughs are this calculation's"
+            "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec, "
+            "one Ky for the whole conveyor"
         )
+        if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
+            yield said(
+                "calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures"
+            )

@@ -26,7 +26,7 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.loop.balance import Balance
-from conveyor.loop.estimates import Classical
+from conveyor.loop.estimates import CemaEstimate, Classical
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, warnings
@@ -69,6 +69,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         inputs(analysis.conveyor),
         sections(analysis),
         classical(analysis),
+        cema(analysis),
         resistances(analysis),
         breakdown(analysis),
         rolls(analysis),
@@ -160,7 +161,7 @@ def results(a: CalculatedConveyor) -> Table:
         Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
         Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
-        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total"),
+        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total", us="Te"),
         *(
             Figure(
                 "lift force" if name == "lift" else name.replace("_", " "), "force", newtons, "notebook",
@@ -171,8 +172,8 @@ def results(a: CalculatedConveyor) -> Table:
         Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
         Figure("equivalent DIN f", "friction", found.friction_factor, "tile large cover notebook", "friction_factor",
                key="equivalent_f"),
-        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook"),
-        Figure("slack side tension", "force", tensions_at.slack, "cover notebook"),
+        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook", us="T1"),
+        Figure("slack side tension", "force", tensions_at.slack, "cover notebook", us="T2"),
         Figure("tight side tension at start", "force", tensions_at.tight_start, "cover"),
         Figure("smallest tension", "force", tensions_at.smallest, "cover"),
         Figure("belt safety at start", "ratio", safety, "cover"),
@@ -181,7 +182,7 @@ def results(a: CalculatedConveyor) -> Table:
         Figure("energy per year", "energy", energy, "cover"),
         Figure("cost per year", money, cost, "cover"),
         Figure("classical f", "friction", classic.friction_factor),
-        Figure("classical effective tension", "force", classic.total),
+        Figure("classical effective tension", "force", classic.total, us="Te"),
         Figure("classical motor power", "power", found.frame.motor(classic.total), "cover"),
         Figure("largest error estimate of the contacts", "error", error, "cover", "error_estimate",
                key="contact_error_estimate"),
@@ -292,7 +293,7 @@ def classical(a: CalculatedConveyor) -> Table:
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
-    powers = (found.power.motor, *(found.frame.motor(made.total) for _, made in others))
+    powers = (found.power.motor, *(_estimated_motor(found, made) for _, made in others))
 
     rows = (
         row("f", "friction", "friction_factor", found.friction_factor),
@@ -300,7 +301,7 @@ def classical(a: CalculatedConveyor) -> Table:
         row("secondary", "force", "secondary", forces.secondary),
         row("special", "force", "special", forces.special),
         row("lift", "force", "lift", forces.lift),
-        row("effective tension", "force", "total", forces.total),
+        replace(row("effective tension", "force", "total", forces.total), us="Te"),
         Figure("motor power", "power", powers, key="motor"),
     )
     names = ["this calculation", *(name for name, _ in others)]
@@ -312,6 +313,32 @@ def classical(a: CalculatedConveyor) -> Table:
     note = f"classical secondary: {found.classical.secondary_by}; governing at the drive: {found.tensions.governed_by}"
     page = (OnPage("resistances", "Beside the classical estimates"),)
     return Table("classical", "Resistances", heading, columns, rows, page, note)
+
+
+def cema(a: CalculatedConveyor) -> Table:
+    """The classic form of CEMA by cause; its rows add up to Te."""
+    made, given = a.balance.cema, a.line.cema
+    columns = (
+        Column("symbol", "text", itemgetter(0)),
+        Column("CEMA resistance", "text", itemgetter(1)),
+        Column("force", "force", itemgetter(2), total=True),
+    )
+    rows = () if made is None else made.items
+    heading = "CEMA classic, itemised"
+    note = (
+        ""
+        if given is None
+        else f"Ky {given.flexure:g}, Kt {given.temperature:g}; Tp is "
+        + ("the book's, by place and wrap" if given.pulleys is None else "the spec's")
+    )
+    page = (OnPage("resistances", heading),)
+    return Table("cema", "Resistances", heading, columns, rows, page, note, foot="Te", named=2)
+
+
+def _estimated_motor(found: Balance, made: Classical) -> float:
+    """Motor power of an estimate [W]; CEMA's holds the bearings of the drive pulleys too."""
+    beside = made.drive_pulleys if isinstance(made, CemaEstimate) else 0.0
+    return found.frame.motor(made.total + beside)
 
 
 def _nth(i: int) -> Getter:
@@ -572,8 +599,8 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
-        Figure("largest tension, steady", "force", duty.largest_steady),
-        Figure("largest tension, all states", "force", duty.largest),
+        Figure("largest tension, steady", "force", duty.largest_steady, us="Tmax"),
+        Figure("largest tension, all states", "force", duty.largest, us="Tmax"),
         Figure("safety, steady", "ratio", duty.safety_steady),
         Figure("safety, all states", "ratio", duty.safety),
         Figure("classic safety asked for", "ratio", duty.safety_needed),
@@ -940,7 +967,12 @@ def plain(a: CalculatedConveyor) -> dict[str, Any]:
             "currency": a.year and a.year.currency,
         },
         "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
-        "cema": None if found.cema is None else _estimate(found, found.cema),
+        "cema": None
+        if found.cema is None
+        else {
+            **_estimate(found, found.cema),
+            "items_N": {symbol: newtons for symbol, _, newtons in found.cema.items},
+        },
         "rubber": rubber(a).plain(),
         "sections": sections(a).plain(),
         "assumptions": list(assumptions(a.conveyor)),
@@ -950,7 +982,7 @@ def plain(a: CalculatedConveyor) -> dict[str, Any]:
 
 
 def _estimate(found: Balance, made: Classical) -> dict[str, float]:
-    motor = found.frame.motor(made.total)
+    motor = _estimated_motor(found, made)
     return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": motor / 1e3}
 
 
