@@ -24,7 +24,8 @@ class RunUp:
     asked : float or None
         Force that a controlled start asks of the motors, referred to the belt [N]; None of an uncontrolled one.
     rated, standstill, least, largest : float or None
-        Force of the motors at the belt [N]: rated, at rest, least and largest of the run-up; None where not known.
+        Force of the motors at the belt [N]: rated, at rest, least and largest of the run-up; None where not known. Of
+        a controlled start the least is what they give while each keeps its share.
     """
 
     forces: tuple[float, ...]
@@ -84,17 +85,24 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
             largest,
         )
     wanted = START_FACTOR.value if line.start_factor is None else line.start_factor
+    own = math.fsum(masses) / mass
+
+    def of_motors(factor: float) -> float:
+        return factor * steady + (factor - 1.0) * steady * own
+
     most = wanted
     if rated is not None and torques:
-        for force, drive in zip(rated, drives, strict=True):
-            own = drive.reduced_mass / mass
-            if drive.share + own > 0.0:
-                most = min(most, (min(torques) * force / steady + own) / (drive.share + own))
+        possible = min(
+            (min(torques) * force / steady + drive.reduced_mass / mass)
+            / (drive.share + drive.reduced_mass / mass)
+            for force, drive in zip(rated, drives, strict=True)
+            if drive.share + drive.reduced_mass > 0.0
+        )
+        most, least = min(wanted, possible), of_motors(possible)
     factor = max(1.0, most)
-    asked = wanted * steady + (wanted - 1.0) * steady / mass * math.fsum(masses)
     return RunUp(
         tuple(drive.share * factor * steady for drive in drives),
-        (factor - 1.0) * steady / mass, factor, asked, together, standstill, least, largest,
+        (factor - 1.0) * steady / mass, factor, of_motors(wanted), together, standstill, least, largest,
     )  # fmt: skip
 
 

@@ -35,7 +35,8 @@ class Start:
     asked : float or None
         Force a controlled start asks of the motors, those masses included; None of an uncontrolled one.
     available, least : float or None
-        Force of the motors at the belt by their torque: largest and least of the run-up.
+        Force of the motors at the belt by their torque: largest and least of the run-up, the least of a controlled
+        start while each keeps its share.
     standstill : float
         Force on the belt at rest.
     breakaway : float

@@ -57,12 +57,14 @@ def test_a_controlled_start_is_limited_by_the_motors():
 def test_the_weakest_of_several_motors_limits_a_controlled_start():
     """Shares by hand, 400 and 200 kW: the second has to give half the force with a third of the power."""
     booster = BOOSTER | {"share": "50 %"}
-    found = balanced(
-        drive={"start_factor": 4.0, "torque_factor": 1.5, "share": "50 %", "further_drives": [booster]}
-    )
+    drive = {"start_factor": 4.0, "torque_factor": 1.5, "share": "50 %", "further_drives": [booster]}
+    conveyor = line(drive=drive)
+    found = closed(conveyor)
     weak = 1.5 * RATED / 2.0
-    assert started(found).drives[1].force == pytest.approx(weak, rel=ROUNDING)
-    assert started(found).drives[0].force == pytest.approx(weak, rel=ROUNDING)
+    forces = [side.force for side in started(found).drives]
+    assert forces == pytest.approx([weak, weak], rel=ROUNDING)
+    assert motions(found).start.least == pytest.approx(2.0 * weak, rel=ROUNDING)
+    assert any("it is limited to" in why for why in told(conveyor, found))
 
 
 def test_uncontrolled_drives_share_by_their_torque_not_by_their_shares():
