@@ -13,6 +13,8 @@ from typing import Final, Literal
 
 import numpy as np
 
+from conveyor.laws.belt import RATED_START
+from conveyor.laws.motion import Stop
 from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -26,6 +28,8 @@ from conveyor.units.sentences import Said, band_words, quoted, said
 Verdict = Literal["pass", "FAIL", "not checked"]
 Relation = Literal["at least", "at most"]
 
+_AT_MOST: Final[Relation] = "at most"
+_AT_LEAST: Final[Relation] = "at least"
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
 
@@ -305,8 +309,10 @@ def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
-    """The belt's strength over its tension in steady running, against the classic one."""
+    """The belt's strength over its tension in steady running; not asked of a belt given by its rating alone."""
     duty, subject = found.belt_duty, said("safety of the belt, steady")
+    if duty.safety_steady is None and duty.rating is not None:
+        return
     safety, needed = duty.safety_steady, duty.safety_needed
     asked = said("at least {} (DIN 22101:1982)", (needed, "number"))
     if safety is None:
@@ -320,6 +326,25 @@ def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
     )
     made = compared("belt_safety", subject, safety, "at least", needed, "safety", why=why)
     yield replace(made, asked=asked)
+
+
+def belt_rating(found: CalculatedConveyor) -> Iterator[Check]:
+    """The tension per width, steady at most the rated one and else somewhat more; said only where a rating is given."""
+    duty = found.belt_duty
+    steady, unsteady = said("belt tension per width, steady"), said("belt tension per width, all states")
+    if duty.rating is None:
+        return
+    over_rated = f"{RATED_START:g} times the rated tension, general knowledge"
+    for subject, calculated, most, source in (
+        (steady, duty.per_width_steady, duty.rating, "rated tension"),
+        (unsteady, duty.per_width, RATED_START * duty.rating, over_rated),
+    ):
+        why = said(
+            "the belt is rated for {}, it bears {}", (duty.rating, "belt rating"), (calculated, "belt rating")
+        )
+        yield compared(
+            "belt_rating", subject, calculated, "at most", most, "belt rating", source=source, why=why
+        )
 
 
 def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
@@ -397,36 +422,39 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
 
 
 def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
-    """The motors give the starting force, and it overcomes the resistance after standstill."""
+    """The motors give what a controlled start asks, or accelerate the belt over its whole run-up; it breaks away."""
     start = found.motions.start
     if start.force <= 0.0:
         return
-    if start.available is not None:
-        why = said(
-            "the motors give {} at the start (drive.torque_factor), {} are asked for (drive.start_factor): more power, "
-            "torque or a softer start",
-            (start.available, "force"),
-            (start.force, "force"),
-        )
-        yield compared(
-            "starting_force",
-            "starting force, motors",
-            start.force,
-            "at most",
-            start.available,
-            "force",
-            why=why,
-        )
+    if start.available is not None and start.least is not None:
+        if start.asked is not None:
+            why = said(
+                "the motors give {} at the start (drive.torque_factor, torque_curve), {} are asked for "
+                f"(drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady force; "
+                "more power, torque or a softer start",
+                (start.least, "force"),
+                (start.asked, "force"),
+            )
+            given, limit, relation = start.asked, start.least, _AT_MOST
+        else:
+            why = said(
+                "the motors give {} at least in their run-up (drive.torque_factor, torque_curve), the belt needs {}: "
+                "more  power or torque",
+                (start.least, "force"),
+                (found.balance.settled.force, "force"),
+            )
+            given, limit, relation = start.least, found.balance.settled.force, _AT_LEAST
+        yield compared("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
     why = said(
         "the starting force of {} does not overcome the resistance after standstill, up to {}: "
-        "raise drive.start_factor",
-        (start.force, "force"),
+        "raise drive.start_factor or the motors' torque",
+        (start.standstill, "force"),
         (start.breakaway, "force"),
     )
     yield compared(
         "breakaway",
         "starting force after standstill",
-        start.force,
+        start.standstill,
         "at least",
         start.breakaway,
         "force",
@@ -435,20 +463,38 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def comes_to_rest(found: CalculatedConveyor) -> Iterator[Check]:
-    """The conveyor stops without power, with its brakes where it has any."""
+    """The conveyor stops without power by friction alone, or by its brakes; each beside the other."""
     moving, brakes = found.motions, math.fsum(found.line.brakes)
-    stopping = moving.coasting_least if moving.braked is None else moving.braked
+    alone, stopped = moving.coasting_least, moving.braked
+    why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
+    if moving.runaway is not None:
+        why = said(
+            "the conveyor does not stop by itself and has no brake, it runs away at {}: give drive.brake_force",
+            (moving.runaway, "acceleration"),
+        )
+    words = _rest(alone, moving.runaway)
+    safe = alone is not None or stopped is not None
+    asked = said(
+        "a stop, least friction" if brakes == 0.0 else "a stop, or brakes that make one; least friction"
+    )
+    yield Check(
+        "comes_to_rest", said("comes to rest without power and brake"), None if alone is None else alone.time, None,
+        "duration", words, asked, verdict(holds=safe), why,
+    )  # fmt: skip
     if brakes > 0.0:
         why = said("brakes of {} do not stop the conveyor", (brakes, "force"))
-    else:
-        why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
-    words = said("does not")
+        yield Check(
+            "comes_to_rest", said("comes to rest without power, brakes on"), None if stopped is None else stopped.time,
+            None, "duration", _rest(stopped, None), said("a stop, least friction"), verdict(holds=stopped is not None),
+            why,
+        )  # fmt: skip
+
+
+def _rest(stopping: Stop | None, runaway: float | None) -> Said:
+    """How a conveyor comes to rest, in words."""
     if stopping is not None:
-        words = said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
-    yield Check(
-        "comes_to_rest", said("comes to rest without power"), None if stopping is None else stopping.time, None,
-        "time", words, said("a stop, least friction"), verdict(holds=stopping is not None), why,
-    )  # fmt: skip
+        return said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
+    return said("does not") if runaway is None else said("runs away at {}", (runaway, "acceleration"))
 
 
 def holding(found: CalculatedConveyor) -> Iterator[Check]:
@@ -609,6 +655,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     sag,
     slack_belt,
     belt_safety,
+    belt_rating,
     belt_breakage,
     splice_strength,
     pulley_diameter,

@@ -297,7 +297,13 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             certain=certain, spot=point.spot, place=point.place, assumed=point.assumed,
         )  # fmt: skip
 
-    if line.secondary != "C":
+    if point.lift is not None:
+        bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
+        yield Force(
+            "tripper_lift", f"lift over the tripper{point.name}", "lift", bulk, "ISO 5048, F_St of the bulk",
+            certain=True, spot=point.before, place=point.place,
+        )  # fmt: skip
+    if line.secondary != "C" or point.lift is not None:
         inertia = acceleration_resistance(point.flow, belt_speed=line.speed, initial_speed=point.speed)
         yield force("acceleration", "acceleration of the bulk", "secondary", inertia, "F_bA", certain=True)
         length = acceleration_length(

@@ -12,8 +12,8 @@ from pydantic import BaseModel
 from ruamel.yaml import YAML
 
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.starter.write import KINDS as STARTERS
-from conveyor.starter.write import values
+from conveyor.starter.values import KINDS as STARTERS
+from conveyor.starter.values import values
 from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.units.kinds import KINDS
 

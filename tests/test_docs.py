@@ -20,7 +20,7 @@ import conveyor.spec
 from conveyor.analysis import studies
 from conveyor.cli import main
 from conveyor.reference import anchor
-from conveyor.starter.write import values
+from conveyor.starter.values import values
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "materials" / "README.md"]

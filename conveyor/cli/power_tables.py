@@ -32,6 +32,9 @@ def show(contents: Contents) -> None:
         screen.print(words(wrapped(contents["defaults"].note, screen.width)))
     screen.print()
     screen.print(_sums(contents))
+    if "cema" in contents:
+        screen.print()
+        screen.print(_cema(contents))
     _checks(screen, contents)
     if "governing_cases" in contents:
         screen.print()
@@ -78,7 +81,8 @@ def _forces(contents: Contents) -> Grid:
     force, power = unit("force", system, large=True), unit("power", system, large=True)
     sums = {row.key: row.value for row in contents["classical"].rows}
     total = sums["total"][0]
-    names = {"main": "main resistance", "total": "effective tension"}
+    whole = "effective tension Te" if system == "US" else "effective tension"
+    names = {"main": "main resistance", "total": whole}
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
         for row in (
@@ -114,7 +118,9 @@ def _sums(contents: Contents) -> Grid:
     known = {row.key: row for row in contents["results"].rows}
     tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
-    made.add_row("tensions, tight / slack", f"{tight} / {slack}")
+    made.add_row(
+        "tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}"
+    )
     if "specific_energy" in known:
         energy = known["specific_energy"]
         made.add_row("energy", energy.unit(contents.system).said(energy.value))
@@ -125,6 +131,21 @@ def _sums(contents: Contents) -> Grid:
             for row in year
         )
         made.add_row("in a year", ", ".join(said))
+    return made
+
+
+def _cema(contents: Contents) -> Grid:
+    """The classic form of CEMA by cause, with its motor power."""
+    force, power = (unit(kind, contents.system) for kind in ("force", "power"))
+    made, items = table("CEMA classic"), contents["cema"]
+    made.add_column("resistance")
+    made.add_column("force", justify="right", no_wrap=True)
+    for symbol, name, newtons in items.rows:
+        made.add_row(f"{symbol}, {name}", force.said(newtons))
+    made.add_section()
+    made.add_row("Te", force.said(items.totals()[-1]))
+    motor = next(row.value for row in contents["classical"].rows if row.key == "motor")
+    made.add_row("motor power", power.said(motor[-1]), style="bold")
     return made
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import AsJson, Force, Quiet, Shelves, app, examples, print_json, print_text, say
+from conveyor.cli.app import AsJson, Force, Quiet, Shelves, Units, app, examples, print_json, print_text, say
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.marks import TO_FILL_IN
@@ -70,6 +70,7 @@ def contact(
     short_help="Write an input workbook to fill in.",
     epilog=examples(
         "conveyor template input.xlsx",
+        "conveyor template input.xlsx --units us",
         "conveyor template input.xlsx --from overland.yaml",
         "conveyor power input.xlsx",
     ),
@@ -77,6 +78,10 @@ def contact(
 def template(
     output: Annotated[Path, typer.Argument(help="Workbook to write (.xlsx).", show_default=False)],
     spec: Annotated[Path | None, typer.Option("--from", help="Fill it in from this spec.")] = None,
+    units: Annotated[
+        Units | None,
+        typer.Option(help="System of units of the example; a spec has its own.", case_sensitive=False),
+    ] = None,
     force: Force = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
@@ -87,8 +92,16 @@ def template(
     import conveyor
     from conveyor.template.write import template as made
 
+    if spec is not None and units is not None:
+        raise InputError(
+            "--units: with --from the spec says the units (report.units); leave one of the two out"
+        )
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    to.add("template", output, {output: made(line, shelves=shelf or ())})
+    to.add(
+        "template",
+        output,
+        {output: made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")},
+    )
     lines = to.save()
     if not quiet:
         say(*lines)

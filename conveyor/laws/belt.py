@@ -30,6 +30,10 @@ PULLEY_DIAMETERS: Final = (
 )  # fmt: skip
 
 
+RATED_START: Final = 1.5
+"""Tension of a start or stop over the rated one that makers of US belts allow at most [-]; general knowledge."""
+
+
 def belt_safety(largest_tension: float, *, nominal_strength: float, belt_width: float) -> float:
     """Safety of the belt against rupture, S = k_N B/T (DIN 22101).
 

@@ -5,10 +5,14 @@ Source: Newton, with the belt as a rigid ring, as DIN 22101 treats the non-stead
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from conveyor.errors import NoSolutionError
+from conveyor.laws.resistance.defaults import Default
 from conveyor.require import (
     require,
     require_finite,
@@ -16,6 +20,11 @@ from conveyor.require import (
     require_positive,
     require_slope,
 )
+
+START_FACTOR: Final = Default(1.3, 1.2, 1.5, "controlled starts of belt conveyors", True)  # [-]
+DRIVE_INERTIA: Final = Default(
+    0.25, 0.1, 0.5, "motor, coupling and gear: kinetic energy at full speed over rated power", True
+)  # [s]
 
 
 def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
@@ -48,6 +57,83 @@ def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
     require_not_negative(inertia=inertia)
     require_positive(radius=radius, ratio=ratio)
     return inertia * (ratio / radius) ** 2
+
+
+def typical_reduced_mass(rated_power: float, *, belt_speed: float) -> float:
+    """Reduced mass of a drive of which only the power is known, m = 2 τ P/v², τ = 0.25 s (general knowledge).
+
+    Parameters
+    ----------
+    rated_power : float
+        P of its motors [W], positive.
+    belt_speed : float
+        v at rated speed [m/s], positive.
+
+    Returns
+    -------
+    float
+        Reduced mass [kg]: its kinetic energy at full speed is what the motors give in τ, 0.1 to 0.5 s.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> typical_reduced_mass(500e3, belt_speed=5.0)
+    10000.0
+    """
+    require_positive(rated_power=rated_power, belt_speed=belt_speed)
+    return 2.0 * DRIVE_INERTIA.value * rated_power / belt_speed**2
+
+
+def run_up_time(speeds: Sequence[float], forces: Sequence[float], *, mass: float) -> float:
+    """Time of a start in which the accelerating force is linear between points, t = Σ m Δv ln(F2/F1)/(F2 - F1).
+
+    Parameters
+    ----------
+    speeds : sequence of float
+        v of the points from rest to full speed [m/s], ascending, shape (n,).
+    forces : sequence of float
+        Motors' force less the resistance at each of them [N], shape (n,).
+    mass : float
+        m of all that is accelerated, the drives too [kg], positive.
+
+    Returns
+    -------
+    float
+        t [s].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    NoSolutionError
+        The motors do not accelerate the belt at one of the speeds.
+
+    Notes
+    -----
+    Derived: m dv = F(v) dt.
+
+    Examples
+    --------
+    >>> run_up_time([0.0, 5.0], [10e3, 10e3], mass=50e3)
+    25.0
+    """
+    require_positive(mass=mass)
+    require(
+        len(speeds) == len(forces) > 1, "forces", list(forces), "one for each of the speeds, two at least"
+    )
+    stuck = next((v for v, force in zip(speeds, forces, strict=True) if force <= 0.0), None)
+    if stuck is not None:
+        raise NoSolutionError(f"the motors do not accelerate the belt at {stuck:.4g} m/s")
+    time = 0.0
+    for (v1, v2), (f1, f2) in zip(itertools.pairwise(speeds), itertools.pairwise(forces), strict=True):
+        require(v2 > v1, "speeds", list(speeds), "ascending speeds are needed")
+        steeper = (f2 - f1) / f1
+        time += mass * (v2 - v1) / f1 * (math.log1p(steeper) / steeper if steeper else 1.0)
+    return time
 
 
 def start_force(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,13 +13,15 @@ from numpy.typing import NDArray
 
 from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
+from conveyor.laws.motion import reduced_mass, typical_reduced_mass
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS
 from conveyor.line import usual
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
 from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
-from conveyor.models import Calculation, Conveyor, DrivePulley, Feeding, Pulley
+from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, Pulley
+from conveyor.models.checks import drive_diameter
 from conveyor.models.methods import Cema
 from conveyor.units import Quantity, si
 
@@ -32,7 +35,7 @@ _MOST_DRIVEN_WRAP = math.radians(270.0)
 
 @dataclass(frozen=True)
 class BeltBody:
-    """The belt itself: width, thickness, carcass [m], strength and stiffness per width [N/m], None where not given."""
+    """The belt itself: width, thickness, carcass [m]; strength, rating, stiffness per width [N/m], None not given."""
 
     width: float
     thickness: float
@@ -40,6 +43,7 @@ class BeltBody:
     carcass: str
     carcass_thickness: float
     strength: float | None
+    rating: float | None
     stiffness: float | None
     splice_strength: float | None
     splice_making: Condition
@@ -53,8 +57,9 @@ class BeltBody:
 
 @dataclass(frozen=True)
 class LoadingPoint:
-    """Where bulk lands: its place, its share of the flow, all flow that lies there from then on [-, kg/s, m/s, m].
+    """Where bulk lands: its place, the flow that does, all flow that lies there from then on [kg/s, m/s, m].
 
+    Of a tripper `lift` is how high it raises the bulk [m], before the drives at `before`; None of fresh bulk.
     `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
     """
 
@@ -68,14 +73,17 @@ class LoadingPoint:
     skirt_width: float
     belt_friction: float
     skirt_friction: float
+    lift: float | None
+    before: Spot
     assumed: bool = False
 
 
 @dataclass(frozen=True)
 class Scraper:
-    """A cleaner or several alike: area that touches the belt [m²], pressure [Pa], friction [-]."""
+    """A cleaner or several alike: width [m], area that touches the belt [m²], pressure [Pa], friction [-]."""
 
     count: int
+    width: float
     area: float
     pressure: float
     friction: float
@@ -111,7 +119,10 @@ class BendPulley:
 
 @dataclass(frozen=True)
 class DriveUnit:
-    """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg."""
+    """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg, radius [m].
+
+    `mass_given` says whether its rotating masses are the spec's, not typical of its power.
+    """
 
     name: str
     spot: Spot
@@ -121,6 +132,8 @@ class DriveUnit:
     power: float | None
     brake: float | None
     reduced_mass: float
+    mass_given: bool
+    radius: float | None
 
 
 @dataclass(frozen=True)
@@ -138,11 +151,19 @@ class TakeUpUnit:
 
 @dataclass(frozen=True)
 class CemaFactors:
-    """Ky, Kt [-] and Ai [N] of the classic form of CEMA."""
+    """What the classic form of CEMA takes: Ky, Kt, Cs [-], Ai, Tp (None by its table), accessories [N], hs [m], N/m."""
 
     flexure: float
     temperature: float
     idler_friction: float
+    skirt_factor: float
+    skirt_depth: float
+    seals: float
+    cleaner: float
+    plough: float
+    pulleys: float | None
+    drive_pulleys: float
+    accessories: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +171,8 @@ class LoopShape:
     """The stretches in the order the belt meets them from the head: return strand, then carry strand.
 
     Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
-    belt, bulk and rolls [kg], the rolls' as if it were all at their rims, on the safe side; `least` the least tension
-    for the sag [N].
+    belt, bulk and rolls [kg], the rolls' as reduced to their rims where given, else all of it, on the safe
+    side; `least` the least tension for the sag [N].
     """
 
     stretches: tuple[Stretch, ...]
@@ -205,8 +226,9 @@ class Line:
     efficiency: float
     regeneration: float
     mains_efficiency: float
-    start_factor: float
-    torque_factor: float | None
+    start_factor: float | None
+    torque_curve: tuple[tuple[float, float], ...]
+    brake_delay: float
     stop_deceleration: float | None
     least_friction: float
     secondary: str
@@ -260,7 +282,8 @@ class Line:
             regeneration=_given(drive.regeneration_efficiency, efficiency),
             mains_efficiency=drive.mains_efficiency,
             start_factor=drive.start_factor,
-            torque_factor=drive.torque_factor,
+            torque_curve=_torque_curve(drive),
+            brake_delay=si(drive.brake_delay),
             stop_deceleration=_known(drive.stop_deceleration),
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
@@ -304,7 +327,7 @@ class Line:
         """The stretches as the belt meets them from the head."""
         stretches = loop_order(self.stretches)
         length = np.array([s.length for s in stretches])
-        moving = [s.line_mass + s.set_mass / s.spacing for s in stretches]
+        moving = [s.line_mass + s.rim_mass / s.spacing for s in stretches]
         return LoopShape(
             stretches=stretches,
             length=length,
@@ -346,6 +369,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         carcass=carcass.kind,
         carcass_thickness=si(carcass.thickness),
         strength=_known(carcass.strength),
+        rating=_known(carcass.rating),
         stiffness=_known(carcass.stiffness),
         splice_strength=_known(carcass.splice_strength),
         splice_making=carcass.splice_making,
@@ -362,17 +386,24 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: boo
     route, flow = conveyor.route, si(conveyor.material.flow)
     spot = places.landing(point.section)
     section = route.sections[0].name if point.section is None else point.section
+    beyond, share, lift, before = flow * route.flow_shares[section], _given(point.share, 1.0), None, spot
+    if point is not route.feeding and route.feeds_back(point):
+        previous = next(a for a, b in itertools.pairwise(route.sections) if b.name == section)
+        share = route.flow_shares[previous.name] if previous.loaded else 0.0
+        lift, before = _given(point.tripper_lift, 0.0), places.before("carry", previous.name)
     return LoadingPoint(
         name=f", {point.section or 'first'}" if route.further_feeding else "",
         spot=spot,
         place=places.name(spot),
-        flow=flow * _given(point.share, 1.0),
-        flow_beyond=flow * route.flow_shares[section],
+        flow=flow * share,
+        flow_beyond=beyond,
         speed=si(point.speed),
         skirt_length=si(point.skirt_length),
         skirt_width=si(point.skirt_width),
         belt_friction=point.belt_friction,
         skirt_friction=point.skirt_friction,
+        lift=lift,
+        before=before,
         assumed=assumed,
     )
 
@@ -387,6 +418,7 @@ def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
     return tuple(
         Scraper(
             count=cleaner.count,
+            width=si(cleaner.width),
             area=si(cleaner.width) * si(cleaner.thickness),
             pressure=si(cleaner.pressure),
             friction=cleaner.friction,
@@ -475,10 +507,37 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
             wrap_angle=si(pulley.wrap_angle),
             power=_known(pulley.installed_power),
             brake=_known(pulley.brake_force),
-            reduced_mass=si(pulley.reduced_mass),
+            reduced_mass=_reduced_mass(conveyor, pulley),
+            mass_given=pulley.reduced_mass is not None or pulley.inertia is not None,
+            radius=_radius(conveyor, pulley),
         )
         for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
     )
+
+
+def _radius(conveyor: Conveyor, pulley: DrivePulley) -> float | None:
+    diameter = drive_diameter(conveyor, pulley)
+    return None if diameter is None else 0.5 * si(diameter)
+
+
+def _reduced_mass(conveyor: Conveyor, pulley: DrivePulley) -> float:
+    """Rotating masses of a drive at the belt [kg]; nothing of a drive of unknown power."""
+    if pulley.reduced_mass is not None:
+        return si(pulley.reduced_mass)
+    radius = _radius(conveyor, pulley)
+    if pulley.inertia is not None and pulley.gear_ratio is not None and radius is not None:
+        return reduced_mass(si(pulley.inertia), radius=radius, ratio=pulley.gear_ratio)
+    if pulley.installed_power is None:
+        return 0.0
+    return typical_reduced_mass(si(pulley.installed_power), belt_speed=si(conveyor.belt.speed))
+
+
+def _torque_curve(drive: Drive) -> tuple[tuple[float, float], ...]:
+    """Torque over the rated one at speeds over the rated one, to full speed; empty where the spec says nothing."""
+    if drive.torque_factor is not None:
+        return ((0.0, drive.torque_factor), (1.0, drive.torque_factor))
+    points = [(si(point.speed), point.torque) for point in drive.torque_curve]
+    return tuple(points if not points or points[-1][0] == 1.0 else [*points, (1.0, points[-1][1])])
 
 
 def _shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
@@ -506,4 +565,16 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
 def _cema(factors: Cema | None) -> CemaFactors | None:
     if factors is None:
         return None
-    return CemaFactors(factors.flexure_factor, factors.temperature_factor, si(factors.idler_friction))
+    return CemaFactors(
+        flexure=factors.flexure_factor,
+        temperature=factors.temperature_factor,
+        idler_friction=si(factors.idler_friction),
+        skirt_factor=factors.skirt_factor or 0.0,
+        skirt_depth=_given(factors.skirt_depth, 0.0),
+        seals=si(factors.skirt_seals),
+        cleaner=si(factors.cleaner_friction),
+        plough=si(factors.plough_friction),
+        pulleys=_known(factors.pulley_friction),
+        drive_pulleys=si(factors.drive_pulley_friction),
+        accessories=si(factors.accessories),
+    )

@@ -27,8 +27,7 @@ DragLaw = Callable[[float], float]
 
 def roll_at(idlers: IdlerSet, place: int) -> Roll:
     """Roll at a place of the set, left to right."""
-    middle = idlers.rolls in {3, 5} and place == idlers.rolls // 2
-    return idlers.middle if middle else idlers.roll
+    return idlers.roll_at(place)
 
 
 class SetDrags:
@@ -46,7 +45,11 @@ class SetDrags:
 
     def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: str) -> None:
         rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
-        self._laws = [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
+        self._laws = (
+            [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
+            if idlers.drag is None
+            else [_evenly(si(idlers.drag) / idlers.rolls)] * idlers.rolls
+        )
         self._known: dict[tuple[int, float], float] = {}
         self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
 
@@ -84,7 +87,11 @@ def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw:
         return _named(_bearing(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
     if roll.drag is None and conveyor.calculation.roll_drag == "in service":
         return _named(_in_service(diameter, si(roll.length), speed, air), f"{field}: drag not given")
-    drag = acceptance_limit(roll).value if roll.drag is None else si(roll.drag)
+    return _evenly(acceptance_limit(roll).value if roll.drag is None else si(roll.drag))
+
+
+def _evenly(drag: float) -> DragLaw:
+    """The same drag under any load."""
     return lambda _load: drag
 
 
@@ -98,7 +105,7 @@ def _in_service(diameter: float, length: float, speed: float, air: float) -> Dra
 
 def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
     """Share of the rolls that are taken to be in service in the drag of a set [-], from the drags of its rolls [N]."""
-    if conveyor.calculation.roll_drag != "in service":
+    if conveyor.calculation.roll_drag != "in service" or idlers.drag is not None:
         return 0.0
     rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
     without = [roll.drag is None and roll.drag_law is None for roll in rolls]

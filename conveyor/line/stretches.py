@@ -92,8 +92,8 @@ class Stretch:
         That keeps the sag between the sets as small as asked for [N].
     drags : tuple of float
         Drag of each roll of one set at its rim [N].
-    set_mass : float
-        Rotating mass of one set [kg].
+    set_mass, rim_mass : float
+        Rotating mass of one set, and what of it resists acceleration at the rim [kg].
     span_flexure : float or None
         Flexure of belt and bulk over one span [N]; None where the spec asks for a share of the main resistance.
     """
@@ -114,6 +114,7 @@ class Stretch:
     least_tension: float
     drags: tuple[float, ...]
     set_mass: float
+    rim_mass: float
     span_flexure: float | None = None
 
     @property
@@ -174,7 +175,7 @@ class _Strand:
         self.gravity = si(conveyor.calculation.gravity)
         self.full = bulk_line_mass(si(conveyor.material.flow), belt_speed=si(conveyor.belt.speed))
         self.flow_shares = conveyor.route.flow_shares
-        self.set_mass = _set_mass(self.idlers)
+        self.set_mass, self.rim_mass = self.idlers.set_mass, self.idlers.rim_mass
         self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
         self.roll_length = si(self.idlers.roll.length)
         self.radii = tuple(0.5 * si(roll_at(self.idlers, i).diameter) for i in range(self.idlers.rolls))
@@ -223,6 +224,7 @@ class _Strand:
             least_tension=least,
             drags=self.set_drags.of(loads),
             set_mass=self.set_mass,
+            rim_mass=self.rim_mass,
             span_flexure=self._span(flow, spacing, inclination, least),
         )
 
@@ -236,8 +238,3 @@ class _Strand:
             inclination=inclination,
             least_tension=least,
         )
-
-
-def _set_mass(idlers: IdlerSet) -> float:
-    """Rotating mass of one set [kg]."""
-    return math.fsum(si(roll_at(idlers, place).rotating_mass) for place in range(idlers.rolls))

@@ -10,7 +10,7 @@ from conveyor.forces import Force, ForceSums, by_length_coefficient
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line
-from conveyor.loop.estimates import Classical, cema, classical
+from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
 from conveyor.loop.frame import Frame
 from conveyor.loop.settled import Settled, settle
 from conveyor.loop.tensions import Loop, MotionState
@@ -130,9 +130,9 @@ class Balance:
         return classical(self.line, self.forces, self.unit_main)
 
     @cached_property
-    def cema(self) -> Classical | None:
+    def cema(self) -> CemaEstimate | None:
         """Classic form of CEMA, where the spec gives its factors; its f is the one DIN 22101 would need."""
-        return cema(self.line, self.singles, self.unit_main)
+        return cema(self.line, self.unit_main)
 
     @cached_property
     def points(self) -> tuple[TensionPoint, ...]:

@@ -95,6 +95,8 @@ class BeltDuty:
         Strength over them [-]; None where the strength is not given.
     safety_needed : float
         Classic safety in steady running, DIN 22101:1982 [-].
+    per_width_steady, per_width, rating : float
+        Highest tension per width in steady running and in all states, and the belt's rated one [N/m]; None without.
     strength_needed : float or None
         Strength class by the endurance of the splice, DIN 22101:2002 [N/m]; None without the splice's.
     pulleys : tuple of PulleyCheck
@@ -110,6 +112,9 @@ class BeltDuty:
     safety_steady: float | None
     safety: float | None
     safety_needed: float
+    per_width_steady: float
+    per_width: float
+    rating: float | None
     strength_needed: float | None
     pulleys: tuple[PulleyCheck, ...]
     drive_diameter: float | None
@@ -132,6 +137,9 @@ def belt_duty(found: Balance) -> BeltDuty:
         safety_steady=safety(steady),
         safety=safety(largest),
         safety_needed=_classic_safety(found.line),
+        per_width_steady=steady / belt.width,
+        per_width=largest / belt.width,
+        rating=belt.rating,
         strength_needed=None
         if belt.splice_strength is None
         else needed_strength(
@@ -216,18 +224,23 @@ def _strips(
     """Radii at which edges and middle of the belt bear the curve; None where stiffness or trough are not known."""
     belt = line.belt
     trough, width, strength = _trough(stretch, belt.width), belt.width, belt.strength
-    if trough is None or strength is None:
+    if strength is not None:
+        allowed = strength / _classic_safety(line)
+    elif belt.rating is not None:
+        allowed = belt.rating
+    else:
+        return None, None
+    if trough is None:
         return None, None
     if belt.stiffness is not None:
         stiffness = belt.stiffness
-    elif belt.steel_cord:
+    elif belt.steel_cord and strength is not None:
         stiffness = steel_cord_stiffness(strength)
     else:
         return None, None
     stretched, slackened = trough.edge_above, trough.middle_below
     if kind == "concave":
         stretched, slackened = slackened, stretched
-    allowed = strength / _classic_safety(line)
     over = slack = math.inf
     if highest / width < allowed:
         over = overstress_radius(

@@ -1,16 +1,15 @@
 """Classical estimates for the same spec: ISO 5048 / DIN 22101 with a given f, CEMA with a given Ky.
 
-CEMA: Kx computed, Ky, Kt and Ai from the user's copy of Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6, as
-commonly reproduced.
+CEMA: Kx computed, Ky, Kt, Ai, Cs from the user's copy of Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6, as
+commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures. Nothing of this calculation is in it.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 
-from conveyor.forces import Force, ForceSums
+from conveyor.forces import ForceSums
 from conveyor.laws.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
@@ -19,16 +18,18 @@ from conveyor.laws.resistance import (
     cema_effective_tension,
     cema_idler_factor,
     cema_pulley_friction,
+    cema_skirts,
     equivalent_friction_factor,
     secondary_resistance,
+    slope_resistance,
 )
 from conveyor.laws.resistance.cema import Place
 from conveyor.line.line import BendPulley, CemaFactors, Line
 from conveyor.line.stretches import Stretch
 
+STANDARD_GRAVITY = 9.80665
+"""Pounds force for pounds mass [m/s²]."""
 _LONGEST_FOR_FACTOR = LENGTH_COEFFICIENTS[-1][0]
-_ACCESSORIES = frozenset({"loading_skirts", "skirts", "cleaner", "plough"})
-"""Forces of this calculation that stand for Tac."""
 _LEAST_WRAP = math.radians(150.0)  # CEMA: below it a pulley counts as "other"
 
 
@@ -75,36 +76,83 @@ def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
     )
 
 
-def cema(line: Line, points: Iterable[Force], unit_main: float) -> Classical | None:
+@dataclass(frozen=True)
+class CemaEstimate(Classical):
+    """The classic form of CEMA, by cause [N].
+
+    `items` are symbol, words and force of everything in Te; `drive_pulleys` is what their bearings take of the motors
+    beside Te.
+    """
+
+    items: tuple[tuple[str, str, float], ...]
+    drive_pulleys: float
+
+
+def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     """Te = L Kt (Kx + Ky Wb + 0.015 Wb) + Wm (L Ky ± H) + Tp + Tam + Tac, section by section; None without factors.
 
     Parameters
     ----------
     line : Line
-        With Ky, Kt, Ai, loading points and pulleys.
-    points : iterable of Force
-        Of this calculation: its skirts, cleaners and ploughs stand for Tac.
+        With Ky, Kt, Ai and the figures of accessories; its loading points, cleaners, ploughs and pulleys.
     unit_main : float
         Main resistance for f = 1 [N].
 
     Notes
     -----
-    Ky is one figure for the whole conveyor, though the book's table has one for each length, slope and load. The
-    acceleration and the pulleys (200, 150 or 100 lbf by place) are the book's; of pulleys that are not listed there is
-    nothing. Lengths are along the belt; the tilt of idlers is in Kx and not counted again.
+    Ky is one figure for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
+    are 200, 150 or 100 lbf by place unless given; of pulleys that are not listed there is nothing. Skirts are as long
+    as the spec says, the zone of acceleration is theirs. Lengths are along the belt; the tilt of idlers is in Kx.
     """
-    if line.cema is None:
+    given = line.cema
+    if given is None:
         return None
-    parts = [_section(stretch, line.cema) for stretch in line.stretches[: line.count]]
-    main = math.fsum(part.effective - part.lift for part in parts)
-    pulleys = cema_pulley_friction([_place(pulley) for pulley in line.pulleys if not pulley.driven])
-    return Classical(
-        friction_factor=equivalent_friction_factor(main, unit_main_force=unit_main),
-        main=main,
-        secondary=pulleys + _acceleration(line),
+    parts = [_section(stretch, given) for stretch in line.stretches[: line.count]]
+    pulleys = given.pulleys
+    if pulleys is None:
+        pulleys = cema_pulley_friction([_place(pulley) for pulley in line.pulleys if not pulley.driven])
+    over = [
+        slope_resistance(point.flow / line.speed, lift=point.lift, gravity=STANDARD_GRAVITY)
+        for point in line.loading
+        if point.lift is not None
+    ]
+    main = (
+        ("Tx", "idlers", math.fsum(part.idlers for part in parts)),
+        ("Tyc", "flexure of the belt, carry", math.fsum(part.belt_carry for part in parts)),
+        ("Tyr", "flexure of the belt, return", math.fsum(part.belt_return for part in parts)),
+        ("Tym", "flexure of the bulk", math.fsum(part.bulk for part in parts)),
+    )
+    secondary = (("Tp", "pulleys", pulleys), ("Tam", "acceleration of the bulk", _acceleration(line)))
+    special = (
+        ("Tsb", "skirts", _skirts(line, given)),
+        ("Tbc", "cleaners", given.cleaner * math.fsum(each.count * each.width for each in line.scrapers)),
+        ("Tpl", "ploughs", given.plough * math.fsum(each.count * each.width for each in line.ploughs)),
+        ("Tac", "other accessories", given.accessories),
+    )
+    lift = (("Tm", "lift of the bulk", math.fsum([*(part.lift for part in parts), *over])),)
+    sums = [math.fsum(item[2] for item in group) for group in (main, secondary, special, lift)]
+    return CemaEstimate(
+        friction_factor=equivalent_friction_factor(sums[0], unit_main_force=unit_main),
+        main=sums[0],
+        secondary=sums[1],
         secondary_by="Tp + Tam (CEMA)",
-        special=math.fsum(force.total for force in points if force.key in _ACCESSORIES),
-        lift=math.fsum(part.lift for part in parts),
+        special=sums[2],
+        lift=sums[3],
+        items=(*main, *lift, *secondary, *special),
+        drive_pulleys=given.drive_pulleys,
+    )
+
+
+def _skirts(line: Line, given: CemaFactors) -> float:
+    """Skirts of every loading point; nothing lies on them of an empty belt, their seals rub all the same."""
+    return math.fsum(
+        cema_skirts(
+            point.skirt_length,
+            skirt_factor=given.skirt_factor if point.flow_beyond > 0.0 else 0.0,
+            depth=given.skirt_depth,
+            seals=given.seals,
+        )
+        for point in line.loading
     )
 
 

@@ -9,6 +9,8 @@ from functools import cached_property
 
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
+from conveyor.laws.motion import START_FACTOR
+from conveyor.loop.run_up import run_up
 from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, MotionState, Singles
 
 _LOOP_STEPS = 200
@@ -179,7 +181,8 @@ def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
 
 def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
     """Steady running and every state that the grip of the drives has to hold in."""
-    line, factor, mass = loop.line, loop.line.start_factor, loop.masses.whole
+    line, mass = loop.line, loop.masses.whole
+    factor = START_FACTOR.value if line.start_factor is None else line.start_factor
 
     def shared(name: str, force: float, friction: float, over: float) -> Motion:
         forces = [drive.share * over * force for drive in line.drives]
@@ -195,10 +198,21 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
             may_sag=over != 1.0,
         )
 
-    found = [
-        shared(STEADY, drive, 1.0, 1.0),
-        shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor),
-    ]
+    found = [shared(STEADY, drive, 1.0, 1.0)]
+    if drive > 0.0:
+        start = run_up(line, drive, mass)
+        found.append(
+            loop.motion(
+                START,
+                start.forces,
+                singles,
+                driving=True,
+                acceleration=start.acceleration,
+                may_sag=start.factor != 1.0,
+            )
+        )
+    else:
+        found.append(shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor))
     certain = line.least_friction
     least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
     if least < 0.0 and certain < 1.0:

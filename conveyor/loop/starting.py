@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from conveyor.errors import NoSolutionError
-from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, start_force, stop
+from conveyor.laws.motion import START_FACTOR, Stop, brake_force, bulk_slip_limits, run_up_time, stop
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
+from conveyor.loop.run_up import run_up
 from conveyor.loop.settled import coasting
 from conveyor.loop.tensions import MotionState
 
@@ -24,13 +25,20 @@ class Start:
     Attributes
     ----------
     force : float
-        Of all drives on the belt: the steady one times the start factor.
+        Of all drives on the belt at its largest.
     acceleration, time : float
-        Of belt and bulk, until full speed; time is None where the start factor is 1.
+        Of belt and bulk with it; until full speed, None where the motors do not reach it.
+    factor : float
+        That force over the one in steady running.
     torque_factor : float or None
         Motor torque over the rated one for it, rotating masses of the drives included; None without installed power.
-    available : float or None
-        Force the motors give at the belt at the largest torque factor of the spec.
+    asked : float or None
+        Force a controlled start asks of the motors, those masses included; None of an uncontrolled one.
+    available, least : float or None
+        Force of the motors at the belt by their torque: largest and least of the run-up, the least of a controlled
+        start while each keeps its share.
+    standstill : float
+        Force on the belt at rest.
     breakaway : float
         Resistance with the rolls after standstill, at most.
     """
@@ -38,8 +46,12 @@ class Start:
     force: float
     acceleration: float
     time: float | None
+    factor: float
     torque_factor: float | None
+    asked: float | None
     available: float | None
+    least: float | None
+    standstill: float
     breakaway: float
 
 
@@ -68,7 +80,14 @@ class Motions:
     coasting, coasting_least : Stop or None
         Without brakes, with the computed and the least certain friction; None where the belt does not stop by itself.
     braked : Stop or None
-        With the brakes of the spec and the least certain friction; None without brakes or where they do not stop it.
+        With the brakes of the spec and the least certain friction, after their delay; None without brakes or where they
+        do not stop it.
+    runaway : float or None
+        Acceleration without power and brakes at the least certain friction [m/s²]; None where it does not run away.
+    gripping_speed : float
+        Speed at which the brakes grip [m/s].
+    braking_heat : float or None
+        Work of all brakes in the braked stop [J].
     brake_to_stop : float or None
         Brake force at the belt for the deceleration wanted [N], at least certain friction; 0 where none is needed.
     brake_to_hold : float
@@ -88,6 +107,9 @@ class Motions:
     coasting: Stop | None
     coasting_least: Stop | None
     braked: Stop | None
+    runaway: float | None
+    gripping_speed: float
+    braking_heat: float | None
     brake_to_stop: float | None
     brake_to_hold: float
     rolls_back: bool
@@ -116,19 +138,27 @@ def motions(found: Balance) -> Motions:
     least = settled.least_force
     brakes = math.fsum(line.brakes)
     wanted = line.stop_deceleration
-    moving = math.fsum(force.total for force in loop.points if force.certain)
-    hold, back = _holding(loop.lifts.whole, least - loop.lifts.whole - moving)
+    certain = [force for force in loop.points if force.certain]
+    lift = loop.lifts.whole + math.fsum(force.total for force in certain if force.kind == "lift")
+    moving = math.fsum(force.total for force in certain if force.kind != "lift")
+    hold, back = _holding(lift, least - lift - moving)
+    whole = mass + rotating
+    gripping = max(0.0, line.speed - least / whole * line.brake_delay)
+    stopped, heat = (None, None) if brakes == 0.0 else _braked(line, least, brakes, whole, gripping)
     off = coasting(loop, settled.bends, 1.0, [0.0] * len(line.drives), COASTING)
     return Motions(
         moving_mass=mass,
         rotating_mass=rotating,
         start=_start(found, mass, rotating),
-        coasting=_stop(line.speed, settled.force, mass + rotating),
-        coasting_least=_stop(line.speed, least, mass + rotating),
-        braked=None if brakes == 0.0 else _stop(line.speed, least + brakes, mass + rotating),
+        coasting=_stop(line.speed, settled.force, whole),
+        coasting_least=_stop(line.speed, least, whole),
+        braked=stopped,
+        runaway=-least / whole if least < 0.0 else None,
+        gripping_speed=gripping,
+        braking_heat=heat,
         brake_to_stop=None
         if wanted is None
-        else max(0.0, brake_force(wanted, resistance=least, moving_mass=mass + rotating)),
+        else max(0.0, brake_force(wanted, resistance=least, moving_mass=whole)),
         brake_to_hold=hold,
         rolls_back=back,
         slip=_slip(line),
@@ -150,29 +180,59 @@ def _stop(speed: float, force: float, mass: float) -> Stop | None:
     return stop(speed, retarding_force=force, moving_mass=mass) if force > 0.0 else None
 
 
+def _braked(
+    line: Line, least: float, brakes: float, mass: float, gripping: float
+) -> tuple[Stop | None, float | None]:
+    """A stop with brakes that grip after a delay, from the speed the belt has by then, and their work [J]."""
+    if gripping == 0.0:  # the belt rests before they grip
+        return _stop(line.speed, least, mass), 0.0
+    made = _stop(gripping, least + brakes, mass)
+    if made is None:
+        return None, None
+    before = 0.5 * (line.speed + gripping) * line.brake_delay
+    whole = Stop(made.deceleration, line.brake_delay + made.time, before + made.distance)
+    return whole, brakes * made.distance
+
+
 def _start(found: Balance, mass: float, rotating: float) -> Start:
     line, steady = found.line, found.settled.force
-    force = line.start_factor * steady
-    acceleration = (line.start_factor - 1.0) * steady / mass
-    powers = [drive.power for drive in line.drives]
-    installed = math.fsum(power for power in powers if power is not None)
-    rated = available = None
-    if all(power is not None for power in powers) and force > 0.0:
-        one = start_force(
-            installed, torque_factor=1.0, efficiency=line.efficiency, rated_belt_speed=line.speed
-        )
-        rated = (force + rotating * acceleration) / one
-        if line.torque_factor is not None:
-            available = line.torque_factor * one
     stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * found.forces.parts["idler_rotation"]
+    if steady <= 0.0:
+        factor = START_FACTOR.value if line.start_factor is None else line.start_factor
+        braking = (factor - 1.0) * steady / mass
+        time = line.speed / abs(braking) if braking else None
+        return Start(
+            factor * steady, braking, time, factor, None, None, None, None, factor * steady, steady + stuck
+        )
+    made = run_up(line, steady, mass)
+    given = made.force + rotating * made.acceleration
+    time = line.speed / made.acceleration if made.acceleration > 0.0 else None
+    standstill = made.force
+    if made.asked is None and made.rated is not None and made.standstill is not None:
+        time = _time(line, made.rated, steady, mass + rotating)
+        standstill = steady + (made.standstill - steady) * mass / (mass + rotating)
     return Start(
-        force=force,
-        acceleration=acceleration,
-        time=None if acceleration == 0.0 else line.speed / abs(acceleration),
-        torque_factor=rated,
-        available=available,
+        force=made.force,
+        acceleration=made.acceleration,
+        time=time,
+        factor=made.factor,
+        torque_factor=None if made.rated is None else given / made.rated,
+        asked=made.asked,
+        available=made.largest,
+        least=made.least,
+        standstill=standstill,
         breakaway=steady + stuck,
     )
+
+
+def _time(line: Line, rated: float, steady: float, mass: float) -> float | None:
+    """Run-up time by the torque curve [s]; None where the motors get stuck."""
+    speeds = [line.speed * over for over, _ in line.torque_curve]
+    forces = [torque * rated - steady for _, torque in line.torque_curve]
+    try:
+        return run_up_time(speeds, forces, mass=mass)
+    except NoSolutionError:
+        return None
 
 
 def _slip(line: Line) -> SlipLimits | None:

@@ -75,7 +75,9 @@ class Carcass(Model):
     mass: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="200 kg/m^2")] | None = None
     """Mass per area of the carcass alone; needed where the belt's mass is not given."""
     strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")] | None = None
-    """Nominal breaking strength per width (ST1600: 1600 N/mm)."""
+    """Nominal breaking strength per width (ST1600: 1600 N/mm; EP800: 800 N/mm, 4570 lbf/in); not in PIW."""
+    rating: Annotated[LineForce, Bounds(gt="0 N/mm", le="5000 N/mm")] | None = None
+    """Rated working tension per width, as US belts are sold: a "600 PIW" belt; instead of the strength or beside it."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
     """Tensile stiffness per width; of steel cord 72 times the strength without it."""
     splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
@@ -84,6 +86,24 @@ class Carcass(Model):
     """Conditions under which the splice is made."""
     duty: Literal["favourable", "normal", "unfavourable"] = "normal"
     """Life wanted, consequences of a failure, and how hard the belt is used."""
+
+    @model_validator(mode="after")
+    def _named(self) -> Self:
+        strength, rating, problems = self.strength, self.rating, []
+        if strength is not None and text(strength).endswith(" PIW"):
+            message = (
+                f"got {text(strength)}: PIW says what a belt is rated to work at, not where it breaks; give "
+                f"rating: {text(strength)}, or the breaking strength in lbf/in or N/mm"
+            )
+            problems.append(Problem(("strength",), message))
+        elif strength is not None and rating is not None and si(rating) >= si(strength):
+            message = f"got {text(rating)}, but the belt breaks at {text(strength)} (strength); correct one of the two"
+            problems.append(Problem(("rating",), message))
+        if strength is None and self.splice_strength is not None:
+            message = "given without the strength it is a share of; give strength, or remove it"
+            problems.append(Problem(("splice_strength",), message))
+        refuse("Carcass", problems)
+        return self
 
 
 class Belt(Listed):

@@ -10,6 +10,7 @@ from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.models.base import Location, Problem
 from conveyor.models.belt import Cover, TopCover
+from conveyor.models.drive import DrivePulley
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
@@ -26,6 +27,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _warm_enough,
         _feeding_fits,
         _drives_placed,
+        _inertia_reduced,
         _coefficient_holds,
         _flexure_applies,
     )
@@ -185,6 +187,27 @@ def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
     for location, name in named.items():
         if name is not None:
             yield from conveyor.route.section_problem(location, name)
+
+
+def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | None:
+    """Diameter of a drive's pulley: as given, else of the most wrapped pulley at its place; None without one."""
+    if drive.pulley_diameter is not None:
+        return drive.pulley_diameter
+    place = (drive.position, drive.section)
+    here = [pulley for pulley in conveyor.route.pulleys if (pulley.position, pulley.section) == place]
+    return max(here, key=lambda pulley: si(pulley.wrap_angle)).diameter if here else None
+
+
+def _inertia_reduced(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A moment of inertia acts over the radius of the pulley."""
+    places: list[Location] = [("drive",)]
+    places += [("drive", "further_drives", i) for i in range(len(conveyor.drive.further_drives))]
+    for place, drive in zip(places, conveyor.drive.pulleys, strict=True):
+        if drive.inertia is not None and drive_diameter(conveyor, drive) is None:
+            message = (
+                "missing: inertia acts over the pulley's radius; give it, or the pulley in route.pulleys"
+            )
+            yield Problem((*place, "pulley_diameter"), message)
 
 
 def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any, Final, Self
 
 from pydantic import ConfigDict, Field, model_validator
@@ -11,7 +13,21 @@ from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
 from conveyor.models.train import PRODUCT_TOLERANCE, DrivePart, product, with_efficiency
-from conveyor.units import Acceleration, Angle, Bounds, Force, Fraction, Mass, Power, quantity, si, text
+from conveyor.units import (
+    Acceleration,
+    Angle,
+    Bounds,
+    Force,
+    Fraction,
+    Inertia,
+    Length,
+    Mass,
+    Power,
+    Time,
+    quantity,
+    si,
+    text,
+)
 
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
 """Friction taken for certain when it brakes, over the computed one: f downhill over f, general knowledge."""
@@ -34,13 +50,39 @@ class DrivePulley(Model):
     """Share of the whole drive force; of several drives without it in proportion to installed power."""
     brake_force: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
     """Force of its brake at the belt."""
-    reduced_mass: Annotated[Mass, Bounds(ge="0 kg", le="10000 t")] = quantity("0 kg")
-    """Rotating masses of motor, gear and pulley reduced to the belt, m = J i²/r²."""
+    reduced_mass: Annotated[Mass, Bounds(ge="0 kg", le="10000 t")] | None = None
+    """Rotating masses of motor, gear and pulley reduced to the belt; else by inertia, else typical of the power."""
+    inertia: Annotated[Inertia, Bounds(ge="0 kg*m^2", le="100000 kg*m^2")] | None = None
+    """The same as a moment of inertia at the motor's shaft, of all its motors together; J, in m = J i²/r²."""
+    gear_ratio: Annotated[Number, Field(gt=0, le=1000)] | None = None
+    """Speed of the motor over that of the pulley, i; needed beside inertia."""
+    pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
+    """Diameter of its pulley, for torques and inertia; without it that of route.pulleys at its place."""
 
     @model_validator(mode="after")
     def _placed(self) -> Self:
-        refuse(type(self).__name__, position_problem(self.position, self.section))
+        problems = position_problem(self.position, self.section)
+        if self.inertia is not None and self.reduced_mass is not None:
+            message = (
+                f"got {text(self.inertia)} beside reduced_mass {text(self.reduced_mass)}; give one of the two"
+            )
+            problems.append(Problem(("inertia",), message))
+        elif (self.inertia is None) != (self.gear_ratio is None):
+            missing, given = (
+                ("gear_ratio", "inertia") if self.gear_ratio is None else ("inertia", "gear_ratio")
+            )
+            problems.append(Problem((missing,), f"missing: {given} is given and needs it, or remove {given}"))
+        refuse(type(self).__name__, problems)
         return self
+
+
+class TorquePoint(Model):
+    """A point of the motors' torque curve."""
+
+    speed: Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
+    """Over the rated speed."""
+    torque: Annotated[Number, Field(gt=0, le=10)]
+    """Over the rated torque."""
 
 
 class FurtherDrive(DrivePulley):
@@ -67,10 +109,15 @@ class Drive(DrivePulley):
     """Parts of the drive train with their efficiencies, also those between mains and motor shaft."""
     regeneration_efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """From the belt to the motor's shaft when the belt drives; as efficiency without it."""
-    start_factor: Annotated[Number, Field(ge=1, le=5)] = 1.3
-    """Drive force at start over that in steady running; a regenerative conveyor's braking force likewise."""
+    start_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
+    """Drive force of a controlled start over that in steady running; without it all that torque_factor or torque_curve
+    let the motors give, without those 1.3. A regenerative conveyor's braking force likewise."""
     torque_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
     """Largest torque at start over the rated one, as motor, coupling or converter allow."""
+    torque_curve: Annotated[tuple[TorquePoint, ...], Field(max_length=100)] = ()
+    """Torque of the motors over their speed, from rest, instead of torque_factor; the last one holds to full speed."""
+    brake_delay: Annotated[Time, Bounds(ge="0 s", le="60 s")] = quantity("0 s")
+    """Time from a power failure until the brakes grip."""
     stop_deceleration: Annotated[Acceleration, Bounds(gt="0 m/s^2", le="5 m/s^2")] | None = None
     """Deceleration wanted when the conveyor is stopped."""
     least_friction: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(LEAST_FRICTION, "fraction")
@@ -85,7 +132,7 @@ class Drive(DrivePulley):
 
     @model_validator(mode="after")
     def _shared(self) -> Self:
-        refuse("Drive", [*self._share_problems(), *self._train_problems()])
+        refuse("Drive", [*self._share_problems(), *self._train_problems(), *self._torque_problems()])
         return self
 
     @property
@@ -102,6 +149,21 @@ class Drive(DrivePulley):
     def mains_efficiency(self) -> float:
         """From the mains to the motor's shaft [-]; 1 where the train has no part there."""
         return product(self.train, "mains")
+
+    def _torque_problems(self) -> Iterator[Problem]:
+        speeds = [si(point.speed) for point in self.torque_curve]
+        if self.torque_curve and self.torque_factor is not None:
+            yield Problem(("torque_factor",), "given beside torque_curve; give one of the two")
+        if speeds and speeds[0] != 0.0:
+            yield Problem(
+                ("torque_curve", 0, "speed"), f"got {text(self.torque_curve[0].speed)}; a start begins at 0 %"
+            )
+        for i, (slower, faster) in enumerate(itertools.pairwise(speeds), start=1):
+            if faster <= slower:
+                message = (
+                    f"got {text(self.torque_curve[i].speed)}, not faster than the point before; sort them"
+                )
+                yield Problem(("torque_curve", i, "speed"), message)
 
     def _train_problems(self) -> list[Problem]:
         whole = product(self.train, "belt")

@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
 from conveyor.models.base import Model, Problem, refuse
 from conveyor.models.rolls import Roll
-from conveyor.units import Angle, Bounds, Fraction, Length, Quantity, quantity, si, text
+from conveyor.units import (
+    Angle,
+    Bounds,
+    Force,
+    Fraction,
+    Length,
+    Quantity,
+    SetMass,
+    is_kind,
+    quantity,
+    si,
+    text,
+)
 
 SHARE_SUM_TOLERANCE: Final = 1e-9
 """Shares are typed as decimals; anything coarser is a slip (the loading laws use the same figure)."""
@@ -38,6 +51,12 @@ class IdlerSet(Model):
     """Rule of the bulk's shares without load_shares; cross-section: by the area of bulk above each of 3 rolls."""
     wing_load: Literal["triangular", "uniform"] = "triangular"
     """Bulk along the outer rolls: falling to nothing at the edge, or even."""
+    rotating_mass: Annotated[SetMass, Bounds()] | None = None
+    """Mass of all parts that turn, of one set or per length at the spacing above, instead of that of each roll."""
+    reduced_mass: Annotated[SetMass, Bounds()] | None = None
+    """The same reduced to the rim, for starting and stopping; without it all is taken to be at the rim."""
+    drag: Annotated[Force, Bounds(ge="0 N", le="5 kN")] | None = None
+    """Running drag of all rolls of one set at their rims, instead of that of each roll."""
     offset: Annotated[Length, Bounds(ge="0 m", le="2 m")] = quantity("0 m")
     """Distance along the belt of the plane of the middle rolls from that of the outer ones; the loads stay."""
     tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
@@ -50,9 +69,40 @@ class IdlerSet(Model):
         """The middle roll, be it different or not."""
         return self.roll if self.middle_roll is None else self.middle_roll
 
+    @property
+    def set_mass(self) -> float:
+        """Mass of the parts of one set that turn; the reduced one where no other is given [kg]."""
+        return self._turning or self.rim_mass
+
+    @property
+    def _turning(self) -> float:
+        """Mass of the parts of one set that turn, without the reduced one [kg]."""
+        if self.rotating_mass is not None:
+            return self._of_set(self.rotating_mass)
+        masses = [self.roll_at(place).rotating_mass for place in range(self.rolls)]
+        return 0.0 if None in masses else math.fsum(si(mass) for mass in masses if mass is not None)
+
+    @property
+    def reduced_only(self) -> bool:
+        """Whether the reduced mass must stand for all that turns."""
+        return not self._turning
+
+    @property
+    def rim_mass(self) -> float:
+        """Mass of one set as it resists acceleration at the rim [kg]."""
+        return self._turning if self.reduced_mass is None else self._of_set(self.reduced_mass)
+
+    def _of_set(self, mass: Quantity) -> float:
+        return si(mass) * (si(self.spacing) if is_kind(mass, "line mass") else 1.0)
+
+    def roll_at(self, place: int) -> Roll:
+        """Roll at a place of the set, left to right."""
+        return self.middle if self.rolls in {3, 5} and place == self.rolls // 2 else self.roll
+
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        problems = self._roll_problems() + overlap_problems(("spacing",), self.spacing, self)
+        problems = [*self._roll_problems(), *self._whole_problems()]
+        problems += overlap_problems(("spacing",), self.spacing, self)
         for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
             problems += self._share_problems(name, shares)
         problems += self._rule_problems()
@@ -86,6 +136,34 @@ class IdlerSet(Model):
                 )
             )
         return problems
+
+    def _whole_problems(self) -> Iterator[Problem]:
+        """Masses and drag are given for each roll or for the whole set, never both."""
+        for name in ("rotating_mass", "reduced_mass"):
+            mass: Quantity | None = getattr(self, name)
+            if mass is not None and si(mass) <= 0.0:
+                yield Problem((name,), f"got {text(mass)}, allowed: > 0")
+        rolls = {"roll": self.roll, "middle_roll": self.middle_roll}
+        for name, roll in rolls.items():
+            if roll is None:
+                continue
+            listed = roll.entry is not None and "rotating_mass" in roll.entry.fields
+            if roll.rotating_mass is None and self.rotating_mass is None and self.reduced_mass is None:
+                message = "missing: give it, or the rotating_mass of the whole set beside spacing"
+                yield Problem((name, "rotating_mass"), message)
+            elif roll.rotating_mass is not None and self.rotating_mass is not None and not listed:
+                message = (
+                    f"got {text(roll.rotating_mass)} of a roll, but the whole set has {text(self.rotating_mass)} "
+                    "(rotating_mass beside spacing); give one of the two"
+                )
+                yield Problem((name, "rotating_mass"), message)
+            if self.drag is not None and (roll.drag is not None or roll.drag_law is not None):
+                given = "drag" if roll.drag_law is None else "drag_law"
+                message = f"given beside drag {text(self.drag)} of the whole set; give one of the two"
+                yield Problem((name, given), message)
+        if self.reduced_mass is not None and 0.0 < self._turning < self.rim_mass:
+            message = f"got {text(self.reduced_mass)}, more than all that turns; correct one of the two"
+            yield Problem(("reduced_mass",), message)
 
     def _rule_problems(self) -> list[Problem]:
         problems = []

@@ -6,8 +6,9 @@ from typing import Annotated, Final, Self
 
 from pydantic import Field, model_validator
 
+from conveyor.laws.resistance.cema import CLEANER_PER_INCH, PLOUGH_PER_INCH, SEALS_PER_FOOT
 from conveyor.models.base import Model, Number, Problem, refuse
-from conveyor.units import Angle, BendingStiffness, Bounds, Force, quantity
+from conveyor.units import Angle, BendingStiffness, Bounds, Force, LineForce, Thickness, quantity
 
 
 class BeltFlexure(Model):
@@ -55,6 +56,38 @@ class Cema(Model):
     """Kt, 1 above freezing."""
     idler_friction: Annotated[Force, Bounds(ge="0 N", le="1 kN")]
     """Ai of one idler set (1.5 to 2.8 lbf by roll diameter and series)."""
+    skirt_factor: Annotated[Number, Field(ge=0, le=1)] | None = None
+    """Cs of the bulk on the skirts, from the book's table; without it the seals alone."""
+    skirt_depth: Annotated[Thickness, Bounds(ge="0 mm", le="2 m")] | None = None
+    """Depth of the bulk that touches the skirts, hs; needed beside skirt_factor."""
+    skirt_seals: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
+        f"{SEALS_PER_FOOT.value:g} lbf/ft"
+    )
+    """Friction of the rubber seals of both skirts along them."""
+    cleaner_friction: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
+        f"{CLEANER_PER_INCH.value:g} lbf/in"
+    )
+    """Of a cleaner's blade, per its width."""
+    plough_friction: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
+        f"{PLOUGH_PER_INCH.value:g} lbf/in"
+    )
+    """Of a plough, per its width; 3 lbf/in of one that takes half."""
+    pulley_friction: Annotated[Force, Bounds(ge="0 N", le="1 MN")] | None = None
+    """Tp of all pulleys that are not driven, together; else 200, 150 or 100 lbf each by place and wrap."""
+    drive_pulley_friction: Annotated[Force, Bounds(ge="0 N", le="1 MN")] = quantity("0 N")
+    """Bearings of the drive pulleys at the belt: in the motor power, not in Te."""
+    accessories: Annotated[Force, Bounds(ge="0 N", le="1 MN")] = quantity("0 N")
+    """Other accessories, in Te: trippers, stackers, belt turnovers."""
+
+    @model_validator(mode="after")
+    def _skirts(self) -> Self:
+        if (self.skirt_factor is None) != (self.skirt_depth is None):
+            missing, given = "skirt_depth", "skirt_factor"
+            if self.skirt_factor is None:
+                missing, given = given, missing
+            message = f"missing: {given} is given; the bulk on the skirts needs both, or remove {given}"
+            refuse("Cema", [Problem((missing,), message)])
+        return self
 
 
 CALIBRATED: Final = ("indentation", "idler_rotation", "flexure")

@@ -117,8 +117,8 @@ class Roll(Listed):
     """Of the shell, outside."""
     length: Annotated[Length, Bounds(gt="0 mm", le="5 m")]
     """Length of the shell."""
-    rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")]
-    """Mass of the parts that turn."""
+    rotating_mass: Annotated[Mass, Bounds(gt="0 kg", le="1000 kg")] | None = None
+    """Mass of the parts that turn; needed where that of the sets is not given."""
     drag: Drag | None = None
     """Running drag of the roll (bearings and seals) at its rim; else as calculation.roll_drag says."""
     drag_law: Annotated[MakerDrag | BearingDrag, Field(discriminator="law")] | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from functools import cached_property
@@ -35,6 +36,7 @@ from conveyor.units import (
 
 Friction = Annotated[Number, Field(gt=0, le=2)]
 Position = Literal["head", "tail", "carry", "return"]
+_TURNED = math.radians(90.0)  # wrap from which bulk cannot stay on a belt that lies round a pulley
 SHARE_SUM_TOLERANCE = 1e-9
 """Shares are typed as decimals; anything coarser is a slip."""
 
@@ -133,7 +135,10 @@ class Feeding(Model):
     section: Name | None = None
     """Section at whose tail end the bulk lands; the first without it."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
-    """Share of the mass flow fed here; needed where there are several feeding points."""
+    """Share of the mass flow fed here; needed where there are several feeding points, not of a tripper."""
+    tripper_lift: Annotated[Length, Bounds(ge="0 m", le="50 m")] | None = None
+    """Of a tripper or intermediate drive that feeds the belt's own bulk back here: how high it lifts it over the
+    line of the section."""
 
 
 class Cleaner(Model):
@@ -265,7 +270,38 @@ class Route(Model):
             shown = ", ".join(names[:10]) + (", …" if len(names) > 10 else "")
             yield Problem(location, f'got "{name}", which is none of the sections: {shown}')
 
+    def _tripper_problems(self) -> Iterator[Problem]:
+        """A tripper stands behind a section with bulk on it, and feeds back all of it."""
+        if self.feeding is not None and self.feeding.tripper_lift is not None:
+            message = "given at the first loading point; a tripper is one of further_feeding"
+            yield Problem(("feeding", "tripper_lift"), message)
+        for i, point in enumerate(self.further_feeding):
+            if not self.feeds_back(point):
+                continue
+            if point.share is not None and si(point.share) != 1.0:
+                message = f"got {text(point.share)}, but a tripper feeds back all that comes; remove share"
+                yield Problem(("further_feeding", i, "share"), message)
+            if point.section is None or point.section == self.sections[0].name:
+                message = "a tripper stands behind a section; give the section that follows it"
+                yield Problem(("further_feeding", i, "section"), message)
+
+    def feeds_back(self, point: Feeding) -> bool:
+        """Whether a further feeding point is a tripper: by its lift, or where all bulk lands on a belt that turns.
+
+        Where the carry strand lies round a pulley its bulk has left it, so that all of the flow behind it is the same.
+        """
+        if point.tripper_lift is not None:
+            return True
+        if point.share is None or si(point.share) != 1.0:
+            return False
+        turns = {p.section for p in self.pulleys if p.position == "carry" and si(p.wrap_angle) > _TURNED}
+        return any(
+            section.name in turns and after.name == point.section
+            for section, after in itertools.pairwise(self.sections)
+        )
+
     def _feeding_problems(self) -> Iterator[Problem]:
+        yield from self._tripper_problems()
         if not self.further_feeding:
             if self.feeding is not None and self.feeding.share is not None and si(self.feeding.share) != 1.0:
                 message = f"got {text(self.feeding.share)} of a single feeding point; remove it or list further_feeding"
@@ -277,9 +313,12 @@ class Route(Model):
             )
             return
         total, certain = 0.0, True
+        fresh = [(i, point) for i, point in enumerate(self.further_feeding) if not self.feeds_back(point)]
+        if not fresh and self.feeding.share is None:
+            return
         for location, point in (
             (("feeding", "share"), self.feeding),
-            *((("further_feeding", i, "share"), f) for i, f in enumerate(self.further_feeding)),
+            *((("further_feeding", i, "share"), point) for i, point in fresh),
         ):
             if point.share is None:
                 certain = False
@@ -287,7 +326,10 @@ class Route(Model):
             else:
                 total += si(point.share)
         if certain and abs(total - 1.0) > SHARE_SUM_TOLERANCE:
-            message = f"got a sum of {total:.6g}, the shares of all feeding points must add up to 1 (100 %)"
+            message = (
+                f"got a sum of {total:.6g}, the shares of all feeding points must add up to 1 (100 %); of a tripper "
+                "that feeds back the same bulk give tripper_lift, not share"
+            )
             yield Problem(("feeding", "share"), message)
 
     @cached_property
@@ -301,7 +343,8 @@ class Route(Model):
         if self.feeding is None:
             return {section.name: 1.0 for section in self.sections}
         fed: dict[str, list[float]] = {}
-        for point in self.feeding_points:
+        points = [self.feeding, *(point for point in self.further_feeding if not self.feeds_back(point))]
+        for point in points:
             name = self.sections[0].name if point.section is None else point.section
             fed.setdefault(name, []).append(1.0 if point.share is None else si(point.share))
         landed: list[float] = []
@@ -309,7 +352,7 @@ class Route(Model):
         for section in self.sections:
             landed += fed.get(section.name, [])
             total = math.fsum(landed)
-            found[section.name] = 1.0 if len(landed) == len(self.feeding_points) else total
+            found[section.name] = 1.0 if len(landed) == len(points) else total
         return found
 
     @property

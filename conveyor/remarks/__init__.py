@@ -7,7 +7,9 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from conveyor.checks import Check
+from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
 from conveyor.line.covers import compounds_by_strand
+from conveyor.line.line import Line
 from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
@@ -60,6 +62,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
                 *_contact(conveyor),
                 *roll_warnings(found),
                 *_left_out(found),
+                *_trippers(found.line),
                 *_calibration(conveyor),
                 *_drive(found),
                 *(
@@ -195,6 +198,14 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
         )
 
 
+def _trippers(line: Line) -> Iterator[Said]:
+    for point in line.loading:
+        if point.lift == 0.0:
+            yield said(
+                f"tripper at the {quoted(point.place)}: tripper_lift not given or 0: no lift of its bulk in the figures"
+            )
+
+
 def _calibration(conveyor: Conveyor) -> Iterator[Said]:
     given = conveyor.calculation.calibration
     if given is None or all(factor == 1.0 for factor in given.factors.values()):
@@ -218,7 +229,29 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )
-    if "start_factor" not in drive.model_fields_set:
-        yield said(f"drive.start_factor not given: {drive.start_factor:g} assumed, 1.2 to 1.5 are usual")
+    line = found.line
+    if line.start_factor is None:
+        usual = f"{START_FACTOR.low:g} to {START_FACTOR.high:g} are usual"
+        if not line.torque_curve or balance.settled.force <= 0.0:
+            yield said(f"drive.start_factor not given: {START_FACTOR.value:g} assumed, {usual}")
+        else:
+            yield said(
+                "drive.start_factor not given: an uncontrolled start, all that the motors give reaches the belt"
+            )
+    if line.start_factor is None and line.torque_curve and any(each.power is None for each in line.drives):
+        yield said("drive.installed_power not given: the motors' torque is not known, their start neither")
+    assumed = [each for each in line.drives if not each.mass_given]
+    for each in assumed:
+        if each.power is None:
+            yield said(
+                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia), nor its power: they'
+                " are not in start and stop"
+            )
+        else:
+            yield said(
+                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia): {{}} at the belt '
+                f"assumed, {DRIVE_INERTIA.value:g} s of its rated power ({DRIVE_INERTIA.source}; general knowledge)",
+                (each.reduced_mass, "mass"),
+            )
     if balance.power.mains < 0.0 and earns_nothing(found.conveyor.operation):
         yield said("operation.feed_in_price not given: energy that is fed back earns nothing")

@@ -126,6 +126,7 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
     conveyor = found.conveyor
     return (
+        *_mass_warnings(conveyor),
         *_drag_warnings(found),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
@@ -133,6 +134,16 @@ def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
         *_set_warnings(found),
         *_other_warnings(conveyor),
     )
+
+
+def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
+    """Where the reduced mass of a set must stand for all of it."""
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        if idlers.reduced_mass is not None and idlers.reduced_only:
+            yield said(
+                f"idlers.{strand}: rotating_mass not given, reduced_mass ({text(idlers.reduced_mass)}) stands for "
+                "it in the classical estimate too, which it lowers a little"
+            )
 
 
 def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
@@ -144,7 +155,7 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air, at)
-            elif law is None and roll.drag is None and in_service:
+            elif law is None and roll.drag is None and idlers.drag is None and in_service:
                 drags = _drags_of(found, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
                 yield said(
@@ -154,7 +165,7 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
                     (min(drags), "force"),
                     (max(drags), "force"),
                 )
-            elif law is None and roll.drag is None:
+            elif law is None and roll.drag is None and idlers.drag is None:
                 limit = acceptance_limit(roll)
                 yield said(
                     f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({limit.source}; the limit of a new "
@@ -265,6 +276,10 @@ def _other_warnings(conveyor: Conveyor) -> Iterator[Said]:
         )
     if conveyor.calculation.cema is not None:
         yield said(
-            "CEMA classic form: formulas as commonly reproduced, Ky, Kt and Ai from the spec, one Ky for the whole "
-            "conveyor; skirts, cleaners and ploughs are this calculation's"
+            "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec, "
+            "one Ky for the whole conveyor"
         )
+        if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
+            yield said(
+                "calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures"
+            )

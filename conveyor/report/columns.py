@@ -96,6 +96,8 @@ class Figure:
         Path in `to_dict`, with points; left out there without.
     key : str
         Name that others link to it by; without it made of the label.
+    us : str
+        Symbol that US reports call it by, behind the label.
     """
 
     label: str
@@ -104,6 +106,7 @@ class Figure:
     on: str = ""
     json: str = ""
     key: str = ""
+    us: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
@@ -111,6 +114,10 @@ class Figure:
     def unit(self, system: System) -> Unit:
         """How it is written."""
         return unit(self.kind, system)
+
+    def called(self, system: System) -> str:
+        """Its label, in the US with the symbol used there."""
+        return f"{self.label} {self.us}" if self.us and system == "US" else self.label
 
 
 @dataclass(frozen=True)
@@ -212,7 +219,7 @@ class Table:
     def cells(self, column: Column, system: System) -> list[Any]:
         """Values of a column in a system: numbers, words, None."""
         if column.kind == NAMED:
-            return [headed(row.label, row.kind, system) for row in self.rows]
+            return [headed(row.called(system), row.kind, system) for row in self.rows]
         if column.kind == OF_ROW:
             return [unit(row.kind, system).shown(column.get(row)) for row in self.rows]
         written = unit(column.kind, system)
@@ -232,7 +239,7 @@ class Table:
 
     def series(self, name: str, system: System = "SI") -> pd.Series:
         """Figures as a series, units in its index."""
-        names = [headed(row.label, row.kind, system) for row in self.rows]
+        names = [headed(row.called(system), row.kind, system) for row in self.rows]
         return pd.Series(dict(zip(names, self.cells(self.columns[1], system), strict=True)), name=name)
 
     def records(self) -> list[dict[str, Any]]:

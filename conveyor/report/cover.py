@@ -94,7 +94,7 @@ def _facts(page: Page, row: int) -> int:
     for column, figures in zip((1, 4), sides, strict=True):
         for i, figure in enumerate(figures, start=row + 1):
             written = figure.unit(system)
-            shown = headed(figure.label, figure.kind, system), written.shown(figure.value)
+            shown = headed(figure.called(system), figure.kind, system), written.shown(figure.value)
             _line(sheet, (i, column), *shown, written.pattern)
     return _gap(sheet, row + 1 + max(map(len, sides)))
 
@@ -119,7 +119,11 @@ def _tiles(page: Page, row: int) -> int:
         sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
     for letter, figure in zip("ABDEFG", page.contents.marked("large"), strict=False):
         caption, cell = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
-        put(caption, headed(figure.label.replace(" of main resistance", ""), figure.kind, system), GREY)
+        put(
+            caption,
+            headed(figure.called(system).replace(" of main resistance", ""), figure.kind, system),
+            GREY,
+        )
         put(cell, *_shown(figure, page, FIGURE, large="#,##0"))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
         cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
@@ -155,7 +159,9 @@ def _figures(page: Page, row: int) -> int:
     ordered = sorted(contents.marked("cover"), key=lambda figure: rank.get(figure.kind, len(rank)))
     i = row
     for i, figure in enumerate(ordered, start=row + 1):
-        label = f"take-up {figure.label}" if figure.key.startswith("take_up") else figure.label
+        label = (
+            f"take-up {figure.label}" if figure.key.startswith("take_up") else figure.called(contents.system)
+        )
         value, _, pattern = _shown(figure, page)
         name = headed(label.replace(" of the contacts", ""), figure.kind, contents.system)
         _line(sheet, (i, 1), name, value, pattern)
@@ -201,7 +207,7 @@ def _governing(page: Page, cases: Table, row: int) -> None:
     columns = {column.key: column.get for column in cases.columns}
     for i, figure in enumerate(cases.rows, start=row + 2):
         written = figure.unit(system)
-        put(sheet.cell(i, 4), headed(figure.label, figure.kind, system))
+        put(sheet.cell(i, 4), headed(figure.called(system), figure.kind, system))
         sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
         put(sheet.cell(i, 5), written.shown(columns["value"](figure)), None, written.pattern)
         put(sheet.cell(i, 6), columns["case"](figure))

@@ -108,7 +108,7 @@ def listed(shown: Table, caption: str, system: System = "SI") -> Html:
     rows = [
         element(
             "tr",
-            element("th", row.label, scope="row"),
+            element("th", row.called(system), scope="row"),
             element(
                 "td", row.unit(system).written(row.value), class_="v" if isinstance(row.value, str) else "n"
             ),
@@ -148,7 +148,10 @@ def tiles(figures: Iterable[Figure], system: System = "SI") -> Html:
         written = figure.unit(system)
         value = written.written(figure.value)
         pairs.append(
-            (figure.label, joined([value, " ", element("small", written.sign)]) if written.sign else value)
+            (
+                figure.called(system),
+                joined([value, " ", element("small", written.sign)]) if written.sign else value,
+            )
         )
     return facts(pairs, "tiles")
 

@@ -42,12 +42,12 @@ def of_table(shown: Table, caption: str, system: System) -> Html:
 
 def _cell(shown: Table, column: Column, row: Any, system: System) -> str:
     if column.kind == NAMED:
-        return headed(row.label, row.kind, system)
+        return headed(row.called(system), row.kind, system)
     return shown.unit(column, row, system).written(column.get(row))
 
 
 def _figures(figures: Iterable[Figure], system: System) -> list[tuple[str, str]]:
-    return [(figure.label, figure.unit(system).said(figure.value)) for figure in figures]
+    return [(figure.called(system), figure.unit(system).said(figure.value)) for figure in figures]
 
 
 def folded(name: str, lines: Sequence[object]) -> Html:

@@ -28,7 +28,7 @@ from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
-from conveyor.loop.estimates import Classical
+from conveyor.loop.estimates import CemaEstimate, Classical
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, warnings
@@ -54,7 +54,7 @@ from conveyor.studies import CalculatedStudies
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System, text
-from conveyor.units.presentation import MONEY, strength_of, unit
+from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import band_words, figure, plain_figure
 
 CURVE_POINTS: Final = 25
@@ -80,6 +80,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         inputs(analysis.conveyor),
         sections(analysis),
         classical(analysis),
+        cema(analysis),
         resistances(analysis),
         breakdown(analysis),
         rolls(analysis),
@@ -92,6 +93,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         take_up(analysis),
         conditions(analysis),
         start_stop(analysis),
+        brakes(analysis),
         belt_strength_table(analysis),
         pulleys(analysis),
         vertical_curves(analysis),
@@ -139,7 +141,8 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}, every {shown(of.spacing, 'length')}"
 
-    strength = "" if carcass.strength is None else f", {strength_of(carcass.strength, system)}"
+    strength = "" if carcass.strength is None else f", breaking {strength_of(carcass.strength, system)}"
+    rating = "" if carcass.rating is None else f", rated {rating_of(carcass.rating, system)}"
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     rows = (
         Figure("length", "length", conveyor.route.length),
@@ -148,7 +151,7 @@ def identity(conveyor: Conveyor, system: System) -> Table:
         Figure("belt speed", "speed", conveyor.belt_speed),
         Figure("mass flow", "mass flow", conveyor.mass_flow),
         Figure("temperature of the covers", "temperature", conveyor.temperature),
-        Figure("belt", "text", f"{carcass.kind}{strength}"),
+        Figure("belt", "text", f"{carcass.kind}{strength}{rating}"),
         Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
@@ -180,7 +183,7 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
                key="motor_power_high"),
         Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
-        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total"),
+        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total", us="Te"),
         *(
             Figure(
                 "lift force" if name == "lift" else name.replace("_", " "), "force", newtons, "notebook",
@@ -191,8 +194,8 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
         Figure("equivalent DIN f", "friction", found.friction_factor, "tile large cover notebook", "friction_factor",
                key="equivalent_f"),
-        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook"),
-        Figure("slack side tension", "force", tensions_at.slack, "cover notebook"),
+        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook", us="T1"),
+        Figure("slack side tension", "force", tensions_at.slack, "cover notebook", us="T2"),
         Figure("tight side tension at start", "force", tensions_at.tight_start, "cover"),
         Figure("smallest tension", "force", tensions_at.smallest, "cover"),
         Figure("belt safety at start", "ratio", safety, "cover"),
@@ -201,7 +204,7 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("energy per year", "energy", energy, "cover"),
         Figure("cost per year", money, cost, "cover"),
         Figure("classical f", "friction", classic.friction_factor),
-        Figure("classical effective tension", "force", classic.total),
+        Figure("classical effective tension", "force", classic.total, us="Te"),
         Figure("classical motor power", "power", found.frame.motor(classic.total), "cover"),
         Figure("largest error estimate of the contacts", "error", error, "cover", "error_estimate",
                key="contact_error_estimate"),
@@ -339,7 +342,7 @@ def classical(a: CalculatedConveyor) -> Table:
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
-    powers = (found.power.motor, *(found.frame.motor(made.total) for _, made in others))
+    powers = (found.power.motor, *(_estimated_motor(found, made) for _, made in others))
 
     rows = (
         row("f", "friction", "friction_factor", found.friction_factor),
@@ -347,7 +350,7 @@ def classical(a: CalculatedConveyor) -> Table:
         row("secondary", "force", "secondary", forces.secondary),
         row("special", "force", "special", forces.special),
         row("lift", "force", "lift", forces.lift),
-        row("effective tension", "force", "total", forces.total),
+        replace(row("effective tension", "force", "total", forces.total), us="Te"),
         Figure("motor power", "power", powers, key="motor"),
     )
     names = ["this calculation", *(name for name, _ in others)]
@@ -359,6 +362,32 @@ def classical(a: CalculatedConveyor) -> Table:
     note = f"classical secondary: {found.classical.secondary_by}; governing at the drive: {found.tensions.governed_by}"
     page = (OnPage("resistances", "Beside the classical estimates"),)
     return Table("classical", "Resistances", heading, columns, rows, page, note)
+
+
+def cema(a: CalculatedConveyor) -> Table:
+    """The classic form of CEMA by cause; its rows add up to Te."""
+    made, given = a.balance.cema, a.line.cema
+    columns = (
+        Column("symbol", "text", itemgetter(0)),
+        Column("CEMA resistance", "text", itemgetter(1)),
+        Column("force", "force", itemgetter(2), total=True),
+    )
+    rows = () if made is None else made.items
+    heading = "CEMA classic, itemised"
+    note = (
+        ""
+        if given is None
+        else f"Ky {given.flexure:g}, Kt {given.temperature:g}; Tp is "
+        + ("the book's, by place and wrap" if given.pulleys is None else "the spec's")
+    )
+    page = (OnPage("resistances", heading),)
+    return Table("cema", "Resistances", heading, columns, rows, page, note, foot="Te", named=2)
+
+
+def _estimated_motor(found: Balance, made: Classical) -> float:
+    """Motor power of an estimate [W]; CEMA's holds the bearings of the drive pulleys too."""
+    beside = made.drive_pulleys if isinstance(made, CemaEstimate) else 0.0
+    return found.frame.motor(made.total + beside)
 
 
 def _nth(i: int) -> Getter:
@@ -563,10 +592,13 @@ def start_stop(a: CalculatedConveyor) -> Table:
         Figure("moving mass", "mass", moving.moving_mass),
         Figure("rotating mass of the drives", "mass", moving.rotating_mass),
         Figure("drive force at start", "force", start.force),
+        Figure("drive force at start over steady", "ratio", start.factor),
         Figure("acceleration at start", "acceleration", start.acceleration),
         Figure("time over the whole speed range", "duration", start.time),
         Figure("motor torque at start over rated", "ratio", start.torque_factor),
+        Figure("force asked of the motors", "force", start.asked),
         Figure("force the motors give", "force", start.available),
+        Figure("drive force at rest", "force", start.standstill),
         Figure("resistance after standstill, at most", "force", start.breakaway),
     ]  # fmt: skip
     for label, stop in (
@@ -580,10 +612,16 @@ def start_stop(a: CalculatedConveyor) -> Table:
                 Figure(f"stopping time, {label}", "duration", stop.time),
                 Figure(f"stopping distance, {label}", "length", stop.distance),
             ]  # fmt: skip
+    radius = a.line.drives[0].radius
+    torque = None if radius is None else moving.brake_to_hold * radius
+    gripping = moving.gripping_speed if a.line.brake_delay > 0.0 else None
     braking, starting = (None, None) if slip is None else (-slip.braking, slip.starting)
     rows += [
         Figure("brake for the deceleration wanted", "force", moving.brake_to_stop),
         Figure(f"{holder} to hold", "force", moving.brake_to_hold),
+        Figure("torque to hold, at the first drive's pulley", "torque", torque, key="torque_to_hold"),
+        Figure("runaway, drives and brakes off", "acceleration", moving.runaway),
+        Figure("speed at which the brakes grip", "speed", gripping),
         Figure("hardest braking before the bulk slides", "acceleration", braking),
         Figure("highest acceleration before the bulk slides", "acceleration", starting),
     ]  # fmt: skip
@@ -591,15 +629,33 @@ def start_stop(a: CalculatedConveyor) -> Table:
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
 
 
+def brakes(a: CalculatedConveyor) -> Table:
+    """Torque and heat of every brake in a stop with the least friction that is certain."""
+    whole, heat = math.fsum(a.line.brakes), a.motions.braking_heat
+    columns = (
+        Column("drive", "text", attrgetter("name")),
+        Column("brake force", "force", attrgetter("brake")),
+        Column(
+            "brake torque at the pulley", "torque", lambda d: None if d.radius is None else d.brake * d.radius
+        ),
+        Column("heat of a stop", "heat", lambda d: None if heat is None else heat * d.brake / whole),
+    )
+    rows = tuple(drive for drive in a.line.drives if drive.brake is not None)
+    return Table("brakes", "Loop", "Brakes", columns, rows, (OnPage("start-stop", "Brakes"),))
+
+
 def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
-        Figure("largest tension, steady", "force", duty.largest_steady),
-        Figure("largest tension, all states", "force", duty.largest),
+        Figure("largest tension, steady", "force", duty.largest_steady, us="Tmax"),
+        Figure("largest tension, all states", "force", duty.largest, us="Tmax"),
         Figure("safety, steady", "ratio", duty.safety_steady),
         Figure("safety, all states", "ratio", duty.safety),
         Figure("classic safety asked for", "ratio", duty.safety_needed),
+        Figure("tension per width, steady", "strength", duty.per_width_steady),
+        Figure("tension per width, all states", "strength", duty.per_width),
+        Figure("rated tension per width", "strength", duty.rating),
         Figure("strength the splice asks for", "strength", duty.strength_needed),
         Figure("least diameter of drive pulleys", "size", duty.drive_diameter),
     )  # fmt: skip
@@ -994,7 +1050,12 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
         },
         "energy": _energy(a, None if studies is None else studies.duty),
         "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
-        "cema": None if found.cema is None else _estimate(found, found.cema),
+        "cema": None
+        if found.cema is None
+        else {
+            **_estimate(found, found.cema),
+            "items_N": {symbol: newtons for symbol, _, newtons in found.cema.items},
+        },
         "defaults": {
             "motor_kW": {"low": None, "high": None},
             "replace_first": left_open.effects[0].give if left_open.effects else None,
@@ -1052,7 +1113,7 @@ def _finite(value: float | None) -> float | None:
 
 
 def _estimate(found: Balance, made: Classical) -> dict[str, float]:
-    motor = found.frame.motor(made.total)
+    motor = _estimated_motor(found, made)
     return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": motor / 1e3}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
-from conveyor.starter.write import KINDS, Kind, quoted, values, written
+from conveyor.starter.values import KINDS, Kind, values
+from conveyor.starter.write import quoted, written
 
 __all__ = ["KINDS", "Kind", "quoted", "values", "written"]

@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import math
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
-from functools import cache
-from importlib.resources import files
-from typing import Any, Final, Literal, get_args
-
-from ruamel.yaml import YAML
+from typing import Any, Final
 
 from conveyor.models import Conveyor
+from conveyor.starter.values import LEFT_OUT, OPTIONAL, Kind, in_units, read
 from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
-from conveyor.units import System, quantity, text
+from conveyor.template.limits import like, limits_like
+from conveyor.units import System
 from conveyor.units.kinds import KINDS as QUANTITIES
 from conveyor.units.misreadings import on_one_line
 
-Kind = Literal["overland", "in-plant", "downhill"]
-KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
-"""Conveyors there is a starter of."""
-
 _PLAIN_NAME: Final = re.compile(r"[\w.,:/\\+~-]+")
-_OPTIONAL: Final = "?"
 _WIDTH: Final = 112
 _COMMENT_COLUMN: Final = 40
 _HEADING: Final = """\
@@ -39,55 +31,6 @@ _SHOWN_KINDS: Final = (
     "length", "speed", "angle", "mass", "belt mass", "density", "mass flow", "force", "line force", "pressure",
     "power", "temperature", "fraction",
 )  # fmt: skip
-
-
-@cache
-def _read(name: str) -> dict[str, Any]:
-    """Read a file of this folder."""
-    content = files("conveyor.starter").joinpath(name).read_text(encoding="utf-8")
-    read: dict[str, Any] = YAML(typ="safe", pure=True).load(content)
-    return read
-
-
-def values(kind: Kind, units: System = "SI", *, optional: bool = False) -> dict[str, Any]:
-    """Return the plain data of a starter spec.
-
-    Parameters
-    ----------
-    kind : {"overland", "in-plant", "downhill"}
-        Conveyor.
-    units : {"SI", "US"}
-        System of units.
-    optional : bool
-        Whether the fields that the spec shows as comments are in it, too.
-
-    Examples
-    --------
-    >>> values("in-plant", "US")["belt"]["width"]
-    '42 in'
-    """
-    found: dict[str, Any] = _plain(_read(f"{kind}.yaml"), units, optional=optional)
-    return found
-
-
-def _plain(value: Any, units: System, *, optional: bool) -> Any:
-    if isinstance(value, Mapping):
-        return {
-            key.removesuffix(_OPTIONAL): _plain(item, units, optional=optional)
-            for key, item in value.items()
-            if optional or not key.endswith(_OPTIONAL)
-        }
-    if isinstance(value, list):
-        return [_plain(item, units, optional=optional) for item in value]
-    return _in(value, units)
-
-
-def _in(value: Any, units: System) -> Any:
-    """Take the value of a system of units from ``SI | US``."""
-    if not isinstance(value, str) or " | " not in value:
-        return value
-    chosen = value.split(" | ")[0 if units == "SI" else 1]
-    return chosen.strip("[]").split(", ") if chosen.startswith("[") else chosen
 
 
 def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str:
@@ -107,7 +50,7 @@ def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str
     >>> next(line for line in written("overland").splitlines() if line.startswith("name"))
     'name: My overland conveyor              # What the conveyor is called in reports.'
     """
-    lines = _Writer(units).group(layout(Conveyor), _read(f"{kind}.yaml"), ())
+    lines = _Writer(units).group(layout(Conveyor), read(f"{kind}.yaml"), ())
     heading = _HEADING.format(name=f"A conveyor ({kind})", file=quoted(file), units=_units())
     return "\n".join([heading, *lines]).rstrip() + "\n"
 
@@ -141,15 +84,18 @@ class _Writer:
 
     def __init__(self, units: System) -> None:
         self._units: System = units
-        self._words = _read("words.yaml")
+        self._words = read("words.yaml")
 
     def group(self, group: FieldGroup, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
         """Write the fields of a model that the data have, in the model's order."""
         for part in group.parts:
+            given = data.get(part.key, data.get(part.key + OPTIONAL, LEFT_OUT))
+            if in_units(given, self._units) == LEFT_OUT:
+                continue
             if part.key in data:
                 yield from self._part(part, data[part.key], (*path, part.key))
-            elif part.key + _OPTIONAL in data:
-                lines = list(self._part(part, data[part.key + _OPTIONAL], (*path, part.key)))
+            else:
+                lines = list(self._part(part, data[part.key + OPTIONAL], (*path, part.key)))
                 yield from (_commented(line, "  " * len(path)) for line in lines)
 
     def _part(self, part: Part, data: Any, path: tuple[str, ...]) -> Iterator[str]:
@@ -157,7 +103,7 @@ class _Writer:
         if len(path) == 1 and part.key != "name":
             yield ""
         if isinstance(part, Leaf):
-            value = _in(data, self._units)
+            value = in_units(data, self._units)
             yield from _beside(f"{indent}{part.key}: {_scalar(value)}", self._comment(part, path, value))
             return
         yield from _beside(f"{indent}{part.key}:", self._comment(part, path))
@@ -174,11 +120,11 @@ class _Writer:
         widest = max(len(part.key) for part in fields)
         for part in fields:
             opening = f"{indent}# {part.key.ljust(widest)}  "
-            value = _in(next(row[part.key] for row in data if part.key in row), self._units)
+            value = in_units(next(row[part.key] for row in data if part.key in row), self._units)
             comment = self._comment(part, (*path, part.key), value)
             yield from _wrapped(opening, f"{indent}# {' ' * widest}  ", comment)
         for row in data:
-            cells = ", ".join(f"{key}: {_scalar(_in(value, self._units))}" for key, value in row.items())
+            cells = ", ".join(f"{key}: {_scalar(in_units(value, self._units))}" for key, value in row.items())
             yield f"{indent}- {{{cells}}}"
 
     def _comment(self, part: Part, path: tuple[str, ...], value: Any = None) -> str:
@@ -189,44 +135,11 @@ class _Writer:
             if part.choices:
                 said.append(f"One of: {', '.join(map(str, part.choices))}.")
             elif part.allowed and part.kind != "text":
-                allowed = _BOUND.sub(lambda found: _limit(found, value), part.allowed)
+                allowed = limits_like(part.allowed, value)
                 said.append(f"{allowed[0].upper()}{allowed[1:]}.")
         if not part.required:
             said.append(_without(part, doc, value))
         return " ".join(filter(None, said))
-
-
-_BOUND: Final = re.compile(r"([<>≤≥]) ([^ ,]+ [^ ,]+)")
-_DIGITS: Final = 3
-
-
-def _limit(found: re.Match[str], value: Any) -> str:
-    """Write a limit in the unit of a value, to three digits rounded inwards: what is said is allowed."""
-    limit = _like(found[2], value)
-    if limit is None or limit[1] == found[2].split(" ")[1]:
-        return found[0]
-    number, unit = limit
-    digits = _DIGITS - 1 - (math.floor(math.log10(abs(number))) if number else 0)
-    towards = math.ceil if found[1] in ">≥" else math.floor
-    near = round(number, digits)  # of 19999.999999999996 the 20000 that is meant
-    inward = (
-        near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
-    )
-    return f"{found[1]} {_plain_number(inward)} {unit}"
-
-
-def _like(given: str, value: Any) -> tuple[float, str] | None:
-    """Return the number and the unit of a quantity, in the unit of another where both are quantities."""
-    value = value[0] if isinstance(value, list) and value else value
-    if not isinstance(value, str) or len(value.split(" ")) != 2:
-        return None
-    like = quantity(value)
-    unit = text(like).split(" ")[1]
-    return float(quantity(given).to(like.units).magnitude), unit
-
-
-def _plain_number(number: float) -> str:
-    return f"{number:.0f}" if abs(number) >= 10.0**_DIGITS else f"{number:.4g}"
 
 
 def _without(part: Part, doc: str, value: Any) -> str:
@@ -235,8 +148,8 @@ def _without(part: Part, doc: str, value: Any) -> str:
     if isinstance(default, float) and isinstance(part, Leaf) and "%" in part.units:
         default = f"{100.0 * default:g} %"
     if default is not None and default != []:
-        like = _like(default, value) if isinstance(part, Leaf) and part.kind == "quantity" else None
-        return f"Without it: {_scalar(default) if like is None else f'{like[0]:.4g} {like[1]}'}."
+        held = like(default, value) if isinstance(part, Leaf) and part.kind == "quantity" else None
+        return f"Without it: {_scalar(default) if held is None else f'{held[0]:.4g} {held[1]}'}."
     told = any(word in doc for word in ("ithout", "else ", "needed where", "instead of", "where it differs"))
     return "" if told else "May be left out."
 

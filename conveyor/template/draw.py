@@ -20,8 +20,10 @@ from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE
 from conveyor.template.entries import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
 from conveyor.template.fill import FilledSheets
 from conveyor.template.layout import FieldGroup, Leaf
+from conveyor.template.limits import in_system
 from conveyor.template.plan import FieldColumn, Form, ListSheet, Row, label
 from conveyor.template.rules import Rules, default_text, said
+from conveyor.units import System
 
 _HEADERS: Final = {"Field": 26, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
 """Columns of a form and their widths [characters]."""
@@ -57,7 +59,8 @@ HOW_TO: Final = (
 class Book:
     """A workbook being drawn."""
 
-    def __init__(self, title: str, compounds: Sequence[str]) -> None:
+    def __init__(self, title: str, compounds: Sequence[str], system: System = "SI") -> None:
+        self.system = system
         self.book, self.title, self.rules = Workbook(), title, Rules(compounds)
         self.book.remove(self.book.worksheets[0])
 
@@ -114,6 +117,7 @@ class Book:
         leaf = line.part
         if not isinstance(leaf, Leaf):
             raise TypeError("a heading has no cells")
+        leaf = in_system(leaf, self.system, (cells[1],))
         name, value, unit, allowed, default, meaning, key = (sheet.cell(row, c) for c in range(1, 8))
         put(name, label(leaf.key) + (" *" if leaf.required else ""), BOLD if leaf.required else None)
         name.alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="top")
@@ -183,7 +187,8 @@ class Book:
         column: int,
         last: int,
     ) -> None:
-        leaf, first, key = of.leaf, _KEYS + 1, ".".join(of.path)
+        first, key = _KEYS + 1, ".".join(of.path)
+        leaf = in_system(of.leaf, self.system, (cell[1] for cell in cells if cell is not None))
         default = default_text(leaf)
         about = [*filter(None, (said(leaf), f"default {default}" if default else ""))]
         head = ": ".join(label(word) for word in of.path) + (" *" if leaf.required else "")

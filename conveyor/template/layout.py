@@ -38,6 +38,8 @@ class Leaf:
     """Plain data, as a spec holds it; None without a default."""
     allowed: str = ""
     units: tuple[str, ...] = ()
+    measure: str = ""
+    """Kind of quantity."""
     choices: tuple[Any, ...] = ()
     low: float | None = None
     """Least plain number (not of quantities)."""
@@ -245,7 +247,7 @@ def _scalar(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[B
     measure = next((mark for mark in marks if isinstance(mark, Measure)), None)
     if measure is not None:
         units = tuple(unit for unit in dict.fromkeys(KINDS[measure.kind].units.values()) if unit)
-        return _leaf(about, "quantity", units=units, allowed=_bounds(marks))
+        return _leaf(about, "quantity", units=units, measure=measure.kind, allowed=_bounds(marks))
     if get_origin(base) is Literal:
         return _leaf(about, "choice", choices=get_args(base))
     if isinstance(base, type) and issubclass(base, Enum):
@@ -272,7 +274,8 @@ def _either(about: _About, base: Any, seen: tuple[type[BaseModel], ...]) -> Leaf
     if set(by_kind) == {"quantity", "choice"}:
         words = by_kind["choice"].choices
         allowed = " or ".join(filter(None, (by_kind["quantity"].allowed, *map(str, words))))
-        return _leaf(about, "quantity", units=by_kind["quantity"].units, choices=words, allowed=allowed)
+        of = by_kind["quantity"]
+        return _leaf(about, "quantity", units=of.units, measure=of.measure, choices=words, allowed=allowed)
     if set(by_kind) == {"text", "list"} and by_kind["list"].item == by_kind["text"]:
         return _leaf(about, "list", item=by_kind["text"], single=True)
     return None

@@ -14,17 +14,34 @@ from conveyor.files import marks
 from conveyor.files.saving import save, writable
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
+from conveyor.starter.values import values
 from conveyor.template.draw import Book
 from conveyor.template.fill import filled
 from conveyor.template.read import read_filled
+from conveyor.units import System
 
 _MADE: Final = Path("template.xlsx")
-EXAMPLE: Final = Path(__file__).with_name("example.yaml")
+_ROUTE: Final[dict[System, dict[str, str]]] = {
+    "SI": {"length": "4 km", "lift": "45 m"},
+    "US": {"length": "13500 ft", "lift": "150 ft"},
+}
+"""The one section that a template opens with."""
+
+
+def example(units: System = "SI") -> Conveyor:
+    """What a template is filled in with unless a conveyor is given: the overland starter on one straight section."""
+    data = values("overland", units)
+    data["route"]["sections"] = [{"name": "tail to head", **_ROUTE[units]}]
+    return spec.from_data(data)
 
 
 @checked
 def write_template(
-    path: str | Path, conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = ()
+    path: str | Path,
+    conveyor: Conveyor | None = None,
+    *,
+    shelves: Iterable[str | Path] = (),
+    units: System = "SI",
 ) -> Path:
     """Write an input workbook: made, read back and compared, then written.
 
@@ -37,6 +54,8 @@ def write_template(
         name and others written out. Without it an example.
     shelves : iterable of path
         Further folders of compounds, as in `conveyor.spec.load`.
+    units : {"SI", "US"}
+        System of the example; a conveyor has that of its report.
 
     Returns
     -------
@@ -53,11 +72,13 @@ def write_template(
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
     writable(where)
-    save({where: template(conveyor, shelves=shelves)})
+    save({where: template(conveyor, shelves=shelves, units=units)})
     return where
 
 
-def template(conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = ()) -> bytes:
+def template(
+    conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] = (), units: System = "SI"
+) -> bytes:
     """Input workbook as bytes, read back and compared; as `write_template`.
 
     Raises
@@ -65,14 +86,14 @@ def template(conveyor: Conveyor | None = None, *, shelves: Iterable[str | Path] 
     InputError
         A workbook cannot hold the conveyor without loss.
     """
-    given, folders = spec.load(EXAMPLE) if conveyor is None else conveyor, tuple(shelves)
+    given, folders = example(units) if conveyor is None else conveyor, tuple(shelves)
     content = _content(given, folders)
     _compare(content, given, folders)
     return content
 
 
 def _content(conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> bytes:
-    drawn = Book(conveyor.name, shelf.names(shelves)).draw(filled(conveyor, shelves))
+    drawn = Book(conveyor.name, shelf.names(shelves), conveyor.report.units).draw(filled(conveyor, shelves))
     drawn.properties.title = legible(conveyor.name)
     drawn.properties.creator = marks.maker()
     content = BytesIO()

@@ -52,6 +52,7 @@ KINDS: dict[str, Kind] = {
     "belt mass": Kind(
         "a mass per area or per length", "kg/m^2 lb/ft^2 kg/m lb/ft", "27 kg/m^2", "kg/m^2", "lb/ft^2"
     ),
+    "set mass": Kind("a mass of a set or per length", "kg g lb kg/m lb/ft", "15.5 kg", "kg", "lb"),
     "density": Kind("a density", "kg/m^3 t/m^3 lb/ft^3 g/cm^3", "850 kg/m^3", "kg/m^3", "lb/ft^3"),
     "force": Kind("a force", "N kN MN lbf", "2.5 N", "N", "lbf"),
     "line force": Kind("a force per width", "N/m kN/m N/mm lbf/in lbf/ft PIW", "1600 N/mm", "N/m", "lbf/in"),
@@ -63,6 +64,7 @@ KINDS: dict[str, Kind] = {
     "rotation": Kind("a rotational speed", "rpm", "650 rpm", "rpm", "rpm"),
     "force per rotation": Kind("a force per rotational speed", "N/rpm", "0.001 N/rpm", "N/rpm", "N/rpm"),
     "moment": Kind("a moment", "N*m N*mm lbf*in", "0.02 N*m", "N*m", "lbf*in"),
+    "inertia": Kind("a moment of inertia", "kg*m^2 lb*ft^2", "12 kg*m^2", "kg*m^2", "lb*ft^2"),
     "bending stiffness": Kind("a bending stiffness", "N*m^2", "30 N*m^2", "N*m^2", "N*m^2"),
     "viscosity": Kind("a kinematic viscosity", "mm^2/s cSt m^2/s", "100 mm^2/s", "mm^2/s", "cSt"),
     "temperature": Kind("a temperature", _TEMPERATURES, "20 degC", "degC", "degF"),
@@ -81,10 +83,12 @@ KINDS: dict[str, Kind] = {
 MAGNITUDES: dict[str, tuple[float, float]] = {
     "length": (1e-9, 1e6), "thickness": (1e-9, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
     "acceleration": (1e-6, 1e3), "mass": (1e-6, 1e9), "line mass": (1e-6, 1e6), "area mass": (1e-6, 1e6),
-    "belt mass": (1e-6, 1e6), "density": (1e-3, 1e5), "force": (1e-6, 1e10), "line force": (1e-6, 1e10),
+    "belt mass": (1e-6, 1e6), "set mass": (1e-6, 1e6), "density": (1e-3, 1e5),
+    "force": (1e-6, 1e10), "line force": (1e-6, 1e10),
     "pressure": (1e-9, 1e15), "time": (1e-25, 1e25), "duration": (1e-3, 1e9), "frequency": (1e-25, 1e25),
     "angular frequency": (1e-25, 1e25), "rotation": (1e-6, 1e4), "force per rotation": (1e-9, 1e6),
-    "moment": (1e-9, 1e9), "bending stiffness": (1e-9, 1e9), "viscosity": (1e-9, 1e3), "temperature": (0.0, 1e4),
+    "moment": (1e-9, 1e9), "inertia": (1e-9, 1e9),
+    "bending stiffness": (1e-9, 1e9), "viscosity": (1e-9, 1e3), "temperature": (0.0, 1e4),
     "temperature difference": (1e-9, 1e4), "angle": (1e-9, 1e3), "mass flow": (1e-6, 1e6),
     "volume flow": (1e-9, 1e6), "power": (1e-3, 1e12), "energy": (1e-3, 1e18), "molar energy": (1e-3, 1e9),
     "fraction": (1e-9, 1e6),

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
 from conveyor.units.quantities import Quantity, System, quantity, si
-from conveyor.units.sentences import belt_strength
+from conveyor.units.sentences import belt_rating, belt_strength
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 MONEY: Final = "money "
@@ -39,7 +39,7 @@ _SAME: Final = {
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
-    "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
+    "heat": _Kind("MJ", ",.3f"), "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
@@ -50,7 +50,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "force": _Kind("N", ",.1f", ("kN", ",.2f")), "line force": _Kind("N/m", ",.2f"),
         "strength": _Kind("N/mm", ",.1f"), "pressure": _Kind("MPa", ",.3f"), "mass": _Kind("kg", ",.0f"),
         "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
-        "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
+        "torque": _Kind("N m", ",.0f"), "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
     },
     "US": {
         **_SAME,
@@ -59,10 +59,12 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "force": _Kind("lbf", ",.1f", ("lbf", ",.0f")), "line force": _Kind("lbf/in", ",.4f"),
         "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
         "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
-        "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
+        "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
     },
 }  # fmt: skip
-_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "a": 1.0}
+_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "a": 1.0,
+    "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048,
+}  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
 
 
@@ -241,5 +243,10 @@ def chosen(own: System, system: System | None) -> System:
 
 
 def strength_of(value: Quantity, system: System) -> str:
-    """Write a belt's strength per width as belts are named."""
+    """Write a belt's breaking strength per width as belts are named."""
     return belt_strength(si(value), system)
+
+
+def rating_of(value: Quantity, system: System) -> str:
+    """Write a belt's rated working tension per width."""
+    return belt_rating(si(value), system)

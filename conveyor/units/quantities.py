@@ -241,6 +241,7 @@ _SI_LABELS = {
     "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m", "pressure": "Pa", "duration": "s",
     "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
     "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
+    "inertia": "kg m²",
     "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "bending stiffness": "N m²", "viscosity": "m²/s",
 }  # fmt: skip
 
@@ -407,6 +408,8 @@ Mass = Annotated[Quantity, Measure("mass")]
 LineMass = Annotated[Quantity, Measure("line mass")]
 AreaMass = Annotated[Quantity, Measure("area mass")]
 BeltMass = Annotated[Quantity, Measure("belt mass")]
+SetMass = Annotated[Quantity, Measure("set mass")]
+Inertia = Annotated[Quantity, Measure("inertia")]
 Density = Annotated[Quantity, Measure("density")]
 Force = Annotated[Quantity, Measure("force")]
 LineForce = Annotated[Quantity, Measure("line force")]

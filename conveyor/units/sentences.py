@@ -35,15 +35,26 @@ def figure(value: float, kind: str, system: System = "SI") -> str:
 
 
 def belt_strength(value: float, system: System = "SI") -> str:
-    """Write a strength per width [N/m] in N/mm or PIW, as belts are named.
+    """Write a breaking strength per width [N/m] as belts are named.
 
     Examples
     --------
-    >>> belt_strength(1.6e6), belt_strength(1.0508e5, "US")
-    ('1,600 N/mm', '600 PIW')
+    >>> belt_strength(1.6e6), belt_strength(1.0508e6, "US")
+    ('1,600 N/mm', '6,000 lbf/in')
+    """
+    return f"{value / 1e3:,.0f} N/mm" if system == "SI" else figure(value, "line force", system)
+
+
+def belt_rating(value: float, system: System = "SI") -> str:
+    """Write a working tension per width [N/m] beside a rated one: PIW in the US.
+
+    Examples
+    --------
+    >>> belt_rating(1.0508e5), belt_rating(1.0508e5, "US")
+    ('105.1 N/mm', '600 PIW')
     """
     if system == "SI":
-        return f"{value / 1e3:,.0f} N/mm"
+        return f"{value / 1e3:,.4g} N/mm"
     return figure(value, "line force", system).replace("lbf/in", "PIW")
 
 
@@ -56,8 +67,8 @@ class Said:
     words : str
         With {} for each figure.
     figures : tuple of (float, str)
-        Value and kind of quantity; beside those, "belt strength" is written as belts are named, "safety" with two
-        decimals, "number" plainly.
+        Value and kind of quantity; beside those, "belt strength" and "belt rating" are written as belts are named,
+        "safety" with two decimals, "number" plainly.
 
     Examples
     --------
@@ -87,6 +98,8 @@ def quoted(words: str) -> str:
 def _written(value: float, kind: str, system: System) -> str:
     if kind == "belt strength":
         return belt_strength(value, system)
+    if kind == "belt rating":
+        return belt_rating(value, system)
     if kind == "safety":
         return f"{value:.2f}"
     return f"{value:g}" if kind == "number" else figure(value, kind, system)

@@ -106,6 +106,7 @@ def test_pulleys_add_up():
             r"temperature_factor = 0\.9 is not allowed: at least 1",
         ),
         (lambda: cema.cema_effective_tension(-1.0, **LINE), r"length = -1\.0"),
+        (lambda: cema.cema_skirts(1.0, skirt_factor=0.1, depth=-1.0, seals=1.0), r"depth = -1\.0"),
         (
             lambda: cema.cema_acceleration(1.0, belt_speed=1.0, initial_speed=2.0),
             r"initial_speed = 2\.0 is not allowed: 0 to belt_speed = 1\.0",

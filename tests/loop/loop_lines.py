@@ -50,18 +50,21 @@ DATA: dict[str, Any] = {
              "shaft_diameter": "120 mm", "mass": "0.5 t", "wrap_angle": "20 deg"},
         ],
     },
-    "drive": {"wrap_angle": "200 deg", "friction": 0.35, "efficiency": "94 %", "installed_power": "400 kW"},
+    "drive": {"wrap_angle": "200 deg", "friction": 0.35, "efficiency": "94 %", "installed_power": "400 kW",
+              "reduced_mass": "0 kg"},
     "ambient": {"temperature": "20 degC"},
 }  # fmt: skip
 
 BOOSTER = {
     "name": "booster", "position": "carry", "section": "b", "wrap_angle": "190 deg", "friction": 0.3,
-    "installed_power": "200 kW",
+    "installed_power": "200 kW", "reduced_mass": "0 kg",
 }  # fmt: skip
 TAIL_DRIVE = {
     "name": "tail drive", "position": "tail", "wrap_angle": "180 deg", "friction": 0.3, "installed_power": "100 kW",
+    "reduced_mass": "0 kg",
 }  # fmt: skip
-SECOND = {"name": "second", "wrap_angle": "180 deg", "friction": 0.3, "installed_power": "400 kW"}
+SECOND = {"name": "second", "wrap_angle": "180 deg", "friction": 0.3, "installed_power": "400 kW",
+          "reduced_mass": "0 kg"}  # fmt: skip
 DOWN = [{"name": "a", "length": "100 m"}, {"name": "b", "length": "900 m", "lift": "-110 m"},
         {"name": "c", "length": "80 m"}]  # fmt: skip
 

@@ -59,7 +59,18 @@ def test_us_units(line):
     [
         ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor needs 103.8 kW"),
         ("drive", {"start_factor": 1.01}, "starting force after standstill", "raise drive.start_factor"),
-        ("carcass", {"strength": "30 N/mm"}, "safety of the belt, steady", "safety of the belt"),
+        (
+            "carcass",
+            {"strength": "30 N/mm", "rating": None},
+            "safety of the belt, steady",
+            "safety of the belt",
+        ),
+        (
+            "carcass",
+            {"rating": "60 PIW"},
+            "belt tension per width, steady",
+            "the belt is rated for 10.51 N/mm",
+        ),
         (
             "take-up",
             {"kind": "gravity", "tension": "15 kN"},
@@ -128,7 +139,7 @@ def test_small_pulley_fails(line):
 
 def test_not_given_is_not_checked(line):
     without = {name: value for name, value in line.drive.as_data().items() if name != "installed_power"}
-    carcass = {name: value for name, value in line.belt.carcass.as_data().items() if name != "strength"}
+    carcass = {name: value for name, value in line.belt.carcass.as_data().items() if name != "rating"}
     of = found(line.replace(drive=without, belt=line.belt.replace(carcass=carcass)))
     assert of["motor power, drive"].verdict == "not checked"
     assert of["safety of the belt, steady"].verdict == "not checked"
@@ -137,7 +148,7 @@ def test_not_given_is_not_checked(line):
 
 def test_downhill_without_brake_does_not_stop():
     of = found(conveyor.load(SPECS / "downhill.yaml"))
-    assert of["comes to rest without power"].verdict == "FAIL"
+    assert of["comes to rest without power and brake"].verdict == "FAIL"
     assert of["motor power, drive (least friction)"].found.endswith("(generating)")
     assert of["safety of the belt, steady"].verdict == "FAIL"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -42,7 +43,9 @@ def test_every_example_comes_back_equal(path: Path, tmp_path: Path) -> None:
 
 def test_without_a_conveyor_the_template_holds_an_example(tmp_path: Path) -> None:
     read = read_template(write_template(tmp_path / "input.xlsx"))
-    assert spec.from_data(read.data).name
+    line = spec.from_data(read.data)
+    assert line.name
+    assert len(line.route.sections) == 1
     assert list(tmp_path.iterdir()) == [tmp_path / "input.xlsx"]
 
 
@@ -184,6 +187,26 @@ def test_fields_are_drawn_with_note_range_default_and_drop_down(example: Any, na
         assert listed(example, rule(sheet, value)) == choices[leaf.kind]
     if leaf.kind in {"number", "count"}:
         assert rule(sheet, value).type == ("whole" if leaf.kind == "count" else "decimal")
+
+
+def test_a_us_template_says_its_ranges_in_us_units(tmp_path: Path) -> None:
+    """196 in, 3930 fpm and 328,000 ft are 5 m, 20 m/s and 100 km rounded inwards by hand."""
+    book = load_workbook(write_template(tmp_path / "input.xlsx", units="US"))
+    forms = {
+        row[6]: row
+        for name in ("Belt", "Idlers", "Route")
+        for row in book[name].iter_rows(min_row=5, max_col=7, values_only=True)
+    }
+    assert forms["belt.width"][3] == "≥ 3.94 in, ≤ 196 in"
+    assert forms["belt.speed"][3] == "> 0 fpm, ≤ 3930 fpm"
+    assert forms["idlers.carry.offset"][4] == "0 in"  # a default, converted
+    assert [cell.value for cell in book["Sections"][5]][2] == "> 0 ft, ≤ 328000 ft"
+    metric = r"(?<![a-z])(mm|m|kg|kN|N|m/s|kW|degC)(?![\w/^])"
+    for row in forms.values():
+        assert not re.search(rf"\d {metric}", str(row[3])), row
+    line = spec.from_data(read_template(tmp_path / "input.xlsx").data)
+    assert line.report.units == "US"
+    assert len(line.route.sections) == 1
 
 
 def test_lists_are_drawn_with_notes_and_units(example: Any) -> None:

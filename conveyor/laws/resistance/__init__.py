@@ -6,6 +6,7 @@ from conveyor.laws.resistance.cema import (
     cema_effective_tension,
     cema_idler_factor,
     cema_pulley_friction,
+    cema_skirts,
 )
 from conveyor.laws.resistance.defaults import (
     BULK_ON_BELT_FRICTION,
@@ -139,6 +140,7 @@ __all__ = [
     "cema_effective_tension",
     "cema_idler_factor",
     "cema_pulley_friction",
+    "cema_skirts",
     "cleaner_resistance",
     "default_roll_drag",
     "equivalent_friction_factor",

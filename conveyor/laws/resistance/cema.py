@@ -1,7 +1,7 @@
 """The classic form of the Conveyor Equipment Manufacturers Association: US units inside, SI at the border.
 
 Source: CEMA, Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6; the formulas as commonly reproduced.
-The tables of Ky and Kt are not here: they come from the user's copy.
+The tables of Ky, Kt and Cs are not here: they come from the user's copy.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ IDLER_FRICTION_7_IN: Final = Default(2.4, 2.4, 2.4, f"{_SOURCE}: 7 in rolls, ser
 # Accessories [lbf per inch of belt width]
 CLEANER_PER_INCH: Final = Default(5.0, 5.0, 5.0, f"{_SOURCE}: per scraper", True)
 PLOUGH_PER_INCH: Final = Default(5.0, 3.0, 5.0, f"{_SOURCE}: full plough; 3 for one that takes half", True)
+SEALS_PER_FOOT: Final = Default(6.0, 6.0, 6.0, f"{_SOURCE}: rubber seals of both skirts", True)  # [lbf/ft]
 
 Place = Literal["tight", "slack", "other"]
 PULLEY_FRICTION: Final[dict[Place, float]] = {"tight": 200.0, "slack": 150.0, "other": 100.0}  # [lbf], CEMA
@@ -147,6 +148,41 @@ def cema_pulley_friction(places: Sequence[Place]) -> float:
     for place in places:
         require(place in PULLEY_FRICTION, "places", place, f"one of {', '.join(PULLEY_FRICTION)} is needed")
     return math.fsum(PULLEY_FRICTION[place] for place in places) * POUND_FORCE
+
+
+def cema_skirts(length: float, *, skirt_factor: float, depth: float, seals: float) -> float:
+    """Skirtboards with their rubber seals, Tsb = Lb (Cs hs² + 6) (CEMA).
+
+    Parameters
+    ----------
+    length : float
+        Lb of the skirts [m], at least 0.
+    skirt_factor : float
+        Cs of the material, from the book's table [-], at least 0: 0.1378 for dry bank sand; hs in inches, lbf/ft.
+    depth : float
+        hs, depth of the material that touches the skirts [m], at least 0.
+    seals : float
+        Friction of the seals of both sides along them [N/m], at least 0; 6 lbf/ft in the book.
+
+    Returns
+    -------
+    float
+        Tsb [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    A sheet of Rulmeca (Motorized Pulley Power Calculation Program, metric, 5.37) prints 269 N:
+
+    >>> round(cema_skirts(3.0, skirt_factor=0.1378, depth=0.025, seals=6.0 * POUND_FORCE / FOOT))
+    269
+    """
+    require_not_negative(length=length, skirt_factor=skirt_factor, depth=depth, seals=seals)
+    return length * (skirt_factor * (depth / INCH) ** 2 * POUND_FORCE / FOOT + seals)
 
 
 @dataclass(frozen=True, slots=True)

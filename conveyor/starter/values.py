@@ -1,0 +1,69 @@
+"""Values of the starter specs, in both systems of units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any, Final, Literal, get_args
+
+from ruamel.yaml import YAML
+
+from conveyor.units import System
+
+Kind = Literal["overland", "in-plant", "downhill"]
+KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
+"""Conveyors there is a starter of."""
+OPTIONAL: Final = "?"
+"""Behind the key of a field that is written as a comment."""
+LEFT_OUT: Final = "~"
+"""Value of a field that a system of units goes without."""
+
+
+@cache
+def read(name: str) -> dict[str, Any]:
+    """Read a file of this folder."""
+    content = files("conveyor.starter").joinpath(name).read_text(encoding="utf-8")
+    read: dict[str, Any] = YAML(typ="safe", pure=True).load(content)
+    return read
+
+
+def values(kind: Kind, units: System = "SI", *, optional: bool = False) -> dict[str, Any]:
+    """Return the plain data of a starter spec.
+
+    Parameters
+    ----------
+    kind : {"overland", "in-plant", "downhill"}
+        Conveyor.
+    units : {"SI", "US"}
+        System of units.
+    optional : bool
+        Whether the fields that the spec shows as comments are in it, too.
+
+    Examples
+    --------
+    >>> values("in-plant", "US")["belt"]["width"]
+    '42 in'
+    """
+    found: dict[str, Any] = _plain(read(f"{kind}.yaml"), units, optional=optional)
+    return found
+
+
+def _plain(value: Any, units: System, *, optional: bool) -> Any:
+    if isinstance(value, Mapping):
+        return {
+            key.removesuffix(OPTIONAL): _plain(item, units, optional=optional)
+            for key, item in value.items()
+            if (optional or not key.endswith(OPTIONAL)) and in_units(item, units) != LEFT_OUT
+        }
+    if isinstance(value, list):
+        return [_plain(item, units, optional=optional) for item in value]
+    return in_units(value, units)
+
+
+def in_units(value: Any, units: System) -> Any:
+    """Take the value of a system of units from ``SI | US``."""
+    if not isinstance(value, str) or " | " not in value:
+        return value
+    chosen = value.split(" | ")[0 if units == "SI" else 1]
+    return chosen.strip("[]").split(", ") if chosen.startswith("[") else chosen
