@@ -71,11 +71,25 @@ class Analysis(CalculatedConveyor):
         report = self.conveyor.report.replace(units=system)
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
+    def beside(self, studies: Studies | None) -> Self:
+        """Return the same load with the one take-up that the load cases of `conveyor.studies` ask for too."""
+        cases = None if studies is None else studies.cases
+        found = None if cases is None else cases.as_given
+        if found is None:
+            return self
+        return replace(
+            self,
+            contacts=found.contacts,
+            balance=found.balance,
+            fixed=found.fixed,
+            convergence=found.convergence,
+        )
+
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
         from conveyor.report.tables import of_analysis
 
-        return of_analysis(self.in_units(chosen(self.conveyor.report.units, system)), studies)
+        return of_analysis(self.beside(studies).in_units(chosen(self.conveyor.report.units, system)), studies)
 
     @cached_property
     def tables(self) -> dict[str, Table]:

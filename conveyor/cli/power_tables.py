@@ -113,6 +113,7 @@ def _sums(contents: Contents) -> Grid:
     tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
     made.add_row("tensions, tight / slack", f"{tight} / {slack}")
+    made.add_row("take-up", _take_up(contents))
     if "specific_energy" in known:
         energy = known["specific_energy"]
         made.add_row("energy", energy.unit(contents.system).said(energy.value))
@@ -124,6 +125,18 @@ def _sums(contents: Contents) -> Grid:
         )
         made.add_row("in a year", ", ".join(said))
     return made
+
+
+def _take_up(contents: Contents) -> str:
+    """Setting of the take-up, its mass and travel."""
+    known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
+    force, mass, length = (unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
+    said = [force.said(known["take_up_setting"].value)]
+    if "take_up_mass" in known:
+        said.append(mass.said(known["take_up_mass"].value))
+    if "take_up_travel" in known:
+        said.append(f"travel {length.said(known['take_up_travel'].value)}")
+    return ", ".join(said)
 
 
 def _checks(screen: Console, contents: Contents) -> None:

@@ -77,7 +77,9 @@ class Carcass(Model):
     strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")] | None = None
     """Nominal breaking strength per width (ST1600: 1600 N/mm)."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
-    """Tensile stiffness per width; of steel cord 72 times the strength without it."""
+    """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
+    permanent_stretch: Annotated[Fraction, Bounds(ge="0 %", le="10 %")] | None = None
+    """Lasting elongation over the belt's life, for the take-up's travel; of steel cord 0.1 %, else 0.75 % without it."""
     splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Endurance of the splice over the nominal strength, by test or from the belt's maker."""
     splice_making: Literal["favourable", "normal", "unfavourable"] = "normal"

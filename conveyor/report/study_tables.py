@@ -16,6 +16,8 @@ from conveyor.units import System
 from conveyor.units.presentation import MONEY
 
 if TYPE_CHECKING:
+    from conveyor.loop.take_up import TakeUpDuty
+    from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, CaseResult
     from conveyor.studies.duty import CalculatedYear
@@ -168,6 +170,26 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         )
 
 
+def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, str]:
+    """What all loads ask of the take-up, and which of them governs: those of the cases, else the one calculated."""
+    if studies is None or studies.cases is None:
+        return a.take_up, a.take_up.governed_by
+    return studies.cases.take_up, studies.cases.take_up_governed_by
+
+
+def plain_take_up(duty: TakeUpDuty, governed_by: str) -> dict[str, Any]:
+    """The take-up in plain numbers."""
+    return {
+        "kind": duty.unit.kind,
+        "setting_N": duty.setting,
+        "least_setting_N": duty.needed,
+        "mass_kg": duty.mass,
+        "strands": duty.unit.strands,
+        "travel_m": None if duty.travel is None else duty.travel.whole,
+        "governed_by": governed_by,
+    }
+
+
 def duty(study: CalculatedYear) -> Table:
     """One row a bar of the year's histogram."""
     columns = (
@@ -241,6 +263,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
     found: dict[str, Any] = {}
     study = studies.cases
     if study is not None:
+        found["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
         found["load_cases"] = {
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),

@@ -1,6 +1,7 @@
 """Load cases at several temperatures and speeds, and which of them governs each figure of the design.
 
-The resistances of every case are computed as `analyse` does. What they are used for decides on which side they are
+The take-up is one: unless the spec gives its setting, it is the least that serves every state of the spec's own load
+and of every case, and all are calculated with it. The resistances of every case are computed as `analyse` does. What they are used for decides on which side they are
 safe: motors and starts are sized with the friction at the upper end of a band, generators and brakes at its lower end.
 """
 
@@ -14,12 +15,13 @@ from typing import Final
 
 from conveyor.arguments import checked
 from conveyor.checks import Check, drive_power, not_slack, steady_safety, verdict
-from conveyor.errors import InputError
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
 from conveyor.loop.settled import holds
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
-from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many, take_up_of
 from conveyor.units import display
 from conveyor.units.sentences import Said, quoted, said
 
@@ -140,6 +142,8 @@ class CalculatedCases:
         Friction over the computed one, low and high end [-]; lift and acceleration of bulk have none.
     results, refused : tuple
         What was answered, in the order case, speed, temperature, and what was not.
+    as_given : CalculatedConveyor or None
+        The load of the spec itself with the take-up of the cases; None where it has no answer.
     """
 
     conveyor: Conveyor
@@ -147,10 +151,37 @@ class CalculatedCases:
     friction_band: tuple[float, float]
     results: tuple[CaseResult, ...]
     refused: tuple[CaseRefusal, ...]
+    as_given: CalculatedConveyor | None
 
     def __repr__(self) -> str:
         name, answered = self.conveyor.name, len(self.results)
         return f'CaseStudy("{name}": {len(self.cases)} cases, {answered} answered, {len(self.refused)} not)'
+
+    @cached_property
+    def take_up(self) -> TakeUpDuty:
+        """What the spec's own load and all cases ask of the one take-up.
+
+        Raises
+        ------
+        NoSolutionError
+            Nothing has an answer.
+        """
+        return take_up_of([found for _, found in self._loads])
+
+    @property
+    def take_up_governed_by(self) -> str:
+        """The load and the condition that ask for the take-up's setting, in words."""
+        label = self._loads[self.take_up.governing][0]
+        return f"{label}: {self.take_up.governed_by}" if label else self.take_up.governed_by
+
+    @cached_property
+    def _loads(self) -> list[tuple[str, CalculatedConveyor]]:
+        """The spec's own load, which needs no name, and the cases."""
+        own = [] if self.as_given is None else [("", self.as_given)]
+        loads = own + [(result.label.text(), result.found) for result in self.results]
+        if not loads:
+            raise NoSolutionError("no load has an answer: see why each case has none")
+        return loads
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
@@ -235,14 +266,16 @@ def analyse_cases(
         for case, s in settings
         if not isinstance(s.conveyor, Conveyor)
     ]
-    answers = calculate_many([Variant(variant) for _, _, variant in made], rtol, progress)
+    variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
+    as_given, *answers = calculate_many(variants, rtol, progress, one_take_up=True)
     results = []
     for (case, setting, _), found in zip(made, answers, strict=True):
         if isinstance(found, CalculatedConveyor):
             results.append(CaseResult(case, found, band))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
-    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused))
+    own = as_given if isinstance(as_given, CalculatedConveyor) else None
+    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
 
 
 _FIGURES: Final[dict[str, tuple[str, bool, Callable[[CaseResult], float]]]] = {
@@ -281,7 +314,7 @@ def _checks(study: CalculatedCases) -> Iterator[Check]:
     deciding = {found.figure: found for found in study.governing}
     ends = (deciding["largest motor power, friction high"], deciding["least motor power, friction low"])
     yield from _motor_checks(max(ends, key=lambda found: abs(found.value)))
-    yield from _take_up_check(study, deciding["largest tension asked of the take-up"])
+    yield from _take_up_check(deciding["largest tension asked of the take-up"])
     slackest = deciding["least belt tension"]
     yield not_slack(slackest.value, _of_case("smallest tension", slackest.result))
     yield from _safety_check(study)
@@ -298,17 +331,14 @@ def _motor_checks(most: Governing) -> Iterator[Check]:
         yield drive_power(quoted(drive.name), drive, drive.share * most.value, subject)
 
 
-def _take_up_check(study: CalculatedCases, most: Governing) -> Iterator[Check]:
-    held = most.result.found.line.take_up.tension
+def _take_up_check(most: Governing) -> Iterator[Check]:
+    held = most.result.found.balance.settled.setting
     subject = _of_case("tension of the take-up", most.result)
     asked = said("at least {}", (most.value, "force"))
-    if held is not None:
-        passed = verdict(holds=holds(held, most.value))
-        shown = said("{}", (held, "force"))
-        yield Check("take_up_tension", subject, held, most.value, "force", shown, asked, passed)
-    elif len(study.results) > 1:
-        anew = said("set anew in each case")
-        yield Check("take_up_tension", subject, None, most.value, "force", anew, asked, "not checked")
+    passed = verdict(holds=holds(held, most.value))
+    yield Check(
+        "take_up_tension", subject, held, most.value, "force", said("{}", (held, "force")), asked, passed
+    )
 
 
 def _safety_check(study: CalculatedCases) -> Iterator[Check]:
