@@ -14,6 +14,7 @@ from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPa
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
 from conveyor.units.presentation import MONEY
+from conveyor.units.sentences import Said, quoted, said
 
 if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
@@ -170,14 +171,14 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         )
 
 
-def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, str]:
+def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
     """What all loads ask of the take-up, and which of them governs: those of the cases, else the one calculated."""
     if studies is None or studies.cases is None:
-        return a.take_up, a.take_up.governed_by
+        return a.take_up, said(quoted(a.take_up.governed_by))
     return studies.cases.take_up, studies.cases.take_up_governed_by
 
 
-def plain_take_up(duty: TakeUpDuty, governed_by: str) -> dict[str, Any]:
+def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
     """The take-up in plain numbers."""
     return {
         "kind": duty.unit.kind,
@@ -186,7 +187,7 @@ def plain_take_up(duty: TakeUpDuty, governed_by: str) -> dict[str, Any]:
         "mass_kg": duty.mass,
         "strands": duty.unit.strands,
         "travel_m": None if duty.travel is None else duty.travel.whole,
-        "governed_by": governed_by,
+        "governed_by": governed_by.text(),
     }
 
 

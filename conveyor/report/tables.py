@@ -493,7 +493,7 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
             Figure("travel, reserve", "length", travel.reserve),
             Figure("travel", "length", travel.whole),
         ]
-    note = f"kind: {duty.unit.kind}, governed by: {governed_by}{_travel_note(a, duty)}"
+    note = f"kind: {duty.unit.kind}, governed by: {governed_by.text(a.conveyor.report.units)}{_travel_note(a, duty)}"
     page = (OnPage("tensions", "Take-up"),)
     return figures("take_up", "Loop", "Take-up", tuple(rows), page=page, note=note, prefix="take_up_")
 

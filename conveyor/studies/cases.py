@@ -1,8 +1,9 @@
 """Load cases at several temperatures and speeds, and which of them governs each figure of the design.
 
 The take-up is one: unless the spec gives its setting, it is the least that serves every state of the spec's own load
-and of every case, and all are calculated with it. The resistances of every case are computed as `analyse` does. What they are used for decides on which side they are
-safe: motors and starts are sized with the friction at the upper end of a band, generators and brakes at its lower end.
+and of every case, and all are calculated with it. The resistances of every case are computed as `analyse` does. What
+they are used for decides on which side they are safe: motors and starts are sized with the friction at the upper end of
+a band, generators and brakes at its lower end.
 """
 
 from __future__ import annotations
@@ -169,16 +170,16 @@ class CalculatedCases:
         return take_up_of([found for _, found in self._loads])
 
     @property
-    def take_up_governed_by(self) -> str:
-        """The load and the condition that ask for the take-up's setting, in words."""
+    def take_up_governed_by(self) -> Said:
+        """The load and the condition that ask for the take-up's setting."""
         label = self._loads[self.take_up.governing][0]
-        return f"{label}: {self.take_up.governed_by}" if label else self.take_up.governed_by
+        return Said(f"{label.words}: {quoted(self.take_up.governed_by)}", label.figures)
 
     @cached_property
-    def _loads(self) -> list[tuple[str, CalculatedConveyor]]:
-        """The spec's own load, which needs no name, and the cases."""
-        own = [] if self.as_given is None else [("", self.as_given)]
-        loads = own + [(result.label.text(), result.found) for result in self.results]
+    def _loads(self) -> list[tuple[Said, CalculatedConveyor]]:
+        """The spec's own load and the cases."""
+        own = [] if self.as_given is None else [(said("as given"), self.as_given)]
+        loads = own + [(result.label, result.found) for result in self.results]
         if not loads:
             raise NoSolutionError("no load has an answer: see why each case has none")
         return loads
