@@ -59,12 +59,15 @@ class Variant:
         Covers' rubber at the belt's temperature instead of the compounds' [Pa, s].
     roll_drag : float
         Drag of all rolls over the computed one [-].
+    take_up : float, optional
+        Setting of the take-up that other loads ask for, instead of the spec's or the least [N].
     """
 
     conveyor: Conveyor
     temperature: float | None = None
     rubber: Mapping[Strand, PronySeries] = field(default_factory=dict)
     roll_drag: float = 1.0
+    take_up: float | None = None
 
     @property
     def covers_at(self) -> float:
@@ -312,7 +315,7 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoSolutionEr
     if isinstance(contacts, NoSolutionError):
         raise contacts
     along = along_the_belt(loaded.line, loaded.fixed, contacts.indentation, roll_drag=variant.roll_drag)
-    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
+    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
     return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
 
 

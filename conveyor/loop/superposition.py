@@ -12,7 +12,7 @@ with it they are the beginning of an ascent by whole sections.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
@@ -124,7 +124,7 @@ class Superposition:
         found = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
-                candidates += self._ascents(sought, candidates[:3])
+                candidates += [self._ascent(sought, begun) for begun in (sought.more > 0.0, candidates[0])]
         tried = {loading.tobytes(): loading for loading in candidates}
         figures = {key: self.figures(loading) for key, loading in tried.items()}
         for name in figures[candidates[0].tobytes()]:
@@ -288,11 +288,12 @@ class Superposition:
             _, forces = self._motion(state, total, self._masses[0])
         base = self._offsets(state, self._standard[1], acceleration, forces)
         base = base - anchor @ base
-        high = base + np.maximum(matrix, 0.0).sum(axis=1)
+        whole = matrix.sum(axis=1)
+        raised = np.maximum(matrix, 0.0, out=matrix).sum(axis=1)
         least = np.zeros_like(base)
         least[self.stretch_at] = np.maximum(self.least, self.least + self.more_least)
         least[self.stretch_at + 1] = np.maximum(least[self.stretch_at + 1], least[self.stretch_at])
-        return high, least - base + np.maximum(-matrix, 0.0).sum(axis=1)
+        return base + raised, least - base + raised - whole
 
     def _sought(
         self,
@@ -329,12 +330,11 @@ class Superposition:
             grip,
         )
 
-    def _ascents(self, sought: _Sought, begun: Iterable[Loading]) -> list[Loading]:
-        """Loadings that no single section improves, and no two at once where the sign of the force binds them."""
-        return [self._ascent(sought, loading) for loading in (sought.more > 0.0, *begun)]
-
     def _ascent(self, sought: _Sought, loading: Loading) -> Loading:
-        """Change sections, all that gain together while that gains, then the one that gains most, until none does."""
+        """Change sections, all that gain together while that gains, then the one that gains most, until none does.
+
+        Two at once where the sign of the drive force binds them.
+        """
         here, together = self._values(sought, loading, self._unchanged)[0], True
         changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
         while True:
