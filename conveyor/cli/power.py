@@ -81,7 +81,7 @@ def power(
     result = conveyor.analyse(line)
     with progress(silent=quiet or as_json) as told:
         with spec_file.placing(spec):
-            asked = studies(line, progress=told)
+            asked = studies(line, result, progress=told)
         result = result.beside(asked)
         shown = result.in_units(system)
         figures = json_text(result.to_dict() | asked.to_dict())

@@ -31,6 +31,9 @@ def show(contents: Contents) -> None:
     screen.print()
     screen.print(_sums(contents))
     _checks(screen, contents)
+    if "load_states" in contents:
+        screen.print()
+        screen.print(_states(contents["load_states"], contents.system))
     if "governing_cases" in contents:
         screen.print()
         screen.print(_cases(contents["governing_cases"], contents.system))
@@ -147,6 +150,23 @@ def _checks(screen: Console, contents: Contents) -> None:
     for check in (check for check in found if check.verdict == "FAIL"):
         failed = f"FAIL {check.subject}: {check.found}, {check.asked}"
         screen.print(words(wrapped(failed, screen.width, first="  ", further="    "), style="red"))
+
+
+def _states(states: Table, system: System) -> Grid:
+    made = table("load states")
+    figures = {
+        "motor_power": "motor",
+        "largest_tension": "largest tension",
+        "take_up_tension_asked_for": "take-up",
+    }
+    for heading in ("state", "sections loaded", "at", *figures.values()):
+        made.add_column(heading, justify="right" if heading in figures.values() else "left")
+    columns = {column.key: column for column in states.columns}
+    for row in states.rows:
+        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
+        at = unit("temperature", system).brief(columns["temperature"].get(row))
+        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
+    return made
 
 
 def _cases(cases: Table, system: System) -> Grid:

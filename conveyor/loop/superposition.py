@@ -13,16 +13,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.forces import without_rubber
 from conveyor.laws.tension import grip_tension
 from conveyor.line.places import Stand
-from conveyor.loop.balance import Balance
+from conveyor.loop.balance import Balance, balance
+from conveyor.loop.frame import Frame
 from conveyor.loop.settled import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.tensions import STEADY
 
@@ -100,7 +102,7 @@ class Superposition:
     """
 
     def __init__(self, full: Balance, empty: Balance) -> None:
-        self.line, self.full = full.line, full
+        self.line, self.full, self.empty = full.line, full, empty
         self.count = full.line.count
         self.setting = full.settled.setting
         self.events = _events(full, empty)
@@ -120,7 +122,7 @@ class Superposition:
         """
         steady = self.resistance(1.0)[1]
         least = self.resistance(self.line.least_friction)[1]
-        candidates = [steady > 0.0, steady < 0.0, least < 0.0, *self._standard]
+        candidates = [steady > 0.0, steady < 0.0, least < 0.0, *self.standard]
         found = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
@@ -132,6 +134,23 @@ class Superposition:
             if name != LEAST_FORCE or figures[best][name] > 0.0:
                 found[name] = tried[best]
         return found
+
+    def loaded(self, loading: Loading) -> Balance:
+        """The loop under one loading: forces of the full belt where it bears bulk, of the empty one elsewhere."""
+        line, count = self.line, self.count
+        on = np.append(loading, np.ones(count, bool))
+        pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
+        mixed = replace(
+            line,
+            stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs),
+            loading=tuple(point for point in line.loading if loading[point.spot.boundary - count]),
+        )
+        along = tuple(
+            replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
+            for laden, bare in zip(self.full.along, self.empty.along, strict=True)
+        )
+        unit_main = float(without_rubber(mixed).unit_main.sum())
+        return balance(Frame(mixed), along, unit_main, self.setting)
 
     def figures(self, loading: Loading) -> dict[str, float]:
         """What `worst` looks for under one loading [N]; the least drive force with its sign turned."""
@@ -179,7 +198,7 @@ class Superposition:
         return float(base.sum()), events.by_section(more, self.count)
 
     @cached_property
-    def _standard(self) -> list[Loading]:
+    def standard(self) -> list[Loading]:
         """All, none, those that rise, those that fall."""
         rises = np.array([section.rise for section in self.line.sections])
         return [np.ones(self.count, bool), np.zeros(self.count, bool), rises > 0.0, rises < 0.0]
@@ -272,7 +291,7 @@ class Superposition:
 
     def _estimates(self, state: _State, anchor: Array) -> tuple[Array, Array]:
         """Highest tension, and highest lack of it, at every place by sign at the full belt's acceleration [N]."""
-        loading, events = self._standard[0], self.events
+        loading, events = self.standard[0], self.events
         acceleration, forces = self._moved(state, loading)
         total, more = self.resistance(state.friction)
         step = events.more_certain + state.friction * (events.more_force - events.more_certain)
@@ -286,7 +305,7 @@ class Superposition:
         matrix -= anchor @ matrix
         if state.over is not None:
             _, forces = self._motion(state, total, self._masses[0])
-        base = self._offsets(state, self._standard[1], acceleration, forces)
+        base = self._offsets(state, self.standard[1], acceleration, forces)
         base = base - anchor @ base
         whole = matrix.sum(axis=1)
         raised = np.maximum(matrix, 0.0, out=matrix).sum(axis=1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,7 @@ from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
-from conveyor.units.presentation import MONEY
+from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import Said, quoted, said
 
 if TYPE_CHECKING:
@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, CaseResult
     from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.states import CalculatedStates, LoadState
     from conveyor.studies.uncertainty import CalculatedRanges
 
-_CASES, _DUTY, _UNCERTAINTY = "load-cases", "duty", "uncertainty"
+_STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
     "largest_roll_load", "governed_by", "at_roll",
@@ -41,6 +42,8 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         return [], []
     tables: list[Table] = []
     drawn: list[Drawing] = []
+    if studies.states is not None:
+        tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.cases is not None:
         tables += _of_cases(studies.cases)
         drawn += _case_drawings(studies.cases, system)
@@ -53,6 +56,49 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
     return tables, drawn
+
+
+def load_states(study: CalculatedStates) -> Table:
+    """One row a load state: what is loaded, power, tensions, what it asks of the take-up."""
+    columns = (
+        Column("state", "text", attrgetter("name")),
+        Column("sections loaded", "text", attrgetter("loaded_in_words")),
+        Column("worst for", "text", lambda row: ", ".join(row.worst_for) or None, page=None),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("effective tension", "force", attrgetter("balance.forces.total")),
+        Column("belt power", "power", attrgetter("balance.power.belt"), page=None),
+        Column("motor power", "power", attrgetter("balance.power.motor")),
+        Column("tight side tension", "force", attrgetter("balance.tensions.tight"), page=None),
+        Column("slack side tension", "force", attrgetter("balance.tensions.slack"), page=None),
+        Column("largest tension", "force", attrgetter("balance.tensions.largest")),
+        Column("smallest tension", "force", attrgetter("balance.tensions.smallest")),
+        Column("take-up tension asked for", "force", attrgetter("balance.settled.needed")),
+        Column("governed by", "text", _asking, page=None),
+    )
+    note = (
+        "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
+        "loadings follow from the signs of the forces by section, at every temperature of the cases."
+    )
+    heading, page = "Load states", (OnPage(_STATES, "Load states"),)
+    return Table("load_states", "Load states", heading, columns, study.states, page, note)
+
+
+def _asking(state: LoadState) -> str:
+    settled = state.balance.settled
+    return settled.condition_name(settled.governed_by)
+
+
+def refused_states(study: CalculatedStates) -> Table:
+    """Load states without an answer, and why."""
+    columns = (
+        Column("state", "text", attrgetter("name")),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("reason", "text", attrgetter("reason")),
+    )
+    heading = "Load states without an answer"
+    return Table(
+        "refused_states", "Load states", heading, columns, study.refused, (OnPage(_STATES, heading),)
+    )
 
 
 def _of_cases(study: CalculatedCases) -> Iterator[Table]:
@@ -262,6 +308,8 @@ def band(study: CalculatedRanges) -> Table:
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
     found: dict[str, Any] = {}
+    if studies.states is not None:
+        found["states"] = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
     study = studies.cases
     if study is not None:
         found["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
@@ -288,6 +336,28 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "notes": list(studies.uncertainty.notes),
         }
     return found
+
+
+def _plain_state(state: LoadState) -> dict[str, Any]:
+    """A load state in plain numbers."""
+    balance = state.balance
+    return {
+        "loaded_sections": list(state.loaded),
+        "temperature_degC": unit("temperature", "SI").shown(state.temperature),
+        "power_kW": {"belt": balance.power.belt / 1e3, "motor": balance.power.motor / 1e3},
+        "effective_tension_N": balance.forces.total,
+        "tensions_N": asdict(balance.tensions),
+        "take_up_asked_N": balance.settled.needed,
+        "worst_for": list(state.worst_for),
+    }
+
+
+def notebook_of_states(study: CalculatedStates) -> Html:
+    """The load states, and those without an answer."""
+    refusals = [f"{row.name}: {row.reason}" for row in study.refused]
+    caption = f"{study.conveyor.name}: load states"
+    shown = of_table(load_states(study), caption, study.conveyor.report.units)
+    return joined([shown, folded("without an answer", refusals)])
 
 
 def notebook_of_cases(study: CalculatedCases) -> Html:

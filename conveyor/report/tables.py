@@ -62,6 +62,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system, found = analysis.conveyor.report.units, checks(analysis)
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
+    of_states = () if studies is None or studies.states is None else studies.states.checks
     studied, drawn = of_studies(studies, system)
     parts = (
         identity(analysis.conveyor, system),
@@ -90,7 +91,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         indentation(analysis),
         rubber(analysis),
         *compounds(analysis, system),
-        checked((*found, *of_cases), system),
+        checked((*found, *of_cases, *of_states), system),
         remarks(analysis, found, system),
         provenance(fingerprint(analysis.conveyor)),
     )

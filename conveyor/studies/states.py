@@ -1,9 +1,8 @@
 """Load states of a conveyor: empty, full, inclines only, declines only, and the worst loadings by superposition.
 
-All are calculated in full with the take-up as it is set for the spec's own load and its cases. Which sections a worst
-state loads follows from the forces of the full and the empty belt; on vertical curves, and where strain softens the
-rubber, these are forces of other tensions and loads, so that a section whose load hardly matters may be on the wrong
-side.
+The take-up is as it is set for the spec's own load and its cases. Forces add by section: a loading has those of the
+full belt on the sections that bear bulk, and those of the empty one elsewhere. The worst for the drive force is
+calculated in full besides: its own tensions press on the rolls of vertical curves, its own loads soften the rubber.
 """
 
 from __future__ import annotations
@@ -14,13 +13,17 @@ from functools import cached_property
 from typing import Final
 
 from conveyor.checks import Check, compared, drive_power, not_slack, steady_safety, verdict
+from conveyor.errors import ConveyorError
+from conveyor.loop.balance import Balance
+from conveyor.loop.belt_duty import belt_duty
 from conveyor.loop.settled import holds
-from conveyor.loop.superposition import DRIVE_FORCE, Superposition
+from conveyor.loop.superposition import DRIVE_FORCE, Loading, Superposition
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
-from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate, calculate_many
-from conveyor.units import si
+from conveyor.models.variants import with_case, with_temperature
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
+from conveyor.studies.cases import CalculatedCases
+from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
@@ -28,7 +31,7 @@ _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "
 
 @dataclass(frozen=True, eq=False)
 class LoadState:
-    """A loading of the conveyor at the spec's speed and temperature.
+    """A loading of the conveyor at the spec's speed.
 
     Attributes
     ----------
@@ -36,34 +39,37 @@ class LoadState:
         What it is called in reports.
     loaded : tuple of str
         Sections that bear bulk.
+    temperature : float
+        Of the belt [K].
     worst_for : tuple of str
-        Figures that no loading makes worse, as far as single sections go.
+        Figures that no loading makes worse, as far as single sections go, at no temperature of the cases.
     keys : tuple of str
         For programs; a worst loading that is one of the standard states has the keys of both.
-    found : CalculatedConveyor
+    balance : Balance
         Forces, tensions and power, the take-up at its setting.
     """
 
     name: str
     loaded: tuple[str, ...]
+    temperature: float
     worst_for: tuple[str, ...]
     keys: tuple[str, ...]
-    found: CalculatedConveyor
+    balance: Balance
 
     @property
     def loaded_in_words(self) -> str:
         """The sections that bear bulk, by name."""
-        if len(self.loaded) == self.found.line.count:
+        if len(self.loaded) == self.balance.line.count:
             return "all"
         return ", ".join(self.loaded) or "none"
 
 
 @dataclass(frozen=True)
 class StateRefusal:
-    """A load state without an answer, and why."""
+    """A load without an answer, and why; SI."""
 
     name: str
-    loaded: tuple[str, ...]
+    temperature: float
     reason: str
 
 
@@ -101,16 +107,21 @@ def worst_key(figure: str) -> str:
 
     Examples
     --------
-    >>> worst_key("drive force"), worst_key("largest tension")
-    ('worst', 'worst_largest_tension')
+    >>> worst_key("drive force"), worst_key("grip, tail drive")
+    ('worst', 'worst_grip_tail_drive')
     """
-    return "worst" if figure == DRIVE_FORCE else f"worst_{'_'.join(figure.replace(',', ' ').split())}"
+    words = "".join(c if c.isalnum() else " " for c in figure).split()
+    return "worst" if figure == DRIVE_FORCE else "_".join(("worst", *words))
 
 
 def load_states(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor,
+    given: CalculatedConveyor | None = None,
+    cases: CalculatedCases | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> CalculatedStates:
-    """Calculate empty, full, inclines only and declines only, then the worst loadings.
+    """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
     Parameters
     ----------
@@ -118,6 +129,8 @@ def load_states(
         The spec.
     given : CalculatedConveyor, optional
         The spec's own load; its take-up setting is that of every state. Calculated without it.
+    cases : CalculatedCases, optional
+        Cases at the same setting: their temperatures are looked at too, and what they know is not calculated again.
     progress : callable, optional
         Called with what is done and the whole.
 
@@ -127,67 +140,126 @@ def load_states(
         The spec's own load has no answer.
     """
     own = calculate(conveyor) if given is None else given
-    names = [section.name for section in own.line.sections]
-    standard = {loading: LoadCase(name=loading, loading=loading) for loading in STANDARD_LOADINGS}
-    found, loads = _calculated(standard, conveyor, own, progress)
-    worst: dict[tuple[str, ...], list[str]] = {}
-    full, empty = found["full"], found["empty"]
-    if isinstance(full, CalculatedConveyor) and isinstance(empty, CalculatedConveyor):
-        for figure, loading in Superposition(full.balance, empty.balance).worst().items():
-            bearing = tuple(name for name, on in zip(names, loading.tolist(), strict=True) if on)
-            worst.setdefault(bearing, []).append(figure)
-    further = {
-        f"worst for {', '.join(figures)}": LoadCase(name="worst", loading="sections", sections=bearing)
-        for bearing, figures in worst.items()
-        if bearing not in loads.values()
-    }
-    more, more_loads = _calculated(further, conveyor, own, progress)
-    states, refused = [], []
-    for name, loaded in (loads | more_loads).items():
-        one, figures = (found | more)[name], tuple(worst.pop(loaded, ()))
-        if isinstance(one, CalculatedConveyor):
-            keys = (*((_KEYS[name],) if name in _KEYS else ()), *map(worst_key, figures))
-            states.append(LoadState(name, loaded, figures, keys, one))
-        else:
-            refused.append(StateRefusal(name, loaded, str(one)))
+    at = own.temperature
+    ends, refused = _full_and_empty(conveyor, own, cases, progress)
+    adding = {temperature: Superposition(*pair) for temperature, pair in ends.items()}
+    worst = _worst(adding)
+    states = []
+    if at in adding:
+        for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
+            figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
+            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(name)
+            found = adding[at].loaded(loading) if known is None else known
+            keys = (_KEYS[name], *map(worst_key, figures))
+            states.append(LoadState(name, _names(own, loading), at, figures, keys, found))
+    for (temperature, _), (loading, figures) in worst.items():
+        loaded = _names(own, loading)
+        found = adding[temperature].loaded(loading)
+        if DRIVE_FORCE in figures:
+            again = _in_full(conveyor, loaded, temperature, own)
+            if isinstance(again, CalculatedConveyor):
+                found = again.balance
+            else:
+                refused.append(StateRefusal(f"worst for {DRIVE_FORCE}", temperature, str(again)))
+        keys = tuple(map(worst_key, figures))
+        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, found))
     return CalculatedStates(conveyor, own.balance.settled.setting, tuple(states), tuple(refused))
 
 
-_Found = dict[str, CalculatedConveyor | NoAnswer]
+_Ends = tuple[Balance, Balance]
+"""Under full and empty belt."""
 
 
-def _calculated(
-    cases: Mapping[str, LoadCase], conveyor: Conveyor, own: CalculatedConveyor, progress: Progress | None
-) -> tuple[_Found, dict[str, tuple[str, ...]]]:
-    """Loadings calculated at the setting of the spec's own load, and the sections that bear bulk in each."""
-    asked = {name: with_case(conveyor, case) for name, case in cases.items()}
-    found: _Found = {name: own for name, one in asked.items() if one is conveyor}
-    variants = {
-        name: Variant(one, take_up=own.balance.settled.setting)
-        for name, one in asked.items()
-        if name not in found
+def _full_and_empty(
+    conveyor: Conveyor, own: CalculatedConveyor, cases: CalculatedCases | None, progress: Progress | None
+) -> tuple[dict[float, _Ends], list[StateRefusal]]:
+    """The full and the empty belt at the spec's temperature and those of its cases; of cases what they know."""
+    results = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
+    known: dict[tuple[float, str], CalculatedConveyor] = {
+        (r.temperature, r.case.loading): r.found for r in results
     }
-    if variants:
-        answers = calculate_many(list(variants.values()), progress=progress)
-        found |= dict(zip(variants, answers, strict=True))
-    return found, {name: _bearing(one) for name, one in asked.items()}
+    at = own.temperature
+    wanted = [(t, name) for t in dict.fromkeys([at, *(t for t, _ in known)]) for name in ("full", "empty")]
+    asked: dict[tuple[float, str], Conveyor] = {}
+    refused = []
+    for temperature, name in wanted:
+        case = LoadCase.from_data({"name": name, "loading": name})
+        try:
+            asked[temperature, name] = _loaded(conveyor, case, temperature, own)
+        except ConveyorError as error:
+            refused.append(StateRefusal(name, temperature, str(error)))
+    found: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
+    found |= {key: own for key, one in asked.items() if one is conveyor}
+    setting = own.balance.settled.setting
+    missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in found}
+    if missing:
+        answers = calculate_many(list(missing.values()), progress=progress)
+        for key, one in zip(missing, answers, strict=True):
+            if isinstance(one, CalculatedConveyor):
+                found[key] = one
+            else:
+                refused.append(StateRefusal(key[1], key[0], str(one)))
+    ends = {
+        temperature: (found[temperature, "full"].balance, found[temperature, "empty"].balance)
+        for temperature, name in wanted
+        if name == "full" and (temperature, "full") in found and (temperature, "empty") in found
+    }
+    return ends, refused
 
 
-def _bearing(conveyor: Conveyor) -> tuple[str, ...]:
+def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
+    """The conveyor loaded as a case says at a temperature; itself where that changes nothing."""
+    loaded = with_case(conveyor, case)
+    if temperature == own.temperature:
+        return loaded
+    return with_temperature(loaded, from_si(temperature, "temperature", "K"))
+
+
+def _worst(
+    adding: Mapping[float, Superposition],
+) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
+    """The worst loadings at whichever temperature, each with the figures it is worst for."""
+    best: dict[str, tuple[float, float, Loading]] = {}
+    for temperature, states in adding.items():
+        for figure, loading in states.worst().items():
+            value = states.figures(loading)[figure]
+            if figure not in best or value > best[figure][0]:
+                best[figure] = (value, temperature, loading)
+    found: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
+    for figure, (_, temperature, loading) in best.items():
+        key = (temperature, loading.tobytes())
+        found[key] = (loading, (*found.get(key, (loading, ()))[1], figure))
+    return found
+
+
+def _in_full(
+    conveyor: Conveyor, loaded: tuple[str, ...], temperature: float, own: CalculatedConveyor
+) -> CalculatedConveyor | ConveyorError:
+    """A worst loading with its own contacts, or why it has none."""
+    case = LoadCase(name="worst", loading="sections", sections=loaded)
+    try:
+        made = _loaded(conveyor, case, temperature, own)
+    except ConveyorError as error:
+        return error
+    (found,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)])
+    return found
+
+
+def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
     """Sections that bear bulk, by name."""
-    if si(conveyor.material.flow) == 0.0:
-        return ()
-    return tuple(section.name for section in conveyor.route.sections if section.loaded)
+    pairs = zip(own.line.sections, loading.tolist(), strict=True)
+    return tuple(section.name for section, on in pairs if on)
 
 
 def _checks(found: CalculatedStates) -> Iterator[Check]:
     yield from _motor_checks(found.states)
-    yield _take_up_check(max(found.states, key=lambda state: state.found.balance.settled.needed))
-    slackest = min(found.states, key=lambda state: state.found.balance.tensions.smallest)
-    yield not_slack(slackest.found.balance.tensions.smallest, _of_state("smallest tension", slackest))
-    tightest = max(found.states, key=lambda state: state.found.belt_duty.largest_steady)
-    if tightest.found.belt_duty.safety_steady is not None:
-        yield steady_safety(tightest.found.belt_duty, _of_state("safety of the belt, steady", tightest))
+    yield _take_up_check(max(found.states, key=lambda state: state.balance.settled.needed))
+    slackest = min(found.states, key=lambda state: state.balance.tensions.smallest)
+    yield not_slack(slackest.balance.tensions.smallest, _of_state("smallest tension", slackest))
+    tightest = max(found.states, key=lambda state: state.balance.settled.steady.largest)
+    duty = belt_duty(tightest.balance)
+    if duty.safety_steady is not None:
+        yield steady_safety(duty, _of_state("safety of the belt, steady", tightest))
 
 
 def _of_state(criterion: str, state: LoadState) -> Said:
@@ -196,20 +268,17 @@ def _of_state(criterion: str, state: LoadState) -> Said:
 
 def _motor_checks(states: Sequence[LoadState]) -> Iterator[Check]:
     """Every drive with power given, in the state that asks it for most."""
-    for d, drive in enumerate(states[0].found.line.drives):
+    for d, drive in enumerate(states[0].balance.line.drives):
         if drive.power is None:
             continue
-        powers = [
-            state.found.balance.frame.motor(state.found.balance.settled.steady.drives[d].force)
-            for state in states
-        ]
+        powers = [state.balance.frame.motor(state.balance.settled.steady.drives[d].force) for state in states]
         power, state = max(zip(powers, states, strict=True), key=lambda pair: abs(pair[0]))
         subject = _of_state(f"motor power, {drive.name}", state)
         yield drive_power(quoted(drive.name), drive, power, subject)
 
 
 def _take_up_check(most: LoadState) -> Check:
-    settled = most.found.balance.settled
+    settled = most.balance.settled
     why = said(
         f"the take-up holds {{}}, the load state {quoted(most.name)} asks for {{}}: give route.take_up.tension, or a "
         'case with loading "sections" and those of the state',
