@@ -126,7 +126,8 @@ class Superposition:
         found = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
-                candidates += [self._ascent(sought, begun) for begun in (sought.more > 0.0, candidates[0])]
+                begun = candidates[:1] if sought.driving is None else candidates[:2]
+                candidates += [self._ascent(sought, loading) for loading in (sought.more > 0.0, *begun)]
         tried = {loading.tobytes(): loading for loading in candidates}
         figures = {key: self.figures(loading) for key, loading in tried.items()}
         for name in figures[candidates[0].tobytes()]:
@@ -295,20 +296,28 @@ class Superposition:
         acceleration, forces = self._moved(state, loading)
         total, more = self.resistance(state.friction)
         step = events.more_certain + state.friction * (events.more_force - events.more_certain)
-        step = step + acceleration * events.more_mass
-        matrix = np.zeros((events.force.size + 1, self.count))
-        held = np.flatnonzero(events.section >= 0)
-        matrix[held + 1, events.section[held]] = step[held]
-        if state.over is not None:
-            matrix[self.drive_at + 1] -= np.outer(self.shares * state.over, more)
-        matrix = np.cumsum(matrix, axis=0)
-        matrix -= anchor @ matrix
+        added = events.by_section(step + acceleration * events.more_mass, self.count)
+        taken = np.zeros_like(anchor)  # share of the drives that stand before a place
         if state.over is not None:
             _, forces = self._motion(state, total, self._masses[0])
+            for share, at in zip(self.shares * state.over, self.drive_at, strict=True):
+                taken[at + 1 :] += share
+        held = _behind(anchor)[self.stretch_at[self.count :]]
+        raised, whole = np.zeros_like(anchor), np.zeros_like(anchor)
+        passed = np.searchsorted(self.stretch_at[self.count :], np.arange(anchor.size))
+        for share in np.unique(taken):
+            # the bulk of a section acts before or behind a place: sums up to it, and from it on
+            relieved = (share - anchor @ taken) * more
+            before, behind = (1.0 - held) * added - relieved, -held * added - relieved
+            for sums, (ahead, rest) in (
+                (raised, (np.maximum(before, 0.0), np.maximum(behind, 0.0))),
+                (whole, (before, behind)),
+            ):
+                run = np.concatenate([[0.0], np.cumsum(ahead)]) + rest.sum()
+                run -= np.concatenate([[0.0], np.cumsum(rest)])
+                sums[taken == share] = run[passed[taken == share]]
         base = self._offsets(state, self.standard[1], acceleration, forces)
         base = base - anchor @ base
-        whole = matrix.sum(axis=1)
-        raised = np.maximum(matrix, 0.0, out=matrix).sum(axis=1)
         least = np.zeros_like(base)
         least[self.stretch_at] = np.maximum(self.least, self.least + self.more_least)
         least[self.stretch_at + 1] = np.maximum(least[self.stretch_at + 1], least[self.stretch_at])
@@ -328,8 +337,7 @@ class Superposition:
         """Tension at a place over what the take-up holds, or with sign -1 what it lacks there."""
         events = self.events
         # the offset at a place is the sum of the events before it; so is every offset the take-up holds
-        behind = np.concatenate([np.cumsum(anchor[::-1])[::-1][1:]])
-        weights = sign * ((np.arange(events.force.size) < at) - behind)
+        weights = sign * ((np.arange(events.force.size) < at) - _behind(anchor))
         base = events.certain + state.friction * (events.force - events.certain)
         more = events.more_certain + state.friction * (events.more_force - events.more_certain)
         constant = float(weights @ base)
@@ -354,6 +362,7 @@ class Superposition:
 
         Two at once where the sign of the drive force binds them.
         """
+        loading = self._signed(sought, loading)
         here, together = self._values(sought, loading, self._unchanged)[0], True
         changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
         while True:
@@ -370,6 +379,22 @@ class Superposition:
             if not found[best] > here:
                 return loading
             loading, here = loading ^ changes[best], found[best]
+
+    def _signed(self, sought: _Sought, loading: Loading) -> Loading:
+        """A loading whose steady drive force has the sign the figure holds for, at the least loss a newton."""
+        base, more = self.resistance(1.0)
+        force = base + float(more @ loading)
+        if sought.driving is None or (force >= 0.0) is sought.driving:
+            return loading
+        free = replace(sought, driving=None)
+        loss = self._values(free, loading, self._unchanged)[0] - self._values(free, loading, self._single)
+        change = np.where(loading, -more, more) * (1.0 if sought.driving else -1.0)
+        order = np.flatnonzero(change > 0.0)
+        order = order[np.argsort(loss[order] / change[order])]
+        enough = np.searchsorted(np.cumsum(change[order]), abs(force)) + 1
+        turned = loading.copy()
+        turned[order[:enough]] ^= True
+        return turned
 
     @cached_property
     def _unchanged(self) -> Loading:
@@ -409,6 +434,11 @@ class Superposition:
             return value
         pulls = changed(self.resistance(1.0)) >= 0.0
         return np.where(pulls == sought.driving, value, -math.inf)
+
+
+def _behind(anchor: Array) -> Array:
+    """What the take-up holds of all places behind each event, shape (e,)."""
+    return np.asarray(np.cumsum(anchor[::-1])[::-1][1:])
 
 
 def _column(values: Array, like: Array) -> Array:

@@ -30,6 +30,7 @@ SHEETS: Final = {
     "Tensions": sheets.tensions,
     "States": sheets.states,
     "Loop": sheets.stacked,
+    "Load states": sheets.stacked,
     "Load cases": sheets.stacked,
     "Duty": sheets.stacked,
     "Uncertainty": sheets.uncertainty,
@@ -45,7 +46,7 @@ COMPARISON_SHEETS: Final = {
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
-_WHERE_ASKED: Final = ("Load cases", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Load states", "Load cases", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them."""
 _PORTRAIT: Final = ("Summary", "Resistances", "States", "Loop", "Indentation", "Rubber", CHECKS_AND_NOTES)
 

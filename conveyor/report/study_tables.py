@@ -61,9 +61,8 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
 def load_states(study: CalculatedStates) -> Table:
     """One row a load state: what is loaded, power, tensions, what it asks of the take-up."""
     columns = (
-        Column("state", "text", attrgetter("name")),
+        Column("state", "text", attrgetter("label"), key="state"),
         Column("sections loaded", "text", attrgetter("loaded_in_words")),
-        Column("worst for", "text", lambda row: ", ".join(row.worst_for) or None, page=None),
         Column("temperature", "temperature", attrgetter("temperature")),
         Column("effective tension", "force", attrgetter("balance.forces.total")),
         Column("belt power", "power", attrgetter("balance.power.belt"), page=None),

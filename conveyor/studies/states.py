@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
 from typing import Final
 
 from conveyor.checks import Check, compared, drive_power, not_slack, steady_safety, verdict
@@ -26,6 +28,7 @@ from conveyor.studies.cases import CalculatedCases
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
+_ROW: Final = 3  # sections from which a row of them is named by its ends
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
 
 
@@ -57,11 +60,22 @@ class LoadState:
     balance: Balance
 
     @property
+    def label(self) -> str:
+        """Its name, of a standard state with what it is worst for."""
+        if self.name in _KEYS and self.worst_for:
+            return f"{self.name} (worst for {', '.join(self.worst_for)})"
+        return self.name
+
+    @property
     def loaded_in_words(self) -> str:
-        """The sections that bear bulk, by name."""
-        if len(self.loaded) == self.balance.line.count:
-            return "all"
-        return ", ".join(self.loaded) or "none"
+        """The sections that bear bulk, by name, or those that do not where these are fewer words."""
+        names = [section.name for section in self.balance.line.sections]
+        loaded, empty = (
+            _in_words(names, [(name in self.loaded) is on for name in names]) for on in (True, False)
+        )
+        if not loaded or not empty:
+            return "all" if loaded else "none"
+        return min(loaded, f"all but {empty}", key=len)
 
 
 @dataclass(frozen=True)
@@ -100,6 +114,16 @@ class CalculatedStates:
     def checks(self) -> tuple[Check, ...]:
         """The states against what is installed and against the take-up's setting; the state that decides is named."""
         return tuple(_checks(self)) if self.states else ()
+
+
+def _in_words(names: Sequence[str], on: Sequence[bool]) -> str:
+    """Names that are on; of three and more in a row the first and the last."""
+    runs = [
+        [name for name, _ in run]
+        for is_on, run in groupby(zip(names, on, strict=True), itemgetter(1))
+        if is_on
+    ]
+    return ", ".join(", ".join(run) if len(run) < _ROW else f"{run[0]} to {run[-1]}" for run in runs)
 
 
 def worst_key(figure: str) -> str:
