@@ -23,6 +23,7 @@ from conveyor.studies import calibration as calibration_study
 from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
+from conveyor.studies import states as state_study
 from conveyor.studies import uncertainty as range_study
 from conveyor.studies import verification as verification_study
 from conveyor.units.presentation import chosen
@@ -74,11 +75,25 @@ class Analysis(CalculatedConveyor):
         report = self.conveyor.report.replace(units=system)
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
+    def beside(self, studies: Studies | None) -> Self:
+        """Return the same load with the one take-up that the load cases of `conveyor.studies` ask for too."""
+        cases = None if studies is None else studies.cases
+        found = None if cases is None else cases.as_given
+        if found is None:
+            return self
+        return replace(
+            self,
+            contacts=found.contacts,
+            balance=found.balance,
+            fixed=found.fixed,
+            convergence=found.convergence,
+        )
+
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
         from conveyor.report.tables import of_analysis
 
-        return of_analysis(self.in_units(chosen(self.conveyor.report.units, system)), studies)
+        return of_analysis(self.beside(studies).in_units(chosen(self.conveyor.report.units, system)), studies)
 
     @cached_property
     def tables(self) -> dict[str, Table]:
@@ -244,6 +259,22 @@ class CaseStudy(case_study.CalculatedCases):
         return notebook_of_cases(self)
 
 
+class StateStudy(state_study.CalculatedStates):
+    """Load states of a conveyor, with their table."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a state; units in the names."""
+        from conveyor.report.study_tables import load_states
+
+        return load_states(self).frame()
+
+    def _repr_html_(self) -> str:
+        from conveyor.report.study_tables import notebook_of_states
+
+        return notebook_of_states(self)
+
+
 class DutyStudy(duty_study.CalculatedYear):
     """A year of a conveyor, with its tables."""
 
@@ -287,17 +318,20 @@ class UncertaintyStudy(range_study.CalculatedRanges):
 class Studies(study.CalculatedStudies):
     """Studies of one conveyor, each with its tables; None where the spec has nothing to study."""
 
+    states: StateStudy | None = None
     cases: CaseStudy | None = None
     duty: DutyStudy | None = None
     uncertainty: UncertaintyStudy | None = None
 
     def __repr__(self) -> str:
-        held = [name for name in ("cases", "duty", "uncertainty") if getattr(self, name) is not None]
+        held = [
+            name for name in ("states", "cases", "duty", "uncertainty") if getattr(self, name) is not None
+        ]
         return f"Studies({', '.join(held) or 'nothing asked for'})"
 
     def _repr_html_(self) -> str:
         """For notebooks: what there is, one after the other."""
-        held = (self.cases, self.duty, self.uncertainty)
+        held = (self.states, self.cases, self.duty, self.uncertainty)
         return (
             "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
         )
@@ -436,16 +470,20 @@ analyse = _facing(calculate, Analysis)
 analyse_cases = _facing(case_study.analyse_cases, CaseStudy)
 analyse_duty = _facing(duty_study.analyse_duty, DutyStudy)
 study_ranges = _facing(range_study.study, UncertaintyStudy)
+load_states = _facing(state_study.load_states, StateStudy)
 compare_compounds = _facing(compound_study.compare_compounds, Comparison)
 
 
 verify_sheet = _facing(verification_study.verification, VerificationSheet)
 
 
-def studies(conveyor: Conveyor, *, progress: study.Progress | None = None) -> Studies:
-    """Calculate what the spec asks for; as `conveyor.studies.studies`."""
-    found = study.studies(conveyor, progress=progress)
+def studies(
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: study.Progress | None = None
+) -> Studies:
+    """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`."""
+    found = study.studies(conveyor, given, progress=progress)
     return Studies(
+        states=None if found.states is None else _faced(found.states, StateStudy),
         cases=None if found.cases is None else _faced(found.cases, CaseStudy),
         duty=None if found.duty is None else _faced(found.duty, DutyStudy),
         uncertainty=None if found.uncertainty is None else _faced(found.uncertainty, UncertaintyStudy),

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
 
@@ -36,7 +36,9 @@ from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses
 from conveyor.loop.frame import Frame
-from conveyor.loop.starting import Motions, motions
+from conveyor.loop.starting import Motions, every_state, motions
+from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
+from conveyor.loop.tensions import MotionState
 from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
@@ -62,12 +64,15 @@ class Variant:
         Indentation of a strand over the computed one; 1 without [-].
     roll_drag : float
         Drag of all rolls over the computed one [-].
+    take_up : float, optional
+        Setting of the take-up that other loads ask for, instead of the spec's or the least [N].
     """
 
     conveyor: Conveyor
     temperature: float | None = None
     level: Mapping[Strand, float] = field(default_factory=dict)
     roll_drag: float = 1.0
+    take_up: float | None = None
 
     @property
     def covers_at(self) -> float:
@@ -172,6 +177,16 @@ class CalculatedConveyor:
         """Start, coasting, braking, holding; limits of the bulk."""
         return motions(self.balance)
 
+    @property
+    def every_state(self) -> tuple[MotionState, ...]:
+        """Tensions in every state of motion."""
+        return every_state(self.balance, self.motions)
+
+    @cached_property
+    def take_up(self) -> TakeUpDuty:
+        """Setting, mass and travel of the take-up for this load alone."""
+        return take_up_of([self])
+
     @cached_property
     def belt_duty(self) -> BeltDuty:
         """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
@@ -189,6 +204,15 @@ class CalculatedConveyor:
     def error_estimate(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
         return self.contacts.error
+
+
+def take_up_of(loads: Sequence[CalculatedConveyor]) -> TakeUpDuty:
+    """What several loads of one conveyor, calculated at one setting, ask of its take-up."""
+    return take_up_duty(
+        [found.balance for found in loads],
+        [found.every_state for found in loads],
+        [found.temperature for found in loads],
+    )
 
 
 def calculate(conveyor: Conveyor) -> CalculatedConveyor:
@@ -214,7 +238,11 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
 
 
 def calculate_many(
-    variants: Sequence[Variant], rtol: float | None = None, progress: Progress | None = None
+    variants: Sequence[Variant],
+    rtol: float | None = None,
+    progress: Progress | None = None,
+    *,
+    one_take_up: bool = False,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -226,14 +254,23 @@ def calculate_many(
         Relative tolerance of the contacts; that of each spec without it [-].
     progress : callable, optional
         Called as variants are loaded, and when they are solved; a variant counts half for each.
+    one_take_up : bool
+        Whether the take-up has one setting in all of them, the least that serves every state of each; else the least
+        of each. A setting that the spec gives stands.
 
     Returns
     -------
     list
         In their order the calculations, or why a variant has none.
+
+    Raises
+    ------
+    NoSolutionError
+        No one setting of the take-up serves all.
     """
     shared, told = _Shared(), _Told(len(variants), progress)
-    answers: dict[int, CalculatedConveyor | NoAnswer] = {}
+    made: dict[int, CalculatedConveyor] = {}
+    refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
     while going:
         loaded: dict[int, tuple[_Loaded, Covers]] = {}
@@ -241,27 +278,36 @@ def calculate_many(
             try:
                 loaded[i] = shared.loaded(variants[i], step.pressing)
             except (NoSolutionError, RangeError, InputError) as error:
-                answers[i] = error
-            told(len(answers), len(loaded))
+                refused[i] = error
+            told(len(variants) - len(going), len(loaded))
         lines = [one.line for one, _ in loaded.values()]
         solved = solve_contacts(lines, [covers for _, covers in loaded.values()], rtol)
-        again: dict[int, _Step] = {}
         for i, contacts in zip(loaded, solved, strict=True):
-            if isinstance(contacts, NoSolutionError):
-                answers[i] = contacts
-                continue
             try:
-                found = _closed(variants[i], loaded[i][0], contacts, going[i])
+                made[i] = _closed(variants[i], loaded[i][0], contacts)
             except NoSolutionError as error:
-                answers[i] = error
+                refused[i] = error
+        for i in refused:
+            made.pop(i, None)
+        if one_take_up:
+            level = at_one_setting([found.balance for found in made.values()])
+            made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
+        curved = [i for i in going if i in made and made[i].line.curved]
+        again: dict[int, _Step] = {}
+        for i in curved:
+            try:
+                made[i] = found = replace(made[i], convergence=_convergence(made[i], going[i]))
+            except NoSolutionError as error:
+                refused[i] = error
+                del made[i]
                 continue
-            if isinstance(found, _Step):
-                again[i] = found
-            else:
-                answers[i] = found
-        told(len(answers), 0)
-        going = again
-    return [answers[i] for i in range(len(variants))]
+            pressing = pressing_masses(found.line, found.balance.settled.steady)
+            again[i] = _Step(pressing, found.balance, found.convergence)
+        moving = {i for i in again if not _settled(made[i])}
+        # one that still moves the common setting moves the tensions of all
+        going = again if one_take_up and moving else {i: again[i] for i in moving}
+        told(len(variants) - len(going), 0)
+    return [refused[i] if i in refused else made[i] for i in range(len(variants))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,8 +328,10 @@ class _Loaded:
     fixed: WithoutRubber
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) -> CalculatedConveyor | _Step:
-    """Close the loop; on vertical curves say how the rolls are to be loaded next, until nothing changes."""
+def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoSolutionError) -> CalculatedConveyor:
+    """Close the loop around the forces of the rolls."""
+    if isinstance(contacts, NoSolutionError):
+        raise contacts
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
         loaded.line,
@@ -292,18 +340,21 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts, step: _Step) 
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()))
-    if not loaded.line.curved:
-        return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
-    steady, judged = found.settled.steady, None
-    if step.before is not None:
-        before = step.before.settled.steady
-        judged = converged(step.convergence, before, steady, loaded.line, found.tensions.largest)
-        if judged.settled(loaded.line.rtol):
-            return CalculatedConveyor(
-                variant.conveyor, variant.covers_at, contacts, found, loaded.fixed, judged
-            )
-    return _Step(pressing_masses(loaded.line, steady), found, judged)
+    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
+    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
+
+
+def _convergence(found: CalculatedConveyor, step: _Step) -> Convergence | None:
+    """How the tensions on vertical curves changed since the step before; None without curves or step."""
+    if step.before is None:
+        return None
+    before, now = step.before.settled.steady, found.balance.settled.steady
+    return converged(step.convergence, before, now, found.line, found.balance.tensions.largest)
+
+
+def _settled(found: CalculatedConveyor) -> bool:
+    """Whether tensions and roll loads on the vertical curves agree."""
+    return found.convergence is not None and found.convergence.settled(found.line.rtol)
 
 
 class _Shared:

@@ -79,10 +79,11 @@ def power(
     line = conveyor.load(spec, shelves=shelf or ())
     system: System = line.report.units if units is None else units.value
     result = conveyor.analyse(line)
-    shown = result.in_units(system)
     with progress(silent=quiet or as_json) as told:
         with spec_file.placing(spec):
-            asked = studies(line, progress=told)
+            asked = studies(line, result, progress=told)
+        result = result.beside(asked)
+        shown = result.in_units(system)
         figures = json_text(result.to_dict(asked))
         contents = of_analysis(shown, asked)
         wanted = _wanted(contents, output, html, tables, parquet)

@@ -36,6 +36,9 @@ def show(contents: Contents) -> None:
         screen.print()
         screen.print(_cema(contents))
     _checks(screen, contents)
+    if "load_states" in contents:
+        screen.print()
+        screen.print(_states(contents["load_states"], contents.system))
     if "governing_cases" in contents:
         screen.print()
         screen.print(_cases(contents["governing_cases"], contents.system))
@@ -121,6 +124,7 @@ def _sums(contents: Contents) -> Grid:
     made.add_row(
         "tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}"
     )
+    made.add_row("take-up", _take_up(contents))
     if "specific_energy" in known:
         energy = known["specific_energy"]
         made.add_row("energy", energy.unit(contents.system).said(energy.value))
@@ -149,6 +153,18 @@ def _cema(contents: Contents) -> Grid:
     return made
 
 
+def _take_up(contents: Contents) -> str:
+    """Setting of the take-up, its mass and travel."""
+    known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
+    force, mass, length = (unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
+    said = [force.said(known["take_up_setting"].value)]
+    if "take_up_mass" in known:
+        said.append(mass.said(known["take_up_mass"].value))
+    if "take_up_travel" in known:
+        said.append(f"travel {length.said(known['take_up_travel'].value)}")
+    return ", ".join(said)
+
+
 def _checks(screen: Console, contents: Contents) -> None:
     found = contents["checks"].rows
     counts = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
@@ -165,6 +181,23 @@ def _checks(screen: Console, contents: Contents) -> None:
             cells += [*([check.case] if cases else []), check.verdict]
             made.add_row(*map(words, cells), style="red" if check.verdict == "FAIL" else "")
     screen.print(made)
+
+
+def _states(states: Table, system: System) -> Grid:
+    made = table("load states")
+    figures = {
+        "motor_power": "motor",
+        "largest_tension": "largest tension",
+        "take_up_tension_asked_for": "take-up",
+    }
+    for heading in ("state", "sections loaded", "at", *figures.values()):
+        made.add_column(heading, justify="right" if heading in figures.values() else "left")
+    columns = {column.key: column for column in states.columns}
+    for row in states.rows:
+        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
+        at = unit("temperature", system).brief(columns["temperature"].get(row))
+        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
+    return made
 
 
 def _cases(cases: Table, system: System) -> Grid:

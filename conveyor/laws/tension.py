@@ -23,6 +23,8 @@ PULLEY_FACTOR: Final[Mapping[Carcass, float]] = {"polyamide": 90.0, "EP": 108.0,
 LARGEST_FRICTION: Final = 2.0  # [-], beyond any pair of belt and pulley: catches slips of the pen
 LARGEST_WRAP: Final = 8.0 * math.pi  # [rad], four pulleys of a full turn: catches degrees given as rad
 STEEL_CORD_STIFFNESS_FACTOR: Final = 72.0  # [-], EA over nominal strength, approximate
+TEXTILE_STIFFNESS_FACTOR: Final[Mapping[str, float]] = {"EP": 5.0, "polyamide": 4.0}
+"""EA over nominal strength [-]: 2.0 and 2.5 % of elongation at a tenth of the strength; general knowledge."""
 
 
 def _require_drive(friction: float, wrap_angle: float) -> None:
@@ -257,3 +259,35 @@ def steel_cord_stiffness(nominal_strength: float) -> float:
     """
     require_positive(nominal_strength=nominal_strength)
     return STEEL_CORD_STIFFNESS_FACTOR * nominal_strength
+
+
+def usual_stiffness(nominal_strength: float, *, carcass: str) -> float | None:
+    """Tensile stiffness of a belt per width where its maker gives none, a multiple of its strength.
+
+    Parameters
+    ----------
+    nominal_strength : float
+        Strength class per width [N/m], positive.
+    carcass : str
+        Its kind: "steel cord", "EP", "polyamide"; of others nothing usual is known.
+
+    Returns
+    -------
+    float or None
+        EA per width [N/m].
+
+    Raises
+    ------
+    InputError
+        The strength is not positive.
+
+    Examples
+    --------
+    >>> usual_stiffness(1.0e6, carcass="EP"), usual_stiffness(1.0e6, carcass="cotton")
+    (5000000.0, None)
+    """
+    if carcass == "steel cord":
+        return steel_cord_stiffness(nominal_strength)
+    require_positive(nominal_strength=nominal_strength)
+    factor = TEXTILE_STIFFNESS_FACTOR.get(carcass)
+    return None if factor is None else factor * nominal_strength

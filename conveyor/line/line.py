@@ -15,7 +15,7 @@ from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
 from conveyor.laws.motion import reduced_mass, typical_reduced_mass
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
-from conveyor.laws.take_up import LOOP_STRANDS
+from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.line import usual
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
@@ -48,6 +48,7 @@ class BeltBody:
     splice_strength: float | None
     splice_making: Condition
     duty: Condition
+    permanent_stretch: float | None
 
     @property
     def steel_cord(self) -> bool:
@@ -140,13 +141,20 @@ class DriveUnit:
 class TakeUpUnit:
     """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
 
-    `tension` is what it is set to [N], None where the least needed is looked for.
+    `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-].
     """
 
     kind: str
     spot: Spot | None
     tension: float | None
     reeving: float
+    strands: int
+    reserve: float
+
+    @property
+    def keeps_length(self) -> bool:
+        """Whether it keeps the belt's length, and so the mean tension of the loop, instead of the tension there."""
+        return self.kind in {"fixed", "screw", "locked winch"}
 
 
 @dataclass(frozen=True)
@@ -374,6 +382,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         splice_strength=_known(carcass.splice_strength),
         splice_making=carcass.splice_making,
         duty=carcass.duty,
+        permanent_stretch=_known(carcass.permanent_stretch),
     )
 
 
@@ -553,13 +562,13 @@ def _shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
 def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
     given = conveyor.route.take_up
     if given is None:
-        return TakeUpUnit("slack side", None, None, 1.0)
+        return TakeUpUnit("slack side", None, None, 1.0, LOOP_STRANDS, TRAVEL_RESERVE.value)
     tension = _known(given.tension)
     if given.mass is not None:
         # the law of take_up.take_up_mass, solved for the tension
-        tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / LOOP_STRANDS
+        tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
-    return TakeUpUnit(given.kind, spot, tension, given.reeving)
+    return TakeUpUnit(given.kind, spot, tension, given.reeving, given.strands, si(given.reserve))
 
 
 def _cema(factors: Cema | None) -> CemaFactors | None:

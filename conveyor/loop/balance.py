@@ -100,12 +100,11 @@ class Balance:
     def tensions(self) -> Tensions:
         """At the drives and the extremes of the loop."""
         steady, unsteady = self.settled.steady, self.settled.unsteady
-        given = self.line.take_up.tension is not None
         return Tensions(
             tight=max(drive.tight for drive in steady.drives),
             slack=min(drive.slack for drive in steady.drives),
             tight_start=max(drive.tight for drive in unsteady.drives),
-            governed_by="take-up" if given else self.settled.governed_by.kind,
+            governed_by="take-up" if self.settled.given else self.settled.governed_by.kind,
             largest=max(state.largest for state in self.settled.states.values()),
             smallest=steady.smallest,
         )
@@ -139,8 +138,14 @@ class Balance:
         """Tensions round the loop in steady running, from the head back to it."""
         return tuple(_points(self.settled, self.settled.steady))
 
+    def held(self, setting: float) -> Balance:
+        """The same forces along the belt with the take-up at a setting [N]."""
+        return balance(self.frame, self.along, self.unit_main, setting)
 
-def balance(frame: Frame, along: tuple[Force, ...], unit_main: float) -> Balance:
+
+def balance(
+    frame: Frame, along: tuple[Force, ...], unit_main: float, setting: float | None = None
+) -> Balance:
     """Close the loop of tensions around the forces along the belt.
 
     Parameters
@@ -151,6 +156,8 @@ def balance(frame: Frame, along: tuple[Force, ...], unit_main: float) -> Balance
         Forces along the belt.
     unit_main : float
         Main resistance for f = 1 [N].
+    setting : float, optional
+        Of the take-up [N]; without it that of the spec, else the least that every state asks for.
 
     Raises
     ------
@@ -159,7 +166,7 @@ def balance(frame: Frame, along: tuple[Force, ...], unit_main: float) -> Balance
     """
     line = frame.line
     further = (by_length_coefficient(line, frame.landing, along),) if line.secondary == "C" else ()
-    return Balance(along, unit_main, settle(Loop(frame, along, further)))
+    return Balance(along, unit_main, settle(Loop(frame, along, further), setting))
 
 
 def _points(settled: Settled, state: MotionState) -> Iterator[TensionPoint]:

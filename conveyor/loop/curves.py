@@ -63,7 +63,7 @@ def converged(
     """
     old, new = curve_tensions(line, before), curve_tensions(line, now)
     change = max(abs(b - a) for (_, _, a), (_, _, b) in zip(old, new, strict=True)) / largest
-    ratio = change / (1.0 if last is None else last.change)
+    ratio = change / (1.0 if last is None or last.change == 0.0 else last.change)
     bound = change * ratio / (1.0 - ratio) if ratio < 1.0 else change
     found = Convergence(1 if last is None else last.steps + 1, change, ratio, bound)
     if found.steps >= MOST_STEPS and not found.settled(line.rtol):

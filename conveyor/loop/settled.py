@@ -56,6 +56,8 @@ class Settled:
         Tension the take-up holds, and the least it should [N].
     governed_by : Condition
         What asks for the least setting.
+    given : bool
+        Whether the setting was given, by the spec or by other loads of the conveyor, and not looked for.
     """
 
     loop: Loop
@@ -67,6 +69,7 @@ class Settled:
     setting: float
     needed: float
     governed_by: Condition
+    given: bool
 
     @cached_property
     def states(self) -> dict[str, MotionState]:
@@ -107,13 +110,15 @@ class Settled:
         return {name: needed for name, needed in self.conditions.items() if not holds(self.setting, needed)}
 
 
-def settle(loop: Loop) -> Settled:
+def settle(loop: Loop, setting: float | None = None) -> Settled:
     """Close the loop of tensions around the forces along the belt.
 
     Parameters
     ----------
     loop : Loop
         The forces along the belt.
+    setting : float, optional
+        Of the take-up [N]; without it that of the spec, else the least that every state asks for.
 
     Raises
     ------
@@ -122,6 +127,7 @@ def settle(loop: Loop) -> Settled:
         pulley.
     """
     line, frame_bends = loop.line, loop.frame.bends
+    given = line.take_up.tension if setting is None else setting
     history: list[Bends] = [(0.0,) * len(frame_bends)]
     drive = math.nan
     for _ in range(_LOOP_STEPS):
@@ -133,11 +139,10 @@ def settle(loop: Loop) -> Settled:
             (condition for motion in motions for condition in loop.conditions(motion)),
             key=lambda c: c.setting,
         )
-        given = line.take_up.tension
-        setting = governing.setting if given is None else given
+        held = governing.setting if given is None else given
         if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
             break
-        sides = loop.at_bends(motions[0], setting)
+        sides = loop.at_bends(motions[0], held)
         found = tuple(
             math.fsum(bend.newtons(*side, line.gravity))
             for bend, side in zip(frame_bends, sides, strict=True)
@@ -149,7 +154,7 @@ def settle(loop: Loop) -> Settled:
         raise NoSolutionError(
             "the tensions round the belt do not settle: check pulley diameters and drive friction"
         )
-    sides = loop.at_bends(motions[0], setting)
+    sides = loop.at_bends(motions[0], held)
     return Settled(
         loop=loop,
         bends=bends,
@@ -164,9 +169,10 @@ def settle(loop: Loop) -> Settled:
         force=drive,
         least_force=loop.resistance(loop.singles(bends, line.least_friction), line.least_friction),
         motions=motions,
-        setting=setting,
+        setting=held,
         needed=governing.setting,
         governed_by=governing,
+        given=given is not None,
     )
 
 

@@ -86,6 +86,10 @@ class MotionState:
         sides = [drive.tight for drive in self.drives]
         return max(float(self.starts.max()), float(self.ends.max()), self.leaving, self.arriving, *sides)
 
+    def mean(self, lengths: Array) -> float:
+        """Mean tension round the loop [N], of stretches of those lengths [m], shape (2n,)."""
+        return float((self.starts + self.ends) @ lengths) / (2.0 * float(lengths.sum()))
+
     @property
     def slack(self) -> bool:
         """Whether the belt is slack anywhere."""
@@ -259,7 +263,7 @@ class Loop:
         acceleration: float,
     ) -> float:
         """Offset of what the take-up holds [N]."""
-        if self.line.take_up.kind == "fixed":
+        if self.line.take_up.keeps_length:
             totals, lifts = self.totals.mean, self.lifts.mean
             steady = lifts + friction * (totals - lifts) + acceleration * self.masses.mean
             return steady + math.fsum(

@@ -79,7 +79,9 @@ class Carcass(Model):
     rating: Annotated[LineForce, Bounds(gt="0 N/mm", le="5000 N/mm")] | None = None
     """Rated working tension per width, as US belts are sold: a "600 PIW" belt; instead of the strength or beside it."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
-    """Tensile stiffness per width; of steel cord 72 times the strength without it."""
+    """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
+    permanent_stretch: Annotated[Fraction, Bounds(ge="0 %", le="10 %")] | None = None
+    """Lasting elongation over the belt's life; 0.1 % of steel cord and 0.75 % of others without it."""
     splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Endurance of the splice over the nominal strength, by test or from the belt's maker."""
     splice_making: Literal["favourable", "normal", "unfavourable"] = "normal"

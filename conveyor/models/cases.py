@@ -11,7 +11,7 @@ from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.units import Bounds, Fraction, Quantity, text
 
-Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load"]
+Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load", "sections"]
 
 STANDARD_LOADINGS: Final[tuple[Loading, ...]] = ("full", "empty", "inclines only", "declines only")
 """What a conveyor with its own ups and downs is checked for at least."""
@@ -23,7 +23,9 @@ class LoadCase(Model):
     name: Name
     """Each its own."""
     loading: Loading = "as given"
-    """Sections that bear bulk: as given (part load too), all, none, only those that rise, only those that fall."""
+    """Sections that bear bulk: as given (part load too), all, none, those that rise or fall only, or those named."""
+    sections: Annotated[tuple[Name, ...], Field(max_length=1000)] = ()
+    """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
     """Mass flow over material.flow, for part load (a surge is above 100 %)."""
     temperatures: Annotated[tuple[EarthTemperature, ...], Field(max_length=100)] = ()
@@ -41,6 +43,13 @@ class LoadCase(Model):
         elif self.loading != "part load" and self.share is not None:
             message = f'got {text(self.share)} with loading "{self.loading}"; remove it, or set loading to "part load"'
             problems.append(Problem(("share",), message))
+        if (self.loading == "sections") != bool(self.sections):
+            message = 'missing: loading "sections" needs their names'
+            if self.sections:
+                message = (
+                    f'got {len(self.sections)} names with loading "{self.loading}"; set loading to "sections"'
+                )
+            problems.append(Problem(("sections",), message))
         refuse("LoadCase", problems)
         return self
 

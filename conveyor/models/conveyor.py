@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import refuse
+from conveyor.models.base import Problem, refuse
 from conveyor.models.cases import LoadCase, named_once
 from conveyor.models.checks import conflicts, cross_sections
 from conveyor.models.parts import ConveyorParts
@@ -28,8 +29,14 @@ class Conveyor(ConveyorParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        refuse("Conveyor", [*conflicts(self), *named_once(self.cases)])
+        refuse("Conveyor", [*conflicts(self), *named_once(self.cases), *self._case_problems()])
         return self
+
+    def _case_problems(self) -> Iterator[Problem]:
+        """Every section that a case loads exists."""
+        for i, case in enumerate(self.cases):
+            for j, name in enumerate(case.sections):
+                yield from self.route.section_problem(("cases", i, "sections", j), name)
 
     @property
     def cross_sections(self) -> tuple[float, float] | None:

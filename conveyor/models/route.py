@@ -16,6 +16,7 @@ from conveyor.laws.resistance import (
     CLEANER_FRICTION,
     CLEANER_PRESSURE,
 )
+from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.idlers import Spacing
 from conveyor.models.ploughs import Plough
@@ -187,10 +188,10 @@ class Pulley(Model):
 
 
 class TakeUp(Model):
-    """What keeps the belt taut: a weight, a fixed carriage, or a winch held at its pull."""
+    """What keeps the belt taut: a weight, a carriage that is held, or a winch that keeps its pull."""
 
-    kind: Literal["gravity", "fixed", "winch"]
-    """Gravity and winch keep the tension at their place, a fixed one keeps the length of the belt."""
+    kind: Literal["gravity", "fixed", "screw", "winch", "locked winch"]
+    """Gravity and winch keep the tension at their place; fixed, screw and locked winch keep the length of the belt."""
     position: Literal["drive", "head", "tail", "carry", "return"] = "drive"
     """Slack side of the drive and of those beside it, right behind the head or tail, or behind a section."""
     section: Name | None = None
@@ -201,6 +202,10 @@ class TakeUp(Model):
     """Mass of the weight of a gravity take-up, instead of the tension."""
     reeving: Annotated[Number, Field(gt=0, le=20)] = 1.0
     """Pull on the carriage over pull of the weight or rope: 1 for a weight in the belt's loop."""
+    strands: Annotated[int, Field(ge=1, le=20, strict=True)] = LOOP_STRANDS
+    """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
+    reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
+    """Travel kept beyond what is computed, over it."""
 
     @model_validator(mode="after")
     def _one_setting(self) -> Self:

@@ -50,15 +50,18 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
     Raises
     ------
     InputError
-        The bulk does not fit the belt, or a loading point is faster than it.
+        The bulk does not fit the belt, a loading point is faster than it, or the route has not a section of the case.
     """
+    for name in case.sections:
+        for problem in conveyor.route.section_problem(("sections",), name):
+            raise InputError(f'load case "{case.name}": sections: {problem.message}')
     changes: dict[str, object] = {}
     if speed is not None and si(speed) != si(conveyor.belt.speed):
         changes["belt"] = conveyor.belt.replace(speed=speed)
     if case.loading in {"empty", "part load"}:
         share = 0.0 if case.share is None else si(case.share)
         changes["material"] = conveyor.material.replace(flow=scaled(conveyor.material.flow, share))
-    if case.loading in {"full", "inclines only", "declines only"}:
+    if case.loading in {"full", "inclines only", "declines only", "sections"}:
         sections = [_loaded(section, case) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
             changes["route"] = _fed(conveyor, sections, conveyor.belt.speed if speed is None else speed)
@@ -70,6 +73,7 @@ def _loaded(section: Section, case: LoadCase) -> Section:
         "full": True,
         "inclines only": section.rise > 0.0,
         "declines only": section.rise < 0.0,
+        "sections": section.name in case.sections,
     }[case.loading]
     return section if section.loaded is loaded else section.replace(loaded=loaded)
 

@@ -32,6 +32,7 @@ SHEETS: Final = {
     "Tensions": sheets.tensions,
     "States": sheets.states,
     "Loop": sheets.stacked,
+    "Load states": sheets.stacked,
     "Load cases": sheets.stacked,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
@@ -53,7 +54,7 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Defaults", "Load cases", "Case checks", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Defaults", "Load states", "Load cases", "Case checks", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
     "Summary",

@@ -30,6 +30,7 @@ PARTS: Final = (
     ("rubber", "Rubber"),
     ("start-stop", "Start and stop"),
     ("belt", "Belt, pulleys and curves"),
+    ("load-states", "Load states"),
     ("load-cases", "Load cases"),
     ("duty", "Duty of a year"),
     ("uncertainty", "Uncertainty"),

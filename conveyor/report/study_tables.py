@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
 
@@ -13,15 +13,19 @@ from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
-from conveyor.units.presentation import MONEY
+from conveyor.units.presentation import MONEY, unit
+from conveyor.units.sentences import Said, quoted, said
 
 if TYPE_CHECKING:
+    from conveyor.loop.take_up import TakeUpDuty
+    from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, CaseResult
     from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.states import CalculatedStates, LoadState
     from conveyor.studies.uncertainty import CalculatedRanges
 
-_CASES, _DUTY, _UNCERTAINTY = "load-cases", "duty", "uncertainty"
+_STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
     "largest_roll_load", "governed_by", "at_roll",
@@ -38,6 +42,8 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         return [], []
     tables: list[Table] = []
     drawn: list[Drawing] = []
+    if studies.states is not None:
+        tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.cases is not None:
         tables += _of_cases(studies.cases)
         drawn += _case_drawings(studies.cases, system)
@@ -50,6 +56,48 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
     return tables, drawn
+
+
+def load_states(study: CalculatedStates) -> Table:
+    """One row a load state: what is loaded, power, tensions, what it asks of the take-up."""
+    columns = (
+        Column("state", "text", attrgetter("label"), key="state"),
+        Column("sections loaded", "text", attrgetter("loaded_in_words")),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("effective tension", "force", attrgetter("balance.forces.total")),
+        Column("belt power", "power", attrgetter("balance.power.belt"), page=None),
+        Column("motor power", "power", attrgetter("balance.power.motor")),
+        Column("tight side tension", "force", attrgetter("balance.tensions.tight"), page=None),
+        Column("slack side tension", "force", attrgetter("balance.tensions.slack"), page=None),
+        Column("largest tension", "force", attrgetter("balance.tensions.largest")),
+        Column("smallest tension", "force", attrgetter("balance.tensions.smallest")),
+        Column("take-up tension asked for", "force", attrgetter("balance.settled.needed")),
+        Column("governed by", "text", _asking, page=None),
+    )
+    note = (
+        "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
+        "loadings follow from the signs of the forces by section, at every temperature of the cases."
+    )
+    heading, page = "Load states", (OnPage(_STATES, "Load states"),)
+    return Table("load_states", "Load states", heading, columns, study.states, page, note)
+
+
+def _asking(state: LoadState) -> str:
+    settled = state.balance.settled
+    return settled.condition_name(settled.governed_by)
+
+
+def refused_states(study: CalculatedStates) -> Table:
+    """Load states without an answer, and why."""
+    columns = (
+        Column("state", "text", attrgetter("name")),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("reason", "text", attrgetter("reason")),
+    )
+    heading = "Load states without an answer"
+    return Table(
+        "refused_states", "Load states", heading, columns, study.refused, (OnPage(_STATES, heading),)
+    )
 
 
 def _of_cases(study: CalculatedCases) -> Iterator[Table]:
@@ -178,6 +226,26 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         )
 
 
+def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
+    """What all loads ask of the take-up, and which of them governs: those of the cases, else the one calculated."""
+    if studies is None or studies.cases is None:
+        return a.take_up, said(quoted(a.take_up.governed_by))
+    return studies.cases.take_up, studies.cases.take_up_governed_by
+
+
+def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
+    """The take-up in plain numbers."""
+    return {
+        "kind": duty.unit.kind,
+        "setting_N": duty.setting,
+        "least_setting_N": duty.needed,
+        "mass_kg": duty.mass,
+        "strands": duty.unit.strands,
+        "travel_m": None if duty.travel is None else duty.travel.whole,
+        "governed_by": governed_by.text(),
+    }
+
+
 def duty(study: CalculatedYear) -> Table:
     """One row a bar of the year's histogram."""
     columns = (
@@ -249,8 +317,11 @@ def band(study: CalculatedRanges) -> Table:
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
     found: dict[str, Any] = {}
+    if studies.states is not None:
+        found["states"] = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
     study = studies.cases
     if study is not None:
+        found["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
         found["load_cases"] = {
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),
@@ -274,6 +345,28 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "notes": list(studies.uncertainty.notes),
         }
     return found
+
+
+def _plain_state(state: LoadState) -> dict[str, Any]:
+    """A load state in plain numbers."""
+    balance = state.balance
+    return {
+        "loaded_sections": list(state.loaded),
+        "temperature_degC": unit("temperature", "SI").shown(state.temperature),
+        "power_kW": {"belt": balance.power.belt / 1e3, "motor": balance.power.motor / 1e3},
+        "effective_tension_N": balance.forces.total,
+        "tensions_N": asdict(balance.tensions),
+        "take_up_asked_N": balance.settled.needed,
+        "worst_for": list(state.worst_for),
+    }
+
+
+def notebook_of_states(study: CalculatedStates) -> Html:
+    """The load states, and those without an answer."""
+    refusals = [f"{row.name}: {row.reason}" for row in study.refused]
+    caption = f"{study.conveyor.name}: load states"
+    shown = of_table(load_states(study), caption, study.conveyor.report.units)
+    return joined([shown, folded("without an answer", refusals)])
 
 
 def notebook_of_cases(study: CalculatedCases) -> Html:

@@ -21,7 +21,6 @@ import numpy as np
 
 from conveyor.checks import Check, checks, deciding, leading
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.laws.take_up import mean_tension, take_up_mass
 from conveyor.line.contacts import Contacts
 from conveyor.line.covers import Level, compounds_by_strand
 from conveyor.line.line import Line
@@ -29,6 +28,7 @@ from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import CemaEstimate, Classical
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, warnings
@@ -47,7 +47,7 @@ from conveyor.report.columns import (
 )
 from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.study_tables import of_studies
+from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
@@ -90,7 +90,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         section_ends(analysis),
         tension_states(analysis),
         drives(analysis),
-        take_up(analysis),
+        take_up(analysis, studies),
         conditions(analysis),
         start_stop(analysis),
         brakes(analysis),
@@ -114,9 +114,10 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
 
 
 def _every_check(analysis: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[Check, ...]:
-    """Of the conveyor as given, then of its load cases."""
+    """Of the conveyor as given, then of its load cases and load states."""
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
-    return (*checks(analysis), *of_cases)
+    of_states = () if studies is None or studies.states is None else studies.states.checks
+    return (*checks(analysis), *of_cases, *of_states)
 
 
 def document(
@@ -547,25 +548,46 @@ def drives(a: CalculatedConveyor) -> Table:
     )
 
 
-def take_up(a: CalculatedConveyor) -> Table:
-    """Setting of the take-up, what asks for it, its mass or pull."""
-    settled = a.balance.settled
-    unit_of, gravity = a.line.take_up, a.line.gravity
-    means = 0.5 * (settled.steady.starts + settled.steady.ends)
-    mean = mean_tension(means.tolist(), lengths=a.line.loop.length.tolist())
-    mass = None
-    if unit_of.kind != "fixed":
-        mass = take_up_mass(max(settled.setting, 0.0), reeving=unit_of.reeving, gravity=gravity)
-    rows = (
-        Figure("setting", "force", settled.setting, "cover"),
-        Figure("least setting", "force", settled.needed),
+def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """The one take-up of all loads: setting, what asks for it, mass or pull, travel."""
+    duty, governed_by = take_up_of(a, studies)
+    mass, travel = duty.mass, duty.travel
+    mean = a.balance.settled.steady.mean(a.line.loop.length)
+    rows = [
+        Figure("setting", "force", duty.setting, "cover"),
+        Figure("least setting", "force", duty.needed),
         Figure("mean tension of the loop", "force", mean, key="mean_tension"),
+        Figure("strands that pull at it", "count", float(duty.unit.strands), key="strands"),
         Figure("mass of a gravity take-up", "mass", mass, key="mass"),
-        Figure("pull on the rope of a winch", "force", None if mass is None else mass * gravity, key="pull"),
-    )  # fmt: skip
-    note = f"kind: {unit_of.kind}, governed by: {settled.condition_name(settled.governed_by)}"
+        Figure("pull on the rope of a winch", "force", None if mass is None else mass * a.line.gravity, key="pull"),
+        Figure("change of mean tension by temperature", "force", duty.mean_change),
+    ]  # fmt: skip
+    if travel is not None:
+        rows += [
+            Figure("travel, tensioning the slack belt", "length", travel.tensioning),
+            Figure("travel, load", "length", travel.load),
+            Figure("travel, starting and stopping", "length", travel.motion),
+            Figure("travel, permanent stretch", "length", travel.permanent),
+            Figure("travel, temperature of the belt", "length", travel.temperature),
+            Figure("travel, reserve", "length", travel.reserve),
+            Figure("travel", "length", travel.whole),
+        ]
+    note = f"kind: {duty.unit.kind}, governed by: {governed_by.text(a.conveyor.report.units)}{_travel_note(a, duty)}"
     page = (OnPage("tensions", "Take-up"),)
-    return figures("take_up", "Loop", "Take-up", rows, page=page, note=note, prefix="take_up_")
+    return figures("take_up", "Loop", "Take-up", tuple(rows), page=page, note=note, prefix="take_up_")
+
+
+def _travel_note(a: CalculatedConveyor, duty: TakeUpDuty) -> str:
+    """What stands in for figures that are not given."""
+    carcass = a.conveyor.belt.carcass
+    if duty.travel is None:
+        return "; travel: give belt.carcass.stiffness, nothing usual is known of this carcass"
+    usual = []
+    if carcass.stiffness is None:
+        usual.append("stiffness a multiple of the strength")
+    if carcass.permanent_stretch is None:
+        usual.append("permanent stretch of its kind")
+    return f"; travel: {', '.join(usual)} (general knowledge)" if usual else ""
 
 
 def conditions(a: CalculatedConveyor) -> Table:
@@ -1042,12 +1064,7 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
             }
             for side in settled.steady.drives
         ],
-        "take_up": {
-            "kind": a.line.take_up.kind,
-            "setting_N": settled.setting,
-            "least_setting_N": settled.needed,
-            "governed_by": settled.condition_name(settled.governed_by),
-        },
+        "take_up": plain_take_up(*take_up_of(a, studies)),
         "energy": _energy(a, None if studies is None else studies.duty),
         "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
         "cema": None

@@ -8,8 +8,10 @@ from functools import partial
 from typing import TypeAlias
 
 from conveyor.models import Conveyor
+from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.cases import CalculatedCases, analyse_cases
 from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.studies.states import CalculatedStates, load_states
 from conveyor.studies.uncertainty import CalculatedRanges, study
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -17,10 +19,12 @@ Progress: TypeAlias = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CalculatedStudies:
-    """CalculatedStudies of one conveyor; None where the spec has nothing to study.
+    """Studies of one conveyor; None where the spec has nothing to study.
 
     Attributes
     ----------
+    states : CalculatedStates
+        Load states, for every spec.
     cases : CalculatedCases or None
         Of `cases`.
     duty : CalculatedYear or None
@@ -29,32 +33,41 @@ class CalculatedStudies:
         Of `uncertainty`.
     """
 
+    states: CalculatedStates | None = None
     cases: CalculatedCases | None = None
     duty: CalculatedYear | None = None
     uncertainty: CalculatedRanges | None = None
 
 
-def studies(conveyor: Conveyor, *, progress: Progress | None = None) -> CalculatedStudies:
-    """Calculate what the spec asks for.
+def studies(
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+) -> CalculatedStudies:
+    """Calculate the load states and what the spec asks for.
 
     Parameters
     ----------
     conveyor : Conveyor
         With `cases`, `operation.duty` or `uncertainty`, or none of them.
+    given : CalculatedConveyor, optional
+        The spec's own load, where it is calculated already.
     progress : callable, optional
         Called with the study's name, what is done of it and its whole.
 
     Raises
     ------
     NoSolutionError, RangeError, InputError
-        A variant of the duty or of the ranges has no answer; cases without one are listed in the study.
+        The spec's own load, a variant of the duty or of the ranges has no answer; cases without one are listed in the
+        study.
     """
 
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
+    cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
+    own = given if cases is None else cases.as_given
     return CalculatedStudies(
-        cases=analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None,
+        states=load_states(conveyor, own, cases, progress=told("load states")),
+        cases=cases,
         duty=analyse_duty(conveyor, progress=told("duty of a year")) if conveyor.duty else None,
         uncertainty=None
         if conveyor.uncertainty is None

@@ -1,7 +1,9 @@
 """Load cases at several temperatures and speeds, and which of them governs each figure of the design.
 
-The resistances of every case are computed as `analyse` does. What they are used for decides on which side they are
-safe: motors and starts are sized with the friction at the upper end of a band, generators and brakes at its lower end.
+The take-up is one: unless the spec gives its setting, it is the least that serves every state of the spec's own load
+and of every case, and all are calculated with it. The resistances of every case are computed as `analyse` does. What
+they are used for decides on which side they are safe: motors and starts are sized with the friction at the upper end of
+a band, generators and brakes at its lower end.
 """
 
 from __future__ import annotations
@@ -14,11 +16,12 @@ from typing import Final
 
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks, covered
-from conveyor.errors import InputError
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import MOTOR_SERIES, next_motor
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
-from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many, take_up_of
 from conveyor.units import display
 from conveyor.units.sentences import Said, quoted, said
 
@@ -151,6 +154,8 @@ class CalculatedCases:
         Friction over the computed one, low and high end [-]; lift and acceleration of bulk have none.
     results, refused : tuple
         What was answered, in the order case, speed, temperature, and what was not.
+    as_given : CalculatedConveyor or None
+        The load of the spec itself with the take-up of the cases; None where it has no answer.
     """
 
     conveyor: Conveyor
@@ -158,10 +163,37 @@ class CalculatedCases:
     friction_band: tuple[float, float]
     results: tuple[CaseResult, ...]
     refused: tuple[CaseRefusal, ...]
+    as_given: CalculatedConveyor | None
 
     def __repr__(self) -> str:
         name, answered = self.conveyor.name, len(self.results)
         return f'CaseStudy("{name}": {len(self.cases)} cases, {answered} answered, {len(self.refused)} not)'
+
+    @cached_property
+    def take_up(self) -> TakeUpDuty:
+        """What the spec's own load and all cases ask of the one take-up.
+
+        Raises
+        ------
+        NoSolutionError
+            Nothing has an answer.
+        """
+        return take_up_of([found for _, found in self._loads])
+
+    @property
+    def take_up_governed_by(self) -> Said:
+        """The load and the condition that ask for the take-up's setting."""
+        label = self._loads[self.take_up.governing][0]
+        return Said(f"{label.words}: {quoted(self.take_up.governed_by)}", label.figures)
+
+    @cached_property
+    def _loads(self) -> list[tuple[Said, CalculatedConveyor]]:
+        """The spec's own load and the cases."""
+        own = [] if self.as_given is None else [(said("as given"), self.as_given)]
+        loads = own + [(result.label, result.found) for result in self.results]
+        if not loads:
+            raise NoSolutionError("no load has an answer: see why each case has none")
+        return loads
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
@@ -246,14 +278,16 @@ def analyse_cases(
         for case, s in settings
         if not isinstance(s.conveyor, Conveyor)
     ]
-    answers = calculate_many([Variant(variant) for _, _, variant in made], rtol, progress)
+    variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
+    as_given, *answers = calculate_many(variants, rtol, progress, one_take_up=True)
     results = []
     for (case, setting, _), found in zip(made, answers, strict=True):
         if isinstance(found, CalculatedConveyor):
             results.append(CaseResult(case, replace(found, friction_band=band)))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
-    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused))
+    own = as_given if isinstance(as_given, CalculatedConveyor) else None
+    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
 
 
 _FIGURES: Final[dict[str, tuple[str, bool, Callable[[CaseResult], float]]]] = {

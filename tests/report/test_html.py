@@ -41,13 +41,18 @@ def line():
 
 
 @pytest.fixture(scope="module")
-def result(line):
-    return conveyor.analyse(line)
+def studied(line):
+    return studies(line)
 
 
 @pytest.fixture(scope="module")
-def text(result, line):
-    return html.build(result.contents(studies(line)))
+def result(line, studied):
+    return conveyor.analyse(line).beside(studied)
+
+
+@pytest.fixture(scope="module")
+def text(result, studied):
+    return html.build(result.contents(studied))
 
 
 @pytest.fixture(scope="module")

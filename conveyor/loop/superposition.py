@@ -1,0 +1,539 @@
+"""The worst loading by superposition: forces add by section, so signs say which sections a figure wants loaded.
+
+Between the empty and the full belt every force along the belt, every mass and every feeding point belongs to a section
+that is loaded or not. In a state of motion a tension is then
+
+    T = c + Σ xᵢ qᵢ + a (μ + Σ xᵢ μᵢ) + Σ ω_d F_d,    a = (ξ - 1) R/M  or  -(R + B)/(M + M_r),
+
+with xᵢ 0 or 1, and R, M and the drives' F of the same kind. With a = 0 the signs of the coefficients are the answer;
+with it they are the beginning of an ascent by whole sections.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.forces import without_rubber
+from conveyor.laws.tension import grip_tension
+from conveyor.line.places import Stand
+from conveyor.loop.balance import Balance, balance
+from conveyor.loop.frame import Frame
+from conveyor.loop.settled import BRAKES, LEAST, LEAST_BRAKING, START
+from conveyor.loop.tensions import STEADY
+
+Array = NDArray[np.float64]
+Loading = NDArray[np.bool_]
+"""Whether each section bears bulk, shape (n,)."""
+
+DRIVE_FORCE: Final = "drive force"
+LEAST_FORCE: Final = "least drive force"
+TENSION: Final = "largest tension"
+TAKE_UP: Final = "tension of the take-up"
+_PAIRS_TO = 100  # sections of which two at once are tried: their number grows as the square
+_TRIED = 3  # places of the loop that the first estimate puts first
+
+
+@dataclass(frozen=True, eq=False)
+class _Events:
+    """All that the belt meets round the loop from the head, in order; shape (e,).
+
+    Forces, their certain parts [N] and masses [kg] with the section empty, and what its bulk adds; `section` is -1
+    where it is none. `stretches` is where every stretch stands, shape (2n,), `drives` where every drive
+    does, `held` the place behind the take-up.
+    """
+
+    force: Array
+    certain: Array
+    mass: Array
+    more_force: Array
+    more_certain: Array
+    more_mass: Array
+    section: NDArray[np.int_]
+    stretches: NDArray[np.int_]
+    drives: NDArray[np.int_]
+    held: int | None
+
+    def by_section(self, values: Array, count: int) -> Array:
+        """Sum what belongs to each section, shape (n,)."""
+        held = self.section >= 0
+        return np.bincount(self.section[held], weights=values[held], minlength=count).astype(float)
+
+
+@dataclass(frozen=True)
+class _State:
+    """A state of motion: friction over the computed one, drive force over the steady one; None with brakes alone."""
+
+    name: str
+    friction: float
+    over: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class _Sought:
+    """A figure in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|.
+
+    `driving` says for which sign of the steady drive force it holds; None for both.
+    """
+
+    state: _State
+    base: float
+    more: Array
+    mass: float
+    more_mass: Array
+    drives: Array
+    driving: bool | None
+    grip: tuple[float, int] | None = None
+
+
+class Superposition:
+    """The loads of one conveyor between empty and full.
+
+    Parameters
+    ----------
+    full, empty : Balance
+        Under bulk on every section and on none, the take-up at one setting.
+    """
+
+    def __init__(self, full: Balance, empty: Balance) -> None:
+        self.line, self.full, self.empty = full.line, full, empty
+        self.count = full.line.count
+        self.setting = full.settled.setting
+        self.events = _events(full, empty)
+        self.drive_at, self.stretch_at = self.events.drives, self.events.stretches
+        self.rotating = np.array([drive.reduced_mass for drive in self.line.drives])
+        self.brakes = np.array(self.line.brakes)
+        self.shares = np.array([drive.share for drive in self.line.drives])
+        least = [balance.line.loop.least for balance in (empty, full)]
+        self._resistances: dict[float, tuple[float, Array]] = {}
+        self.least, self.more_least = least[0], least[1] - least[0]
+
+    def worst(self) -> dict[str, Loading]:
+        """Loading that is worst for each figure, by its name; none is beaten as far as single sections go.
+
+        The largest drive force, the least one where it is negative, the tension anywhere, the tension of the take-up,
+        and what the grip of each of several drives asks of it.
+        """
+        steady = self.resistance(1.0)[1]
+        least = self.resistance(self.line.least_friction)[1]
+        candidates = [steady > 0.0, steady < 0.0, least < 0.0, *self.standard]
+        found = {DRIVE_FORCE: candidates[0]}
+        for state in self._states:
+            for sought in self._candidates(state):
+                begun = candidates[:1] if sought.driving is None else candidates[:2]
+                candidates += [self._ascent(sought, loading) for loading in (sought.more > 0.0, *begun)]
+        tried = {loading.tobytes(): loading for loading in candidates}
+        figures = {key: self.figures(loading) for key, loading in tried.items()}
+        for name in figures[candidates[0].tobytes()]:
+            best = max(figures, key=lambda key: figures[key][name])
+            if name != LEAST_FORCE or figures[best][name] > 0.0:
+                found[name] = tried[best]
+        return found
+
+    def loaded(self, loading: Loading) -> Balance:
+        """The loop under one loading: forces of the full belt where it bears bulk, of the empty one elsewhere."""
+        line, count = self.line, self.count
+        on = np.append(loading, np.ones(count, bool))
+        pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
+        mixed = replace(
+            line,
+            stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs),
+            loading=tuple(point for point in line.loading if loading[point.spot.boundary - count]),
+        )
+        along = tuple(
+            replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
+            for laden, bare in zip(self.full.along, self.empty.along, strict=True)
+        )
+        unit_main = float(without_rubber(mixed).unit_main.sum())
+        return balance(Frame(mixed), along, unit_main, self.setting)
+
+    def figures(self, loading: Loading) -> dict[str, float]:
+        """What `worst` looks for under one loading [N]; the least drive force with its sign turned."""
+        asked: list[float] = []
+        grips = [-math.inf] * len(self.line.drives)
+        largest = -math.inf
+        driving = self._total(1.0, loading) >= 0.0
+        for state in self._occurring(loading):
+            acceleration, forces = self._moved(state, loading)
+            offsets = self._offsets(state, loading, acceleration, forces)
+            offsets = offsets - self._anchor(driving) @ offsets
+            largest = max(largest, float(offsets.max()))
+            for d, drive in enumerate(self.line.drives):
+                needed = grip_tension(float(forces[d]), friction=drive.friction, wrap_angle=drive.wrap_angle)
+                at = self.drive_at[d]
+                grips[d] = max(grips[d], needed - float(min(offsets[at], offsets[at + 1])))
+            if _may_not_sag(state):
+                least = self.least.copy()
+                least[self.count :] += self.more_least[self.count :] * loading
+                ends = np.minimum(offsets[self.stretch_at], offsets[self.stretch_at + 1])
+                asked.append(float((least - ends).max()))
+        named = {
+            DRIVE_FORCE: self._total(1.0, loading),
+            LEAST_FORCE: -self._total(self.line.least_friction, loading),
+            TENSION: self.setting + largest,
+            TAKE_UP: max(*asked, *grips),
+        }
+        if len(grips) > 1:
+            named |= {
+                f"grip, {drive.name}": grip for drive, grip in zip(self.line.drives, grips, strict=True)
+            }
+        return named
+
+    def resistance(self, friction: float) -> tuple[float, Array]:
+        """Resistance of the empty belt [N], and what the bulk of each section adds, shape (n,)."""
+        known = self._resistances.get(friction)
+        if known is None:
+            known = self._resistances[friction] = self._resistance(friction)
+        return known
+
+    def _resistance(self, friction: float) -> tuple[float, Array]:
+        events = self.events
+        base = events.certain + friction * (events.force - events.certain)
+        more = events.more_certain + friction * (events.more_force - events.more_certain)
+        return float(base.sum()), events.by_section(more, self.count)
+
+    @cached_property
+    def standard(self) -> list[Loading]:
+        """All, none, those that rise, those that fall."""
+        rises = np.array([section.rise for section in self.line.sections])
+        return [np.ones(self.count, bool), np.zeros(self.count, bool), rises > 0.0, rises < 0.0]
+
+    @cached_property
+    def _masses(self) -> tuple[float, Array]:
+        events = self.events
+        return float(events.mass.sum()), events.by_section(events.more_mass, self.count)
+
+    @cached_property
+    def _states(self) -> tuple[_State, ...]:
+        """Every state of motion that may decide something; which occur depends on the loading."""
+        factor, certain = self.line.start_factor, self.line.least_friction
+        states = [_State(STEADY, 1.0, 1.0), _State(START, 1.0, factor)]
+        if certain < 1.0:
+            states += [_State(LEAST, certain, 1.0), _State(LEAST_BRAKING, certain, factor)]
+        return (*states, _State(BRAKES, certain, None)) if self.brakes.any() else tuple(states)
+
+    def _occurring(self, loading: Loading) -> Iterator[_State]:
+        """The states that decide the take-up's setting under a loading, as `settle` has them."""
+        least = self._total(self.line.least_friction, loading)
+        for state in self._states:
+            if state.over is None:
+                if least + float(self.brakes.sum()) > 0.0:
+                    yield state
+            elif state.name in {STEADY, START} or least < 0.0:
+                yield state
+
+    def _total(self, friction: float, loading: Loading) -> float:
+        base, more = self.resistance(friction)
+        return base + float(more @ loading)
+
+    def _moved(self, state: _State, loading: Loading) -> tuple[float, Array]:
+        """Acceleration [m/s²] and force of every drive [N] in a state."""
+        mass = self._masses[0] + float(self._masses[1] @ loading)
+        acceleration, forces = self._motion(state, self._total(state.friction, loading), mass)
+        return float(acceleration), np.asarray(forces)
+
+    def _motion(self, state: _State, resistance: Array | float, mass: Array | float) -> tuple[Array, Array]:
+        """Acceleration and drives' forces, shape (d,) or (d, m), at one or many resistances and masses."""
+        resistance, mass = np.asarray(resistance), np.asarray(mass)
+        if state.over is None:
+            slowing = (resistance + self.brakes.sum()) / (mass + self.rotating.sum())
+            return -slowing, np.multiply.outer(self.rotating, slowing) - _column(self.brakes, slowing)
+        return (state.over - 1.0) * resistance / mass, np.multiply.outer(self.shares * state.over, resistance)
+
+    def _offsets(self, state: _State, loading: Loading, acceleration: float, forces: Array) -> Array:
+        """Tension over that of the head's return strand before and behind every event [N], shape (e + 1,)."""
+        events = self.events
+        on = np.append(loading, False)[events.section]
+        force = events.force + on * events.more_force
+        certain = events.certain + on * events.more_certain
+        steps = certain + state.friction * (force - certain)
+        steps += acceleration * (events.mass + on * events.more_mass)
+        steps[self.drive_at] -= forces
+        return np.concatenate([[0.0], np.cumsum(steps)])
+
+    def _anchor(self, driving: bool) -> Array:
+        """Weights of the offsets whose sum the take-up holds, shape (e + 1,)."""
+        weights = np.zeros(self.events.force.size + 1)
+        line, frame = self.line, self.full.frame
+        if line.take_up.keeps_length:
+            shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
+            weights[self.stretch_at] += shares
+            weights[self.stretch_at + 1] += shares
+        elif self.events.held is not None:
+            weights[self.events.held] = 1.0
+        else:
+            weights[self.drive_at[frame.station[-1]] + 1 if driving else self.drive_at[frame.station[0]]] = (
+                1.0
+            )
+        return weights
+
+    def _candidates(self, state: _State) -> Iterator[_Sought]:
+        """Figures of a state that may be the worst somewhere: grips, and the places that come first by estimate."""
+        stands = self.line.take_up.keeps_length or self.events.held is not None
+        for driving in (None,) if stands else (True, False):
+            anchor = self._anchor(bool(driving))
+            for d, drive in enumerate(self.line.drives):
+                grip = (grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle), d)
+                for at in (self.drive_at[d], self.drive_at[d] + 1):
+                    yield self._sought(state, anchor, at, -1.0, driving, grip=grip)
+            tight, low = self._estimates(state, anchor)
+            for at in _first(tight):
+                yield self._sought(state, anchor, at, 1.0, driving)
+            if _may_not_sag(state):
+                for k in _first(np.maximum(low[self.stretch_at], low[self.stretch_at + 1])):
+                    for at in (self.stretch_at[k], self.stretch_at[k] + 1):
+                        yield self._sought(state, anchor, int(at), -1.0, driving, stretch=k)
+
+    def _estimates(self, state: _State, anchor: Array) -> tuple[Array, Array]:
+        """Highest tension, and highest lack of it, at every place by sign at the full belt's acceleration [N]."""
+        loading, events = self.standard[0], self.events
+        acceleration, forces = self._moved(state, loading)
+        total, more = self.resistance(state.friction)
+        step = events.more_certain + state.friction * (events.more_force - events.more_certain)
+        added = events.by_section(step + acceleration * events.more_mass, self.count)
+        taken = np.zeros_like(anchor)  # share of the drives that stand before a place
+        if state.over is not None:
+            _, forces = self._motion(state, total, self._masses[0])
+            for share, at in zip(self.shares * state.over, self.drive_at, strict=True):
+                taken[at + 1 :] += share
+        held = _behind(anchor)[self.stretch_at[self.count :]]
+        raised, whole = np.zeros_like(anchor), np.zeros_like(anchor)
+        passed = np.searchsorted(self.stretch_at[self.count :], np.arange(anchor.size))
+        for share in np.unique(taken):
+            # the bulk of a section acts before or behind a place: sums up to it, and from it on
+            relieved = (share - anchor @ taken) * more
+            before, behind = (1.0 - held) * added - relieved, -held * added - relieved
+            for sums, (ahead, rest) in (
+                (raised, (np.maximum(before, 0.0), np.maximum(behind, 0.0))),
+                (whole, (before, behind)),
+            ):
+                run = np.concatenate([[0.0], np.cumsum(ahead)]) + rest.sum()
+                run -= np.concatenate([[0.0], np.cumsum(rest)])
+                sums[taken == share] = run[passed[taken == share]]
+        base = self._offsets(state, self.standard[1], acceleration, forces)
+        base = base - anchor @ base
+        least = np.zeros_like(base)
+        least[self.stretch_at] = np.maximum(self.least, self.least + self.more_least)
+        least[self.stretch_at + 1] = np.maximum(least[self.stretch_at + 1], least[self.stretch_at])
+        return base + raised, least - base + raised - whole
+
+    def _sought(
+        self,
+        state: _State,
+        anchor: Array,
+        at: int,
+        sign: float,
+        driving: bool | None,
+        *,
+        grip: tuple[float, int] | None = None,
+        stretch: int | None = None,
+    ) -> _Sought:
+        """Tension at a place over what the take-up holds, or with sign -1 what it lacks there."""
+        events = self.events
+        # the offset at a place is the sum of the events before it; so is every offset the take-up holds
+        weights = sign * ((np.arange(events.force.size) < at) - _behind(anchor))
+        base = events.certain + state.friction * (events.force - events.certain)
+        more = events.more_certain + state.friction * (events.more_force - events.more_certain)
+        constant = float(weights @ base)
+        by_section = events.by_section(weights * more, self.count)
+        if stretch is not None:
+            constant += float(self.least[stretch])
+            if stretch >= self.count:
+                by_section[stretch - self.count] += self.more_least[stretch]
+        return _Sought(
+            state,
+            constant,
+            by_section,
+            float(weights @ events.mass),
+            events.by_section(weights * events.more_mass, self.count),
+            -weights[self.drive_at],
+            driving,
+            grip,
+        )
+
+    def _ascent(self, sought: _Sought, loading: Loading) -> Loading:
+        """Change sections, all that gain together while that gains, then the one that gains most, until none does.
+
+        Two at once where the sign of the drive force binds them.
+        """
+        loading = self._signed(sought, loading)
+        here, together = self._values(sought, loading, self._unchanged)[0], True
+        changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
+        while True:
+            found = self._values(sought, loading, changes)
+            if together:
+                gains = found[: self.count] > here
+                tried = loading ^ gains
+                value = self._values(sought, tried, self._unchanged)[0]
+                together = bool(value > here)
+                if together:
+                    loading, here = tried, value
+                continue
+            best = int(np.argmax(found))
+            if not found[best] > here:
+                return loading
+            loading, here = loading ^ changes[best], found[best]
+
+    def _signed(self, sought: _Sought, loading: Loading) -> Loading:
+        """A loading whose steady drive force has the sign the figure holds for, at the least loss a newton."""
+        base, more = self.resistance(1.0)
+        force = base + float(more @ loading)
+        if sought.driving is None or (force >= 0.0) is sought.driving:
+            return loading
+        free = replace(sought, driving=None)
+        loss = self._values(free, loading, self._unchanged)[0] - self._values(free, loading, self._single)
+        change = np.where(loading, -more, more) * (1.0 if sought.driving else -1.0)
+        order = np.flatnonzero(change > 0.0)
+        order = order[np.argsort(loss[order] / change[order])]
+        enough = np.searchsorted(np.cumsum(change[order]), abs(force)) + 1
+        turned = loading.copy()
+        turned[order[:enough]] ^= True
+        return turned
+
+    @cached_property
+    def _unchanged(self) -> Loading:
+        return np.zeros((1, self.count), bool)
+
+    @cached_property
+    def _single(self) -> Loading:
+        """Every section alone, shape (n, n)."""
+        return np.eye(self.count, dtype=bool)
+
+    @cached_property
+    def _pairs(self) -> Loading:
+        """Every section alone, then every two, shape (n (n + 1)/2, n)."""
+        one = self._single
+        first, second = np.triu_indices(self.count, 1)
+        return np.concatenate([one, one[first] | one[second]])
+
+    def _values(self, sought: _Sought, loading: Loading, changes: Loading) -> Array:
+        """The figure with each of several changes of a loading, shape (m,)."""
+        turn = changes * np.where(loading, -1.0, 1.0) if changes is not self._single else None
+
+        def changed(linear: tuple[float, Array]) -> Array:
+            base, more = linear
+            here = base + float(more @ loading)
+            if turn is None:  # a product with the identity
+                return here + np.where(loading, -more, more)
+            return np.asarray(here + turn @ more)
+
+        resistance = changed(self.resistance(sought.state.friction))
+        acceleration, forces = self._motion(sought.state, resistance, changed(self._masses))
+        value = changed((sought.base, sought.more)) + sought.drives @ forces
+        value += acceleration * changed((sought.mass, sought.more_mass))
+        if sought.grip is not None:
+            factor, d = sought.grip
+            value += factor * np.abs(forces[d])
+        if sought.driving is None:
+            return value
+        pulls = changed(self.resistance(1.0)) >= 0.0
+        return np.where(pulls == sought.driving, value, -math.inf)
+
+
+def _behind(anchor: Array) -> Array:
+    """What the take-up holds of all places behind each event, shape (e,)."""
+    return np.asarray(np.cumsum(anchor[::-1])[::-1][1:])
+
+
+def _column(values: Array, like: Array) -> Array:
+    """Values of the drives beside one or many of a state."""
+    return values if like.ndim == 0 else values[:, None]
+
+
+def _may_not_sag(state: _State) -> bool:
+    """Whether the sag is looked at: not while starting or stopping."""
+    return state.over == 1.0
+
+
+def _first(values: Array) -> list[int]:
+    """Places of the largest values."""
+    return [int(k) for k in np.argsort(values)[::-1][:_TRIED]]
+
+
+_Row = tuple[float, float, float, float, float, float, int]
+"""Force, its certain part and mass of the empty belt, what the bulk adds to each, and the section it lies on."""
+
+
+def _events(full: Balance, empty: Balance) -> _Events:
+    """What the belt meets round the loop, in the order of `Loop.motion`."""
+    line, frame, count = full.line, full.frame, full.line.count
+    rows: list[_Row] = []
+    stretches: list[int] = []
+    drives = np.zeros(len(line.drives), dtype=int)
+    held = None
+    standing = iter(list(enumerate(frame.spots)))
+    following = next(standing, None)
+    for boundary, (bare, laden) in enumerate(zip([*_along(empty), None], [*_along(full), None], strict=True)):
+        while following is not None and following[1].boundary == boundary:
+            j = following[0]
+            rows += _singles(full, empty, j)
+            for d in frame.drives[j]:
+                drives[d] = len(rows)
+                rows.append((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1))
+            if j == frame.anchor:
+                held = len(rows)
+            following = next(standing, None)
+        if bare is not None and laden is not None:
+            stretches.append(len(rows))
+            if boundary < count:
+                rows.append((*laden, 0.0, 0.0, 0.0, -1))
+            else:
+                more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
+                rows.append((*bare, *more, boundary - count))
+    columns = list(zip(*rows, strict=True))
+    values = [np.array(column, dtype=float) for column in columns[:-1]]
+    force, certain, mass, more_force, more_certain, more_mass = values
+    return _Events(
+        force, certain, mass, more_force, more_certain, more_mass,
+        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held,
+    )  # fmt: skip
+
+
+def _along(found: Balance) -> list[tuple[float, float, float] | None]:
+    """Force, its certain part and mass of every stretch in loop order."""
+    count = found.line.count
+    force, certain = np.zeros(2 * count), np.zeros(2 * count)
+    for each in found.along:
+        force += each.newtons
+        if each.certain:
+            certain += each.newtons
+    both = (np.roll(force, count), np.roll(certain, count), found.line.loop.mass)
+    return list(zip(*(column.tolist() for column in both), strict=True))
+
+
+def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
+    """Forces at a spot: feeding points with the section they feed, the length coefficient by section, the rest."""
+    frame, count = full.frame, full.line.count
+    spot = frame.spots[j]
+    always = math.fsum(
+        force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
+    )
+    for force in full.settled.loop.points:
+        if force.spot != spot:
+            continue
+        if force.key == "secondary_by_length":
+            yield from _by_length(full, empty, force.total)
+        elif spot.stand is Stand.LANDING:
+            certain = force.total if force.certain else 0.0
+            yield (0.0, 0.0, 0.0, force.total, certain, 0.0, spot.boundary - count)
+        else:
+            always += force.total
+    yield (always, 0.0, 0.0, 0.0, 0.0, 0.0, -1)
+
+
+def _by_length(full: Balance, empty: Balance, total: float) -> Iterator[_Row]:
+    """Secondary resistance in proportion to the main one, by section."""
+    laden, bare = (
+        np.array([force.newtons for force in found.along if force.kind == "main"]).sum(axis=0)
+        for found in (full, empty)
+    )
+    share = total / float(laden.sum())
+    yield (share * float(bare.sum()), 0.0, 0.0, 0.0, 0.0, 0.0, -1)
+    for i, more in enumerate((laden - bare)[: full.line.count].tolist()):
+        yield (0.0, 0.0, 0.0, share * more, 0.0, 0.0, i)

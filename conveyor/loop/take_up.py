@@ -1,0 +1,166 @@
+"""One take-up for every load of a conveyor: its setting, its mass, its travel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws.take_up import (
+    PERMANENT_STRETCH_STEEL_CORD,
+    PERMANENT_STRETCH_TEXTILE,
+    STEEL_EXPANSION,
+    Travel,
+    take_up_mass,
+    take_up_travel,
+)
+from conveyor.laws.tension import usual_stiffness
+from conveyor.line.line import BeltBody, Line, TakeUpUnit
+from conveyor.loop.balance import Balance
+from conveyor.loop.settled import holds
+from conveyor.loop.tensions import MotionState
+
+_STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough
+
+
+@dataclass(frozen=True, eq=False)
+class TakeUpDuty:
+    """What the loads of a conveyor ask of its one take-up.
+
+    Attributes
+    ----------
+    unit : TakeUpUnit
+        Kind, place, strands.
+    setting, needed : float
+        Tension at its place, of one that keeps the belt's length the mean of the loop; the least it should be [N].
+    governing : int
+        Which load asks for it.
+    governed_by : str
+        The condition there.
+    steady_means : tuple of float
+        Lowest and highest mean tension of the loop in steady running [N].
+    mass : float or None
+        Of a gravity take-up's weight [kg]; None where the belt's length is kept.
+    warmth : float
+        Between the coldest and the warmest belt [K].
+    travel : Travel or None
+        Of its carriage; None where the belt's stiffness is not known.
+    mean_change : float or None
+        Change of the mean tension that `warmth` makes where the belt's length is kept [N].
+    """
+
+    unit: TakeUpUnit
+    setting: float
+    needed: float
+    governing: int
+    governed_by: str
+    steady_means: tuple[float, float]
+    mass: float | None
+    warmth: float
+    travel: Travel | None
+    mean_change: float | None
+
+
+def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
+    """Close loops of one conveyor under several loads at the least setting of its take-up that serves them all.
+
+    Parameters
+    ----------
+    loops : sequence of Balance
+        Closed at whatever setting. Where the spec gives one they all have it already.
+
+    Raises
+    ------
+    NoSolutionError
+        Every setting makes a load ask for more.
+    """
+    if not loops or loops[0].line.take_up.tension is not None:
+        return list(loops)
+    setting = max(found.settled.needed for found in loops)
+    for _ in range(_STEPS):
+        closed = [found.held(setting) for found in loops]
+        asked = max(found.settled.needed for found in closed)
+        if holds(setting, asked):
+            return closed
+        setting = asked
+    raise NoSolutionError(
+        "no setting of the take-up serves every load: each makes one ask for more; check pulley diameters"
+    )
+
+
+def take_up_duty(
+    loops: Sequence[Balance], states: Sequence[Iterable[MotionState]], temperatures: Iterable[float]
+) -> TakeUpDuty:
+    """What several loads ask of the take-up.
+
+    Parameters
+    ----------
+    loops : sequence of Balance
+        Of every load, at one setting.
+    states : sequence of iterable of MotionState
+        Every state of motion under each load.
+    temperatures : iterable of float
+        Of the belt [K].
+    """
+    line = loops[0].line
+    governing = max(range(len(loops)), key=lambda i: loops[i].settled.needed)
+    settled = loops[governing].settled
+    means = [found.settled.steady.mean(found.line.loop.length) for found in loops]
+    every = [
+        state.mean(found.line.loop.length) for found, of in zip(loops, states, strict=True) for state in of
+    ]
+    known = list(temperatures)
+    warmth = max(known) - min(known)
+    unit, setting, steady = line.take_up, settled.setting, (min(means), max(means))
+    stiffness, strain = _stiffness(line.belt), _expansion(line.belt) * warmth
+    travel, change = None, None
+    if stiffness is not None:
+        travel = take_up_travel(
+            steady,
+            (min(every), max(every)),
+            stiffness=stiffness,
+            loop_length=float(line.loop.way[-1]),
+            permanent_stretch=_permanent(line.belt),
+            thermal_strain=strain,
+            reserve=unit.reserve,
+            strands=unit.strands,
+        )
+        change = stiffness * strain if unit.keeps_length and strain > 0.0 else None
+    return TakeUpDuty(
+        unit=unit,
+        setting=setting,
+        needed=settled.needed,
+        governing=governing,
+        governed_by=settled.condition_name(settled.governed_by),
+        steady_means=steady,
+        mass=None if unit.keeps_length else _mass(line, setting),
+        warmth=warmth,
+        travel=travel,
+        mean_change=change,
+    )
+
+
+def _mass(line: Line, setting: float) -> float:
+    """Of a gravity take-up [kg]; none pulls where nothing is asked for."""
+    unit = line.take_up
+    return take_up_mass(max(setting, 0.0), reeving=unit.reeving, gravity=line.gravity, strands=unit.strands)
+
+
+def _stiffness(belt: BeltBody) -> float | None:
+    """EA of the whole belt [N], as given or as is usual."""
+    per_width = belt.stiffness
+    if per_width is None and belt.strength is not None:
+        per_width = usual_stiffness(belt.strength, carcass=belt.carcass)
+    return None if per_width is None else per_width * belt.width
+
+
+def _permanent(belt: BeltBody) -> float:
+    """Lasting elongation [-], as given or as is usual."""
+    if belt.permanent_stretch is not None:
+        return belt.permanent_stretch
+    return (PERMANENT_STRETCH_STEEL_CORD if belt.steel_cord else PERMANENT_STRETCH_TEXTILE).value
+
+
+def _expansion(belt: BeltBody) -> float:
+    """Of temperature [1/K]; textiles shrink as often as they grow, nothing usual is known."""
+    return STEEL_EXPANSION.value if belt.steel_cord else 0.0

@@ -1,0 +1,292 @@
+"""Load states of a conveyor: empty, full, inclines only, declines only, and the worst loadings by superposition.
+
+The take-up is as it is set for the spec's own load and its cases. Forces add by section: a loading has those of the
+full belt on the sections that bear bulk, and those of the empty one elsewhere. The worst for the drive force is
+calculated in full besides: its own tensions press on the rolls of vertical curves, its own loads soften the rubber.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
+from typing import Final
+
+from conveyor.checks import Check, checks
+from conveyor.errors import ConveyorError
+from conveyor.loop.balance import Balance
+from conveyor.loop.superposition import DRIVE_FORCE, Loading, Superposition
+from conveyor.models import Conveyor, LoadCase
+from conveyor.models.cases import STANDARD_LOADINGS
+from conveyor.models.variants import with_case, with_temperature
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
+from conveyor.studies.cases import CalculatedCases
+from conveyor.units import from_si
+from conveyor.units.sentences import Said, quoted, said
+
+_ROW: Final = 3  # sections from which a row of them is named by its ends
+_KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
+
+
+@dataclass(frozen=True, eq=False)
+class LoadState:
+    """A loading of the conveyor at the spec's speed.
+
+    Attributes
+    ----------
+    name : str
+        What it is called in reports.
+    loaded : tuple of str
+        Sections that bear bulk.
+    temperature : float
+        Of the belt [K].
+    worst_for : tuple of str
+        Figures that no loading makes worse, as far as single sections go, at no temperature of the cases.
+    keys : tuple of str
+        For programs; a worst loading that is one of the standard states has the keys of both.
+    balance : Balance
+        Forces, tensions and power, the take-up at its setting.
+    """
+
+    name: str
+    loaded: tuple[str, ...]
+    temperature: float
+    worst_for: tuple[str, ...]
+    keys: tuple[str, ...]
+    balance: Balance
+
+    @property
+    def label(self) -> str:
+        """Its name, of a standard state with what it is worst for."""
+        if self.name in _KEYS and self.worst_for:
+            return f"{self.name} (worst for {', '.join(self.worst_for)})"
+        return self.name
+
+    @property
+    def case(self) -> Said:
+        """What its checks are of."""
+        return said(f"load state {quoted(self.name)}, {{}}", (self.temperature, "temperature"))
+
+    @property
+    def loaded_in_words(self) -> str:
+        """The sections that bear bulk, by name, or those that do not where these are fewer words."""
+        names = [section.name for section in self.balance.line.sections]
+        loaded, empty = (
+            _in_words(names, [(name in self.loaded) is on for name in names]) for on in (True, False)
+        )
+        if not loaded or not empty:
+            return "all" if loaded else "none"
+        return min(loaded, f"all but {empty}", key=len)
+
+
+@dataclass(frozen=True)
+class StateRefusal:
+    """A load without an answer, and why; SI."""
+
+    name: str
+    temperature: float
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class CalculatedStates:
+    """Load states of one conveyor.
+
+    Attributes
+    ----------
+    own : CalculatedConveyor
+        The spec's own load.
+    states, refused : tuple
+        The standard ones first, then worst loadings that are none of them; what has no answer.
+    """
+
+    own: CalculatedConveyor
+    states: tuple[LoadState, ...]
+    refused: tuple[StateRefusal, ...]
+
+    @property
+    def conveyor(self) -> Conveyor:
+        """The spec."""
+        return self.own.conveyor
+
+    @property
+    def setting(self) -> float:
+        """Of the take-up in every state [N]."""
+        return self.own.balance.settled.setting
+
+    def state(self, key: str) -> LoadState | None:
+        """The state of a key: full, empty, inclines, declines, worst and what `worst_key` makes."""
+        return next((state for state in self.states if key in state.keys), None)
+
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Every criterion that needs no contacts, in every state that is not the spec's own load."""
+        return tuple(
+            replace(check, case=state.case)
+            for state in self.states
+            if state.balance is not self.own.balance
+            for check in checks(
+                replace(self.own, temperature=state.temperature, balance=state.balance), contacts=False
+            )
+        )
+
+
+def _in_words(names: Sequence[str], on: Sequence[bool]) -> str:
+    """Names that are on; of three and more in a row the first and the last."""
+    runs = [
+        [name for name, _ in run]
+        for is_on, run in groupby(zip(names, on, strict=True), itemgetter(1))
+        if is_on
+    ]
+    return ", ".join(", ".join(run) if len(run) < _ROW else f"{run[0]} to {run[-1]}" for run in runs)
+
+
+def worst_key(figure: str) -> str:
+    """Return the key of the worst loading for a figure: worst is that of the drive force.
+
+    Examples
+    --------
+    >>> worst_key("drive force"), worst_key("grip, tail drive")
+    ('worst', 'worst_grip_tail_drive')
+    """
+    words = "".join(c if c.isalnum() else " " for c in figure).split()
+    return "worst" if figure == DRIVE_FORCE else "_".join(("worst", *words))
+
+
+def load_states(
+    conveyor: Conveyor,
+    given: CalculatedConveyor | None = None,
+    cases: CalculatedCases | None = None,
+    *,
+    progress: Progress | None = None,
+) -> CalculatedStates:
+    """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    given : CalculatedConveyor, optional
+        The spec's own load; its take-up setting is that of every state. Calculated without it.
+    cases : CalculatedCases, optional
+        Cases at the same setting: their temperatures are looked at too, and what they know is not calculated again.
+    progress : callable, optional
+        Called with what is done and the whole.
+
+    Raises
+    ------
+    NoSolutionError, RangeError, InputError
+        The spec's own load has no answer.
+    """
+    own = calculate(conveyor) if given is None else given
+    at = own.temperature
+    ends, refused = _full_and_empty(conveyor, own, cases, progress)
+    adding = {temperature: Superposition(*pair) for temperature, pair in ends.items()}
+    worst = _worst(adding)
+    states = []
+    if at in adding:
+        for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
+            figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
+            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(name)
+            found = adding[at].loaded(loading) if known is None else known
+            keys = (_KEYS[name], *map(worst_key, figures))
+            states.append(LoadState(name, _names(own, loading), at, figures, keys, found))
+    for (temperature, _), (loading, figures) in worst.items():
+        loaded = _names(own, loading)
+        found = adding[temperature].loaded(loading)
+        if DRIVE_FORCE in figures:
+            again = _in_full(conveyor, loaded, temperature, own)
+            if isinstance(again, CalculatedConveyor):
+                found = again.balance
+            else:
+                refused.append(StateRefusal(f"worst for {DRIVE_FORCE}", temperature, str(again)))
+        keys = tuple(map(worst_key, figures))
+        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, found))
+    return CalculatedStates(own, tuple(states), tuple(refused))
+
+
+_Ends = tuple[Balance, Balance]
+"""Under full and empty belt."""
+
+
+def _full_and_empty(
+    conveyor: Conveyor, own: CalculatedConveyor, cases: CalculatedCases | None, progress: Progress | None
+) -> tuple[dict[float, _Ends], list[StateRefusal]]:
+    """The full and the empty belt at the spec's temperature and those of its cases; of cases what they know."""
+    results = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
+    known: dict[tuple[float, str], CalculatedConveyor] = {
+        (r.temperature, r.case.loading): r.found for r in results
+    }
+    at = own.temperature
+    wanted = [(t, name) for t in dict.fromkeys([at, *(t for t, _ in known)]) for name in ("full", "empty")]
+    asked: dict[tuple[float, str], Conveyor] = {}
+    refused = []
+    for temperature, name in wanted:
+        case = LoadCase.from_data({"name": name, "loading": name})
+        try:
+            asked[temperature, name] = _loaded(conveyor, case, temperature, own)
+        except ConveyorError as error:
+            refused.append(StateRefusal(name, temperature, str(error)))
+    found: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
+    found |= {key: own for key, one in asked.items() if one is conveyor}
+    setting = own.balance.settled.setting
+    missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in found}
+    if missing:
+        answers = calculate_many(list(missing.values()), progress=progress)
+        for key, one in zip(missing, answers, strict=True):
+            if isinstance(one, CalculatedConveyor):
+                found[key] = one
+            else:
+                refused.append(StateRefusal(key[1], key[0], str(one)))
+    ends = {
+        temperature: (found[temperature, "full"].balance, found[temperature, "empty"].balance)
+        for temperature, name in wanted
+        if name == "full" and (temperature, "full") in found and (temperature, "empty") in found
+    }
+    return ends, refused
+
+
+def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
+    """The conveyor loaded as a case says at a temperature; itself where that changes nothing."""
+    loaded = with_case(conveyor, case)
+    if temperature == own.temperature:
+        return loaded
+    return with_temperature(loaded, from_si(temperature, "temperature", "K"))
+
+
+def _worst(
+    adding: Mapping[float, Superposition],
+) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
+    """The worst loadings at whichever temperature, each with the figures it is worst for."""
+    best: dict[str, tuple[float, float, Loading]] = {}
+    for temperature, states in adding.items():
+        for figure, loading in states.worst().items():
+            value = states.figures(loading)[figure]
+            if figure not in best or value > best[figure][0]:
+                best[figure] = (value, temperature, loading)
+    found: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
+    for figure, (_, temperature, loading) in best.items():
+        key = (temperature, loading.tobytes())
+        found[key] = (loading, (*found.get(key, (loading, ()))[1], figure))
+    return found
+
+
+def _in_full(
+    conveyor: Conveyor, loaded: tuple[str, ...], temperature: float, own: CalculatedConveyor
+) -> CalculatedConveyor | ConveyorError:
+    """A worst loading with its own contacts, or why it has none."""
+    case = LoadCase(name="worst", loading="sections", sections=loaded)
+    try:
+        made = _loaded(conveyor, case, temperature, own)
+    except ConveyorError as error:
+        return error
+    (found,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)])
+    return found
+
+
+def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
+    """Sections that bear bulk, by name."""
+    pairs = zip(own.line.sections, loading.tolist(), strict=True)
+    return tuple(section.name for section, on in pairs if on)

@@ -1,0 +1,129 @@
+"""The worst loading by superposition is that of a search through all of them."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from conveyor.loop.superposition import DRIVE_FORCE, LEAST_FORCE, TAKE_UP, TENSION, Superposition
+from conveyor.loop.take_up import at_one_setting
+from conveyor.models import LoadCase
+from conveyor.models.variants import with_case
+from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, closed, line
+
+CLOSED = 1e-11
+"""Sums of 100 forces in whatever order, the drives' forces ten times the belt's smallest: 1e5 of 2e-16."""
+FEEDING = DATA["route"]["feeding"]
+
+
+def route(rng, count):
+    """A conveyor that rises and falls, with drives, take-up, brakes and feeding points by chance; no pulleys.
+
+    Without pulleys nothing depends on the tensions, so that sums of forces are exact.
+    """
+    sections = [
+        {"name": f"s{i}", "length": f"{rng.uniform(50, 600):.3f} m", "lift": f"{rng.uniform(-40, 40):.3f} m"}
+        for i in range(count)
+    ]
+    drive = {"position": str(rng.choice(["head", "tail"]))}
+    further = [BOOSTER | {"section": f"s{rng.integers(count - 1)}"}] if rng.random() < 0.5 else []
+    further += [TAIL_DRIVE] if rng.random() < 0.3 else []
+    if further:
+        drive["further_drives"] = further
+    if rng.random() < 0.5:
+        drive |= {
+            "brake_force": f"{rng.uniform(20, 200):.1f} kN",
+            "reduced_mass": f"{rng.uniform(1, 20):.1f} t",
+        }
+    made = {"sections": sections, "pulleys": []}
+    kind = str(rng.choice(["gravity", "fixed", ""]))
+    if kind:
+        made["take_up"] = {"kind": kind, "position": str(rng.choice(["head", "tail"]))}
+    if rng.random() < 0.3:
+        made["feeding"] = FEEDING | {"share": 0.6}
+        made["further_feeding"] = [FEEDING | {"section": "s1", "share": 0.4}]
+    secondary = "C" if rng.random() < 0.2 else "itemised"
+    return line(route=made, drive=drive, calculation={"secondary": secondary})
+
+
+def bearing(conveyor, loading):
+    """The conveyor with bulk on those sections."""
+    names = [s.name for s, on in zip(conveyor.route.sections, loading, strict=True) if on]
+    if not names:
+        flagged = [section.replace(loaded=False) for section in conveyor.route.sections]
+        return conveyor.replace(
+            route=conveyor.route.replace(sections=flagged, feeding=None, further_feeding=())
+        )
+    return with_case(conveyor, LoadCase(name="some", loading="sections", sections=names))
+
+
+def added(conveyor):
+    ends = [closed(with_case(conveyor, LoadCase(name=name, loading=name))) for name in ("full", "empty")]
+    return Superposition(*at_one_setting(ends))
+
+
+def looked_for(found):
+    """The figures by the loop itself."""
+    settled = found.settled
+    grips = {drive.name: -np.inf for drive in found.line.drives}
+    for motion in settled.motions:
+        for condition in settled.loop.conditions(motion):
+            if condition.kind == "grip":
+                name = condition.where[1]
+                grips[name] = max(grips[name], condition.setting)
+    figures = {
+        DRIVE_FORCE: settled.force, LEAST_FORCE: -settled.least_force,
+        TENSION: found.tensions.largest, TAKE_UP: settled.needed,
+    }  # fmt: skip
+    return figures | ({f"grip, {name}": grip for name, grip in grips.items()} if len(grips) > 1 else {})
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_figures_of_a_loading_are_those_of_its_loop(seed):
+    rng = np.random.default_rng(seed)
+    conveyor = route(rng, 6)
+    found = added(conveyor)
+    for loading in rng.random((4, 6)) < 0.5:
+        alone = closed(bearing(conveyor, loading)).held(found.setting)
+        scale = CLOSED * alone.tensions.largest
+        expected = looked_for(alone)
+        assert found.figures(loading) == pytest.approx(expected, rel=CLOSED, abs=scale)
+        assert looked_for(found.loaded(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
+
+
+@pytest.mark.parametrize("seed", range(15))
+def test_no_loading_of_all_beats_the_worst(seed):
+    rng = np.random.default_rng(100 + seed)
+    count = int(rng.integers(2, 10))
+    _never_beaten(added(route(rng, count)))
+
+
+def test_no_loading_of_twelve_sections_beats_the_worst():
+    _never_beaten(added(route(np.random.default_rng(7), 12)))
+
+
+def _never_beaten(found):
+    every = [found.figures(np.array(on)) for on in itertools.product([False, True], repeat=found.count)]
+    worst = found.worst()
+    assert {DRIVE_FORCE, TENSION, TAKE_UP} <= set(worst)
+    for figure, loading in worst.items():
+        most = max(figures[figure] for figures in every)
+        assert found.figures(loading)[figure] == pytest.approx(most, rel=CLOSED), figure
+    least = max(figures[LEAST_FORCE] for figures in every)
+    assert (LEAST_FORCE in worst) == (least > 0.0)
+
+
+def test_signs_by_hand():
+    # a level, b up, c steeply down: bulk on c drives, on the others it drags
+    sections = [{"name": "a", "length": "300 m"}, {"name": "b", "length": "400 m", "lift": "20 m"},
+                {"name": "c", "length": "200 m", "lift": "-20 m"}]  # fmt: skip
+    found = added(
+        line(route={"sections": sections, "pulleys": [], "take_up": {"kind": "gravity", "position": "head"}})
+    )
+    worst = found.worst()
+    assert worst[DRIVE_FORCE].tolist() == [True, True, False]
+    # the belt is tightest at the end of the climb; behind it bulk on c pulls towards the head and relieves nothing
+    assert worst[TENSION][:2].tolist() == [True, True]
+    assert found.figures(worst[DRIVE_FORCE])[DRIVE_FORCE] > found.figures(np.ones(3, bool))[DRIVE_FORCE]

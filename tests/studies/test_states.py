@@ -1,0 +1,138 @@
+"""Load states: the four of every report, the worst by superposition against full calculations, at one take-up."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import pytest
+
+from conveyor.errors import InputError
+from conveyor.models import LoadCase
+from conveyor.models.variants import with_case
+from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.spec import load
+from conveyor.studies import studies
+from conveyor.studies.states import LoadState, load_states
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+RTOL = 1e-6
+"""Of the contacts: curves over different ranges of load differ by no more than twice it."""
+
+
+@pytest.fixture(scope="module")
+def line():
+    """Five sections that rise, fall and are level; rubber without strain, so that a section's load is its own."""
+    given = load(SPECS / "overland.yaml")
+    sections = [
+        {"name": "loading", "length": "200 m"}, {"name": "climb", "length": "900 m", "lift": "45 m"},
+        {"name": "descent", "length": "800 m", "lift": "-40 m"}, {"name": "fields", "length": "1500 m"},
+        {"name": "discharge", "length": "150 m", "lift": "9 m"},
+    ]  # fmt: skip
+    return given.replace(
+        route=given.route.replace(sections=sections),
+        calculation=given.calculation.replace(strain="off"),
+    )
+
+
+@pytest.fixture(scope="module")
+def own(line):
+    return calculate(line)
+
+
+@pytest.fixture(scope="module")
+def found(line, own):
+    return load_states(line, own)
+
+
+def test_the_four_are_full_calculations_at_the_take_up_of_the_report(line, own, found):
+    setting = own.balance.settled.setting
+    for key, loading in (("full", "full"), ("empty", "empty"), ("inclines", "inclines only"),
+                         ("declines", "declines only")):  # fmt: skip
+        one = with_case(line, LoadCase(name=loading, loading=loading))
+        (alone,) = calculate_many([Variant(one, take_up=setting)])
+        state = found.state(key)
+        assert state.balance.settled.setting == setting
+        assert state.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=2.0 * RTOL)
+        assert state.balance.tensions.largest == pytest.approx(alone.balance.tensions.largest, rel=2.0 * RTOL)
+        assert state.balance.settled.needed == pytest.approx(alone.balance.settled.needed, rel=2.0 * RTOL)
+
+
+def test_sections_that_a_state_loads_are_said(found):
+    words = {
+        key: found.state(key).loaded_in_words for key in ("full", "empty", "inclines", "declines", "worst")
+    }
+    assert words == {
+        "full": "all", "empty": "none", "inclines": "climb, discharge", "declines": "descent",
+        "worst": "all but descent",
+    }  # fmt: skip
+
+
+def test_rows_of_sections_are_named_by_their_ends(own):
+    balance = own.balance
+    named = LoadState("some", ("loading", "climb", "descent"), 293.15, (), (), balance)
+    assert named.loaded_in_words == "loading to descent"
+    assert (
+        LoadState("some", ("loading", "climb"), 293.15, (), (), balance).loaded_in_words == "loading, climb"
+    )
+
+
+def test_no_loading_calculated_in_full_beats_the_worst(line, found):
+    names = [section.name for section in line.route.sections]
+    loads = [
+        LoadCase(name="some", loading="sections", sections=some)
+        for count in range(1, len(names) + 1)
+        for some in itertools.combinations(names, count)
+    ]
+    variants = [Variant(with_case(line, case), take_up=found.setting) for case in loads]
+    every = [one.balance for one in calculate_many(variants, 1e-4)]
+    # contacts of 1e-4 make half of the force along the belt
+    margin = 1.0 + 2e-4
+    power = max(one.power.belt for one in every)
+    assert found.state("worst").balance.power.belt * margin >= power
+    tight = max(one.tensions.largest for one in every)
+    assert found.state("worst_largest_tension").balance.tensions.largest * margin >= tight
+    asked = max(one.settled.needed for one in every)
+    assert found.state("worst_tension_of_the_take_up").balance.settled.needed * margin >= asked
+
+
+def test_the_worst_may_be_what_installed_motors_do_not_give(line, own):
+    power = own.balance.power.motor
+    full = f"{1.02 * power:.0f} W"  # full belt, not all but the decline
+    given = line.replace(drive=line.drive.replace(installed_power=full))
+    checked = {check.key: check for check in load_states(given).checks}
+    assert checked["motor_power"].verdict == "FAIL"
+    assert "worst for drive force" in checked["motor_power"].subject.text()
+    assert checked["take_up_tension"].verdict == "FAIL"
+    assert checked["slack_belt"].verdict == "pass"
+
+
+def test_cold_cases_are_looked_at_too(line):
+    cases = [
+        LoadCase(name="full", loading="full", temperatures=("-20 degC", "30 degC")),
+        LoadCase(name="empty", loading="empty", temperatures=("-20 degC",)),
+    ]
+    found = studies(line.replace(cases=cases))
+    worst = found.states.state("worst")
+    assert worst.temperature == pytest.approx(253.15)
+    setting = found.cases.as_given.balance.settled.setting
+    assert {state.balance.settled.setting for state in found.states.states} == {setting}
+    assert {result.found.balance.settled.setting for result in found.cases.results} == {setting}
+    warm = found.states.state("full")
+    assert warm.temperature == pytest.approx(293.15)
+    assert worst.balance.power.belt > warm.balance.power.belt
+
+
+def test_a_case_loads_the_sections_it_names(line):
+    one = with_case(line, LoadCase(name="some", loading="sections", sections=("climb", "fields")))
+    assert [section.loaded for section in one.route.sections] == [False, True, False, True, False]
+    with pytest.raises(
+        InputError, match=r'load case "some": sections: got "hill", which is none of the sections'
+    ):
+        with_case(line, LoadCase(name="some", loading="sections", sections=("hill",)))
+    with pytest.raises(InputError, match=r'sections: missing: loading "sections" needs their names'):
+        LoadCase.from_data({"name": "some", "loading": "sections"})
+    with pytest.raises(InputError, match=r'sections: got 1 names with loading "full"'):
+        LoadCase.from_data({"name": "some", "loading": "full", "sections": ["climb"]})
+    with pytest.raises(InputError, match=r"cases\.0\.sections\.0|cases\[0\]\.sections\[0\]"):
+        line.replace(cases=[{"name": "some", "loading": "sections", "sections": ["hill"]}])
