@@ -67,7 +67,8 @@ class LoadState:
     @property
     def case(self) -> Said:
         """What its checks are of."""
-        return said(f"load state {quoted(self.name)}, {{}}", (self.temperature, "temperature"))
+        name = f"worst for {self.worst_for[0]}" if self.name not in _KEYS else self.name
+        return said(f"load state {quoted(name)}, {{}}", (self.temperature, "temperature"))
 
     @property
     def loaded_in_words(self) -> str:
