@@ -115,7 +115,7 @@ def calibrate(
         runs = calibrating.runs(found).only(*_OF_RUNS)
         for part in (calibrating.factors(found), calibrating.correlation(found), runs):
             if not part.empty:
-                screen.print(_shown(part, system), "")
+                screen.print(shown(part, system), "")
                 if part.note:
                     say(part.note, "")
         say("what to know:")
@@ -134,7 +134,7 @@ def _share(given: str) -> float:
         raise InputError(f"--error: {error}") from None
 
 
-def _shown(part: Table, system: System) -> Any:
+def shown(part: Table, system: System) -> Any:
     """A table of the report on the terminal, units below names."""
     from conveyor.cli.terminal import table, words
     from conveyor.units.presentation import unit

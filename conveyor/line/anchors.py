@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -74,9 +75,11 @@ def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
     NoSolutionError, RangeError
         As `anchor_rows`.
     """
-    if not compound.tests:
-        return None
-    rows = anchor_rows(compound, softened=softened)
+    return anchor_of(compound, anchor_rows(compound, softened=softened)) if compound.tests else None
+
+
+def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
+    """The level of a compound from its tests beside the theory."""
     return fit_anchor(
         [row.line_load for row in rows],
         [row.temperature for row in rows],

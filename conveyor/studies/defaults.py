@@ -35,6 +35,11 @@ Shares: TypeAlias = NDArray[np.float64] | float
 Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
 
 
+UNANCHORED: Final = 2.5
+"""Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
+data of tyre-type rubber [-]."""
+
+
 @dataclass(frozen=True)
 class Assumed:
     """A default of the spec: what it scales, how far it may be off, what replaces it.
@@ -89,6 +94,14 @@ def _flexure(conveyor: Conveyor, _stretch: Stretch) -> float:
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
+def _unanchored(found: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose rubber no test has set the level of."""
+    if force.key != "indentation":
+        return 0.0
+    covers = found.contacts.covers
+    return np.array([float(covers[stretch.strand].level is None) for stretch in found.line.stretches])
+
+
 def _pressed(found: CalculatedConveyor, force: Force) -> float:
     """Whether a cleaner is given without its pressure."""
     names = [each.name for each in found.balance.singles if each.key == "cleaner"]
@@ -108,6 +121,8 @@ DEFAULTS: Final = (
     Assumed("cleaners", "usual cleaners", 0.5, CLEANER_PRESSURE.high / CLEANER_PRESSURE.value, "route.cleaners",
             usual("cleaner")),
     banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
+    Assumed("level", "level of the indentation, no rolling-resistance tests", 1.0, UNANCHORED, "a compound with tests",
+            _unanchored),
     Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.

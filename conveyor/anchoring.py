@@ -1,0 +1,158 @@
+"""Rolling-resistance tests beside a compound's theory: the anchored compound, and tables to judge it by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from conveyor.arguments import checked
+from conveyor.errors import InputError
+from conveyor.line.anchors import RollingRow, anchor_of, anchor_rows
+from conveyor.models import RubberCompound
+from conveyor.models.rolling_tests import RollingTest
+from conveyor.report.columns import Column, Table
+from conveyor.rubber.anchor import Anchor
+
+SHEET = "Anchor"
+
+
+@dataclass(frozen=True, eq=False)
+class Anchored:
+    """A compound with its tests, and how they stand to the theory.
+
+    Attributes
+    ----------
+    compound : RubberCompound
+        With the tests; of a carrier's spectrum where it has none of its own.
+    rows : tuple of RollingRow
+        Every row of the tests beside the theory.
+    anchor : Anchor
+        The factor that the tests put on the theory.
+    softened : bool
+        Whether the theory took the rubber at the strain of each test.
+    """
+
+    compound: RubberCompound
+    rows: tuple[RollingRow, ...]
+    anchor: Anchor
+    softened: bool
+
+    def left(self, row: RollingRow) -> float:
+        """What the anchor leaves of a row: measured over anchored, less 1 [-]."""
+        factor = float(self.anchor.factor(row.line_load, row.temperature))
+        return row.measured / (factor * row.calculated) - 1.0
+
+
+@checked
+def anchored(
+    compound: RubberCompound, tests: Sequence[RollingTest], *, name: str | None = None, softened: bool = True
+) -> Anchored:
+    """Set the level of a compound by rolling-resistance tests.
+
+    Parameters
+    ----------
+    compound : RubberCompound
+        Whose spectrum, shift and strain sweeps the theory takes; tests it has already are replaced.
+    tests : sequence of RollingTest
+        Of the compound itself, or of the one called `name`.
+    name : str, optional
+        Name of the tested compound where its spectrum was not measured: `compound` is then its carrier.
+    softened : bool
+        Take the rubber at the strain of each test, where the compound knows it.
+
+    Returns
+    -------
+    Anchored
+        The compound with its tests, every row beside the theory, the anchor.
+
+    Raises
+    ------
+    InputError
+        There is no test.
+    NoSolutionError
+        A test's contact has no answer.
+    RangeError
+        The compound is not known at a test's temperature or strain.
+    """
+    if not tests:
+        raise InputError("tests: give at least one")
+    changes: dict[str, Any] = {"tests": tuple(tests)}
+    if name is not None and name != compound.name:
+        lacking = f"its spectrum, shift and strain dependence: those of {compound.name} carry the tests"
+        changes |= {"name": name, "carrier": compound.name, "missing": (lacking, *compound.missing)}
+        changes["description"] = f"Tested; carried by the spectrum of {compound.name}: {compound.description}"
+    made = compound.replace(**changes)
+    found = anchor_rows(made, softened=softened)
+    return Anchored(made, found, anchor_of(made, found), softened)
+
+
+def levels(found: Anchored) -> Table:
+    """One row a tested temperature: the factor over the loads, and its band."""
+    low, high = found.anchor.loads
+    columns = (
+        Column("temperature", "temperature", lambda at: at),
+        Column("factor at lowest load", "factor", lambda at: float(found.anchor.factor(low, at))),
+        Column(
+            "factor in the middle", "factor", lambda at: float(found.anchor.factor(found.anchor.load, at))
+        ),
+        Column("factor at highest load", "factor", lambda at: float(found.anchor.factor(high, at))),
+        Column("band, down", "share", lambda at: math.expm1(-found.anchor.band(found.anchor.load, at))),
+        Column("band, up", "share", lambda at: math.expm1(found.anchor.band(found.anchor.load, at))),
+    )
+    rows = tuple(found.anchor.temperatures.tolist())
+    return Table("levels", SHEET, "Measured over calculated, nine tenths within the band", columns, rows)
+
+
+def rows(found: Anchored) -> Table:
+    """One row a test point: measured, calculated, their ratio, and what the anchor leaves."""
+    tests = found.compound.tests
+    points = [test.points() for test in tests]
+    columns = (
+        Column("line load", "line force", attrgetter("line_load")),
+        Column("roll", "size", lambda row: 2.0 * points[row.test].radius),
+        Column("cover", "size", lambda row: points[row.test].cover_thickness),
+        Column("speed", "speed", lambda row: points[row.test].speed),
+        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("measured", "line force", attrgetter("measured")),
+        Column("theory", "line force", attrgetter("calculated")),
+        Column("ratio", "factor", lambda row: row.measured / row.calculated),
+        Column("left", "share", found.left),
+    )
+    return Table("tests", SHEET, "Tests beside the theory", columns, found.rows)
+
+
+def lines(found: Anchored) -> tuple[str, ...]:
+    """What to know of an anchor, in sentences."""
+    left = [abs(found.left(row)) for row in found.rows]
+    level, tests = found.anchor, found.compound.tests
+    moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
+    strain = "at the strain of each test" if found.softened and found.compound.strain_dependence else "linear"
+    said = [
+        f"{level.points} points of {len(tests)} tests; the anchor leaves {float(np.median(left)):.1%} of a row in the "
+        f"median, {max(left):.1%} at most; rubber taken {strain}",
+        f"factor over the line load: exponent {level.slope:+.3f}"
+        if level.slope
+        else "one factor for all line loads: the tests do not tell more",
+    ]
+    if len(moved) == 1:
+        said.append("one roll, cover and speed: what the theory errs in carrying it to others is not tested")
+    if level.temperatures.size == 1:
+        said.append("one temperature: the factor is held at others, its band widens by 0.5 % a kelvin")
+    return tuple(said)
+
+
+def plain(found: Anchored) -> dict[str, Any]:
+    """Plain numbers for JSON; units in the keys."""
+    return {
+        "compound": found.compound.name,
+        "carrier": found.compound.carrier,
+        "levels": levels(found).records(),
+        "exponent": found.anchor.slope,
+        "tests": rows(found).records(),
+        "notes": list(lines(found)),
+    }

@@ -1,0 +1,98 @@
+"""`conveyor anchor`: the level of a compound's indentation from rolling-resistance tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from conveyor.cli.app import (
+    AsJson,
+    Force,
+    Quiet,
+    Shelves,
+    UnitsOption,
+    app,
+    examples,
+    json_text,
+    print_text,
+    say,
+)
+from conveyor.cli.calibrate import shown
+from conveyor.cli.completion import compound_names
+from conveyor.cli.outputs import Outputs
+from conveyor.files import marks
+
+if TYPE_CHECKING:
+    from conveyor.units import System
+
+
+@app.command(
+    short_help="Set a compound's level by rolling-resistance tests.",
+    epilog=examples(
+        "conveyor anchor mine.yaml --tests campaign.csv -o mine-tested.yaml",
+        "conveyor anchor standard-cover --tests campaign.csv --name acme-x -o acme-x.yaml",
+    ),
+)
+def anchor(
+    compound: Annotated[
+        str,
+        typer.Argument(
+            help="Compound by shelf name or file.", autocompletion=compound_names, show_default=False
+        ),
+    ],
+    tests: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="Tests (.csv or .xlsx): columns line load, resistance, roll diameter, cover thickness, speed, "
+            "temperature; uncertainty, specimen, source, note. Units in the headers: line load [N/mm].",
+            show_default=False,
+        ),
+    ],
+    name: Annotated[
+        str | None,
+        typer.Option(
+            help="Name of the tested compound where only its tests are known: COMPOUND carries them."
+        ),
+    ] = None,
+    source: Annotated[
+        str | None,
+        typer.Option(help="Laboratory and report of rows that do not say it; else the file's name."),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the compound file (.yaml).")
+    ] = None,
+    units: UnitsOption = None,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    shelf: Shelves = None,
+) -> None:
+    """What tests of a cover measured over the theory on their rolls: the level of the compound's indentation."""
+    to = Outputs(compound, tests, force=force)
+    to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
+    from conveyor import anchoring
+    from conveyor import shelf as store
+    from conveyor.rolling_tests import read_rolling_tests
+
+    found = anchoring.anchored(
+        store.compound(compound, extra=shelf or ()), read_rolling_tests(tests, source), name=name
+    )
+    figures = json_text(anchoring.plain(found))
+    if output is not None:
+        to.add("compound file", output, {output: store.dump(found.compound, marks.FITTED).encode()})
+    written = to.save()
+    if as_json:
+        print_text(figures)
+    elif not quiet:
+        from conveyor.cli.terminal import console, wrapped
+
+        screen = console()
+        system: System = "SI" if units is None else units.value
+        for part in (anchoring.rows(found), anchoring.levels(found)):
+            screen.print(shown(part, system), "")
+        say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(found)))
+        if written:
+            say("", *written)

@@ -1,0 +1,244 @@
+"""Tables of measurements, .csv or .xlsx: units in the headers, one row a measurement; what is doubtful is refused."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+from conveyor.errors import InputError
+from conveyor.files.content import file_content
+from conveyor.laboratory.cells import TextGrid, TextLine
+from conveyor.laboratory.decimals import decimal_mark, is_number, why_not_a_number
+from conveyor.laboratory.encoding import decoded
+from conveyor.laboratory.workbook import MAGIC, workbook_grids
+from conveyor.units import quantity
+
+LARGEST_FILE: Final = 10_000_000
+"""Bytes; a year of hourly means has a tenth."""
+_HEADER: Final = re.compile(r"\s*([^\[\]()]*?)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
+
+
+class Meant(NamedTuple):
+    """What a header means: a field, its kind of quantity ("" of text), and the kind that "%" is of, if it may be."""
+
+    field: str
+    kind: str
+    share: str = ""
+
+
+@dataclass(frozen=True)
+class TableKind:
+    """What a table of measurements holds.
+
+    Attributes
+    ----------
+    what : str
+        "table of measured runs".
+    one : str
+        What a row is: "run".
+    columns : mapping of str to Meant
+        Headers without their unit, in small letters; several may mean one field.
+    needed : mapping of str to str
+        Fields that a table and each of its rows must have, and what to call them.
+    example : str
+        A header.
+    most_rows : int
+        More are refused.
+    """
+
+    what: str
+    one: str
+    columns: Mapping[str, Meant]
+    needed: Mapping[str, str]
+    example: str
+    most_rows: int = 1000
+
+
+@dataclass(frozen=True)
+class MeasuredRow:
+    """A row: its quantities and texts by field, and where each stands."""
+
+    number: int
+    given: Mapping[str, Any]
+    heads: Mapping[str, _Head]
+    grid: TextGrid
+
+    def header(self, field: str) -> str:
+        """The name of a field's column, without its unit."""
+        return self.heads[field].name
+
+    def refusal(self, message: str, field: str | None = None) -> InputError:
+        """An error that names file and row, and the column of a field."""
+        if field is None or field not in self.heads:
+            return InputError(f"{self.grid.name}:{self.number}: {message}")
+        head = self.heads[field]
+        return self.grid.refusal(self.number, head.index, message, header=head.header)
+
+
+class _Head:
+    """A column: its index, its name, what it means, its unit."""
+
+    def __init__(self, index: int, header: str, kind: TableKind) -> None:
+        match = _HEADER.fullmatch(header)
+        self.index, self.header = index, header
+        self.name = "" if match is None else " ".join(match[1].lower().replace("_", " ").split())
+        self.unit = "" if match is None or match[2] is None else match[2]
+        if self.name.startswith("note"):
+            self.name = "note"
+        self.meant = kind.columns.get(self.name)
+
+    @property
+    def field(self) -> str:
+        return "" if self.meant is None else self.meant.field
+
+
+def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
+    """Read a table of measurements.
+
+    Parameters
+    ----------
+    path : str or Path
+        Text with separators, or a workbook with one sheet that holds cells; the first line names columns.
+    kind : TableKind
+        What it holds.
+
+    Returns
+    -------
+    tuple of MeasuredRow
+        In their order.
+
+    Raises
+    ------
+    InputError
+        ``file:row: column: what, and what to do``, for anything that is no number, unit or column known, for a field
+        that is missing or given twice.
+    """
+    grid = _grid(Path(path), kind)
+    lines = [line for line in grid.lines if not line.comment]
+    if len(lines) < 2:
+        raise InputError(
+            f"{path}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
+            "follows"
+        )
+    head, *rows = lines
+    if len(rows) > kind.most_rows:
+        raise InputError(
+            f"{path}: {len(rows)} rows, at most {kind.most_rows} are read; give means over longer times"
+        )
+    columns = _columns(grid, head, kind)
+    mark = _mark(grid, columns, rows)
+    return tuple(_row(grid, columns, row, len(head.cells), mark, kind) for row in rows)
+
+
+def _grid(path: Path, kind: TableKind) -> TextGrid:
+    """The lines of a text, or of the one sheet that holds cells."""
+    data = file_content(path, largest=LARGEST_FILE, expected=kind.what)
+    if data.startswith(MAGIC):
+        filled = [grid for grid in workbook_grids(data, path.name) if grid.lines]
+        if len(filled) != 1:
+            raise InputError(
+                f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone"
+            )
+        return filled[0]
+    text, _ = decoded(data, path.name)
+    written = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
+    separator = max("\t;,", key=first.count)
+    lines = []
+    for number, line in written:
+        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+        comment = line.lstrip().startswith("#")
+        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
+    return TextGrid(path.name, tuple(lines), ())
+
+
+def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
+    """The named columns, each known and there once."""
+    found: dict[str, _Head] = {}
+    for index, header in enumerate(head.cells):
+        column = _Head(index, header, kind)
+        if not column.field:
+            if header:
+                raise grid.refusal(
+                    head.number, index, f"not known; allowed: {', '.join(kind.columns)}, with a unit as in "
+                    f'{kind.example}; begin the name with "note" to have it left alone', header=header,
+                )  # fmt: skip
+            continue
+        if column.name != "note" and column.name in found:
+            raise grid.refusal(head.number, index, "is there twice; remove one of the two", header=header)
+        found.setdefault(column.name, column)
+    there = {column.field for column in found.values()}
+    missing = [wanted for field, wanted in kind.needed.items() if field not in there]
+    if missing:
+        raise grid.refusal(
+            head.number, 0, f"no column {' and none '.join(missing)}; name it as in {kind.example}"
+        )
+    return list(found.values())
+
+
+def _cells(row: TextLine, columns: list[_Head]) -> Iterator[tuple[_Head, str]]:
+    for column in columns:
+        cell = row.cells[column.index] if column.index < len(row.cells) else ""
+        if cell:
+            yield column, cell
+
+
+def _mark(grid: TextGrid, columns: list[_Head], rows: list[TextLine]) -> str:
+    """Decimal mark of all numbers together."""
+    numbers = [
+        (row, *each) for row in rows for each in _cells(row, columns) if each[0].unit and is_number(each[1])
+    ]
+    mark, doubtful = decimal_mark(cell for *_, cell in numbers)
+    if doubtful is not None:
+        row, column = next((row, column) for row, column, cell in numbers if cell == doubtful)
+        raise grid.refusal(
+            row.number, column.index, f"'{doubtful}' may have a decimal comma or one between thousands; write decimal "
+            "points and nothing between thousands", header=column.header,
+        )  # fmt: skip
+    return mark
+
+
+def _row(
+    grid: TextGrid, columns: list[_Head], row: TextLine, width: int, mark: str, kind: TableKind
+) -> MeasuredRow:
+    extra = next((i for i, cell in enumerate(row.cells) if cell and i >= width), None)
+    if extra is not None:
+        raise grid.refusal(row.number, extra, "a cell beyond the last header; name its column or remove it")
+    given: dict[str, Any] = {}
+    heads: dict[str, _Head] = {}
+    for column, cell in _cells(row, columns):
+        if column.field in given:
+            raise grid.refusal(
+                row.number, column.index, f"the row has a {heads[column.field].name} and a {column.name}; leave one of "
+                "the two empty", header=column.header,
+            )  # fmt: skip
+        heads[column.field] = column
+        try:
+            given[column.field] = _value(column, cell, mark)
+        except InputError as error:
+            raise grid.refusal(row.number, column.index, str(error), header=column.header) from None
+    for field, wanted in kind.needed.items():
+        if field not in given:
+            index = next(column.index for column in columns if column.field == field)
+            raise grid.refusal(
+                row.number, index, f"{wanted} is missing in the row; complete or delete the row"
+            )
+    return MeasuredRow(row.number, given, heads, grid)
+
+
+def _value(column: _Head, cell: str, mark: str) -> Any:
+    """A cell in the unit of its header, or in its own; text as it stands."""
+    meant = column.meant
+    if meant is None or not meant.kind:
+        return cell
+    if not column.unit:
+        return quantity(cell, meant.kind)
+    if not is_number(cell):
+        raise InputError(why_not_a_number(cell))
+    number = cell.replace(",", ".") if mark == "," else cell
+    kind = meant.share if meant.share and column.unit == "%" else meant.kind
+    return quantity(f"{number} {column.unit}", kind)

@@ -1,0 +1,79 @@
+"""Campaigns of rolling-resistance tests, .csv or .xlsx: units in the headers, one row a test point."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Final
+
+from conveyor.errors import InputError
+from conveyor.measured_table import Meant, MeasuredRow, TableKind, read_rows
+from conveyor.models.rolling_tests import RollingTest
+from conveyor.units import text
+
+_TESTS: Final = TableKind(
+    what="table of rolling-resistance tests",
+    one="test",
+    columns={
+        "line load": Meant("line_load", "line force"), "resistance": Meant("resistance", "line force"),
+        "indentation resistance": Meant("resistance", "line force"),
+        "rolling resistance": Meant("resistance", "line force"),
+        "roll diameter": Meant("roll_diameter", "length"), "drum diameter": Meant("roll_diameter", "length"),
+        "cover thickness": Meant("cover_thickness", "length"), "cover": Meant("cover_thickness", "length"),
+        "speed": Meant("speed", "speed"), "belt speed": Meant("speed", "speed"),
+        "temperature": Meant("temperature", "temperature"), "uncertainty": Meant("uncertainty", "fraction"),
+        "specimen": Meant("specimen", ""), "source": Meant("source", ""), "note": Meant("note", ""),
+    },
+    needed={
+        "line_load": "line load [N/mm]", "resistance": "resistance [N/m]", "roll_diameter": "roll diameter [mm]",
+        "cover_thickness": "cover thickness [mm]", "speed": "speed [m/s]", "temperature": "temperature [degC]",
+    },
+    example='"line load [N/mm],resistance [N/m],roll diameter [mm],cover thickness [mm],speed [m/s],'
+    'temperature [degC]"',
+)  # fmt: skip
+_ONE_TEST: Final = (
+    "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "specimen", "source", "note",
+)  # fmt: skip
+
+
+def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[RollingTest, ...]:
+    """Read a campaign of rolling-resistance tests, as DIN 22123, AS 1334.13 or CEMA-7 laboratories deliver them.
+
+    Parameters
+    ----------
+    path : str or Path
+        Table with a header: ``line load``, ``resistance``, ``roll diameter``, ``cover thickness``, ``speed``,
+        ``temperature``; further ``uncertainty`` (half-width that holds nine tenths of repeated tests), ``specimen``
+        (belt or rubber), ``source``, ``note``. Units stand in the headers, as in ``line load [N/mm]``.
+    source : str, optional
+        Of rows without one; the name of the file without it.
+
+    Returns
+    -------
+    tuple of RollingTest
+        One a roll, cover, speed and temperature, with all its line loads, in the order they first occur.
+
+    Raises
+    ------
+    InputError
+        ``file:row: column: what, and what to do``, for anything that is no number, unit or column known, or no test.
+    """
+    tests: dict[tuple[Any, ...], list[MeasuredRow]] = {}
+    for row in read_rows(path, _TESTS):
+        _plausible(row)
+        tests.setdefault(tuple(str(row.given.get(field)) for field in _ONE_TEST), []).append(row)
+    return tuple(_test(rows, source or Path(path).name) for rows in tests.values())
+
+
+def _plausible(row: MeasuredRow) -> None:
+    """One row as a test of its own: a wrong unit is told at its row."""
+    try:
+        _test([row], "row")
+    except InputError as error:
+        raise row.refusal(str(error), "resistance" if "line load" in str(error) else None) from None
+
+
+def _test(rows: list[MeasuredRow], source: str) -> RollingTest:
+    given = {field: rows[0].given[field] for field in _ONE_TEST if field in rows[0].given}
+    data = {name: value if isinstance(value, str) else text(value) for name, value in given.items()}
+    lists = {field: [text(row.given[field]) for row in rows] for field in ("line_load", "resistance")}
+    return RollingTest.from_data({"source": source} | data | lists)
