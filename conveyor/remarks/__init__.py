@@ -68,7 +68,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
 def _of_case(check: Check, why: Said) -> Said:
     if check.case is None:
         return why
-    return Said(f"load case {check.case.words}: {why.words}", check.case.figures + why.figures)
+    return Said(f"{check.case.words}: {why.words}", check.case.figures + why.figures)
 
 
 def _rubber(conveyor: Conveyor) -> Iterator[Said]:

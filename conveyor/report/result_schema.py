@@ -72,9 +72,13 @@ _CHECK: Final = _of(
 
 _STATE: Final = _of(
     {
-        "power_kW": _NUMBER,
         "loaded_sections": _each(_TEXT),
+        "temperature_degC": _NUMBER,
+        "power_kW": _numbers("belt", "motor"),
+        "effective_tension_N": _NUMBER,
         "tensions_N": _of({}) | {"additionalProperties": _is("number", "string")},
+        "take_up_asked_N": _NUMBER,
+        "worst_for": _each(_TEXT),
     }
 )
 
@@ -105,7 +109,7 @@ _POWER: Final = _of(
         ),
         "take_up": _of(
             {"kind": _TEXT, "setting_N": _NUMBER, "least_setting_N": _NUMBER, "governed_by": _TEXT},
-            also={"mass_kg": _NUMBER_OR_NOT, "travel_m": _NUMBER_OR_NOT},
+            also={"mass_kg": _NUMBER_OR_NOT, "strands": _NUMBER, "travel_m": _NUMBER_OR_NOT},
         ),
         "energy": _of(
             {
@@ -146,7 +150,8 @@ _POWER: Final = _of(
     also={
         "states": _of(
             {}, also=dict.fromkeys(("empty", "full", "inclines", "declines", "worst"), _STATE), of="of load"
-        ),
+        )
+        | {"additionalProperties": _STATE},
         "load_cases": _of(
             {
                 "conveyor": _TEXT,

@@ -100,7 +100,7 @@ def plain_figure(value: float | None, kind: str) -> tuple[float | None, str]:
     >>> plain_figure(103.5e3, "power"), plain_figure(2.5e6, "belt strength"), plain_figure(None, "safety")
     ((103.5, 'kW'), (2500.0, 'N/mm'), (None, '-'))
     """
-    if kind == "belt strength":
+    if kind in {"belt strength", "belt rating"}:
         return None if value is None else value / 1e3, "N/mm"
     if kind in {"safety", "number"}:
         return value, "-"
