@@ -132,7 +132,8 @@ _POWER: Final = _of(
                     "working_strain": _NUMBER_OR_NOT,
                     "storage_factor": _NUMBER,
                     "loss_factor": _NUMBER,
-                }
+                },
+                also=dict.fromkeys(("level_factor", "level_from", "level_to"), _NUMBER_OR_NOT),
             )
         ),
         "sections": _each(
@@ -148,6 +149,18 @@ _POWER: Final = _of(
         "warnings": _texts("where one is strained, a default stands in, a criterion is not met"),
     },
     also={
+        "defaults": _of(
+            {},
+            also={
+                "motor_kW": _numbers("low", "high"),
+                "replace_first": _TEXT_OR_NOT,
+                "in_use": _each(
+                    {"type": "object", "additionalProperties": _is("number", "string", "boolean", "null")}
+                ),
+            },
+            of="defaults in use and the range of power they leave open",
+        )
+        | {"type": ["object", "null"]},
         "states": _of(
             {}, also=dict.fromkeys(("empty", "full", "inclines", "declines", "worst"), _STATE), of="of load"
         )
