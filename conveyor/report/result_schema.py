@@ -154,6 +154,7 @@ _POWER: Final = _of(
             also={
                 "motor_kW": _numbers("low", "high"),
                 "replace_first": _TEXT_OR_NOT,
+                "notes": _each(_TEXT),
                 "in_use": _each(
                     {"type": "object", "additionalProperties": _is("number", "string", "boolean", "null")}
                 ),
