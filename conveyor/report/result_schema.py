@@ -72,9 +72,13 @@ _CHECK: Final = _of(
 
 _STATE: Final = _of(
     {
-        "power_kW": _NUMBER,
         "loaded_sections": _each(_TEXT),
+        "temperature_degC": _NUMBER,
+        "power_kW": _numbers("belt", "motor"),
+        "effective_tension_N": _NUMBER,
         "tensions_N": _of({}) | {"additionalProperties": _is("number", "string")},
+        "take_up_asked_N": _NUMBER,
+        "worst_for": _each(_TEXT),
     }
 )
 
@@ -105,7 +109,7 @@ _POWER: Final = _of(
         ),
         "take_up": _of(
             {"kind": _TEXT, "setting_N": _NUMBER, "least_setting_N": _NUMBER, "governed_by": _TEXT},
-            also={"mass_kg": _NUMBER_OR_NOT, "travel_m": _NUMBER_OR_NOT},
+            also={"mass_kg": _NUMBER_OR_NOT, "strands": _NUMBER, "travel_m": _NUMBER_OR_NOT},
         ),
         "energy": _of(
             {
@@ -128,7 +132,8 @@ _POWER: Final = _of(
                     "working_strain": _NUMBER_OR_NOT,
                     "storage_factor": _NUMBER,
                     "loss_factor": _NUMBER,
-                }
+                },
+                also=dict.fromkeys(("level_factor", "level_from", "level_to"), _NUMBER_OR_NOT),
             )
         ),
         "sections": _each(
@@ -144,9 +149,23 @@ _POWER: Final = _of(
         "warnings": _texts("where one is strained, a default stands in, a criterion is not met"),
     },
     also={
+        "defaults": _of(
+            {},
+            also={
+                "motor_kW": _numbers("low", "high"),
+                "replace_first": _TEXT_OR_NOT,
+                "notes": _each(_TEXT),
+                "in_use": _each(
+                    {"type": "object", "additionalProperties": _is("number", "string", "boolean", "null")}
+                ),
+            },
+            of="defaults in use and the range of power they leave open",
+        )
+        | {"type": ["object", "null"]},
         "states": _of(
             {}, also=dict.fromkeys(("empty", "full", "inclines", "declines", "worst"), _STATE), of="of load"
-        ),
+        )
+        | {"additionalProperties": _STATE},
         "load_cases": _of(
             {
                 "conveyor": _TEXT,

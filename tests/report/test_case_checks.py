@@ -47,9 +47,11 @@ def case_of(check: Check) -> str:
 
 
 def test_a_case_is_checked_as_its_conveyor_alone(plain: CaseStudy) -> None:
-    """Calculated by itself, loaded and at the temperature of the case: the same criteria, the same figures."""
-    result = next(r for r in plain.results if r.case.loading == "empty")
-    alone = calculate(with_temperature(with_case(plain.conveyor, result.case), quantity("-20 degC")))
+    """Calculated by itself, loaded and at the temperature of the case, the take-up given: the same figures."""
+    route = plain.conveyor.route.as_data() | {"take_up": {"kind": "gravity", "tension": "80 kN"}}
+    given = study(route=route)
+    result = next(r for r in given.results if r.case.loading == "empty")
+    alone = calculate(with_temperature(with_case(given.conveyor, result.case), quantity("-20 degC")))
     expected = checks(alone)
     assert [(c.key, c.subject, c.verdict) for c in result.checks] == [
         (c.key, c.subject, c.verdict) for c in expected
@@ -231,6 +233,6 @@ def test_reports_say_what_is_not_to_design_by(cold: tuple[Analysis, CaseStudy]) 
     assert "winter, -25 °C" in contents["governing_cases"].note
     rows = {row.subject: row for row in contents["checks"].rows}
     assert rows["rubber data cover the excited band, carry"].case == "winter, -25 °C"
-    assert any(line.startswith("load case winter, -90 °C: ") for line in contents.lines("warning"))
+    assert any(line.startswith("winter, -90 °C: ") for line in contents.lines("warning"))
     kept = contents["case_checks"].frame()
     assert set(kept[kept["case"] == "winter, -25 °C"]["verdict"]) == {"FAIL", "not checked"}

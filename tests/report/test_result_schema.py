@@ -127,7 +127,10 @@ def test_checks_are_numbers_with_their_units(studied):
     """Every criterion of the conveyor and of each case, each pair of key and subject governed once."""
     result, asked = studied("overland_10km")
     told = result.to_dict(asked)["checks"]
-    assert len(told) == len(result.checks) + len(asked.cases.checks)
+    assert sum(row["case"] is None for row in told) == len(result.checks)
+    for result_of_case in asked.cases.results:
+        rows = [row for row in told if row["case"] == result_of_case.label.text()]
+        assert [row["key"] for row in rows] == [check.key for check in result_of_case.checks]
     governing = [(row["key"], row["subject"]) for row in told if row["governs"]]
     assert len(governing) == len(set(governing))
     assert set(governing) == {(row["key"], row["subject"]) for row in told}
