@@ -64,11 +64,10 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
     system, found = analysis.conveyor.report.units, checks(analysis)
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
     studied, drawn = of_studies(studies, system)
-    left_open = power_range(analysis)
     parts = (
         identity(analysis.conveyor, system),
-        results(analysis, left_open),
-        defaults(left_open, system),
+        results(analysis),
+        defaults(power_range(analysis), system),
         inputs(analysis.conveyor),
         sections(analysis),
         classical(analysis),
@@ -143,10 +142,11 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
+def results(a: CalculatedConveyor) -> Table:
     """Figures of the whole conveyor; the range of power where defaults leave one open."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
+    left_open = power_range(a)
     low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
     even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
@@ -958,7 +958,7 @@ def plain(a: CalculatedConveyor) -> dict[str, Any]:
         "assumptions": list(assumptions(a.conveyor)),
         "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, checks(a))],
     }
-    return placed(data, results(a, left_open).rows)
+    return placed(data, results(a).rows)
 
 
 def _estimate(found: Balance, made: Classical) -> dict[str, float]:
