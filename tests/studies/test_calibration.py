@@ -132,7 +132,7 @@ def test_empty_runs_at_one_temperature_tell_one_factor():
         in note
         for note in found.notes
     )
-    with pytest.raises(InputError, match="indentation; idler rotation: not told apart"):
+    with pytest.raises(InputError, match="indentation; idler rotation: the runs do not tell, a band wider"):
         conveyor.calibrate(given, runs, error=0.02, factors=["indentation", "idler_rotation"])
 
 
