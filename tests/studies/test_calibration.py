@@ -236,6 +236,10 @@ def test_what_cannot_be_calibrated_is_refused():
     with pytest.raises(InputError, match="1 runs for 2 factors: give as many runs as factors"):
         conveyor.calibrate(given, full, error=0.02, factors=["indentation", "idler_rotation"])
     with pytest.raises(
+        InputError, match=r"idler rotation: 2 runs at least are needed; with a stated error one less"
+    ):
+        conveyor.calibrate(given, full)
+    with pytest.raises(
         InputError, match="factors: got rubber, allowed: indentation, idler_rotation, flexure"
     ):
         conveyor.calibrate(given, full, factors=["rubber"])
