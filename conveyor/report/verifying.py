@@ -67,7 +67,7 @@ def lines(found: CalculatedVerification) -> Iterator[str]:
         yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=found.softened)}.'
     yield (
         "Figures follow from the compound's small-sample dynamic moduli. Those of a compound that holds tests of "
-        "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above such figures."
+        "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above them."
     )
     if found.conveyor is not None:
         yield (
