@@ -55,7 +55,7 @@ def test_calibrate_writes_every_table(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, "")
     book = openpyxl.load_workbook(tmp_path / "found.xlsx")
     assert book.sheetnames == ["Calibration"]
-    assert {"table_factors", "table_runs", "table_correlation", "table_notes"} <= set(book.defined_names)
+    assert {"table_factors", "table_runs", "table_notes"} <= set(book.defined_names)
 
 
 @pytest.mark.parametrize(

@@ -66,8 +66,8 @@ def lines(found: CalculatedVerification) -> Iterator[str]:
     for compound in found.compounds:
         yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=found.softened)}.'
     yield (
-        "Figures follow from the compound's small-sample dynamic moduli and are not scaled to rolling tests; published "
-        "tests of whole belts lie above such figures. That is what the empty columns are for."
+        "Figures follow from the compound's small-sample dynamic moduli. Those of a compound that holds tests of "
+        "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above them."
     )
     if found.conveyor is not None:
         yield (

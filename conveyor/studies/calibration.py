@@ -223,7 +223,7 @@ def calibrate(
         chi_square=found.chi_square,
         freedom=found.freedom,
         error=found.error,
-        estimated=scene.error is None and scene.stated is None,
+        estimated=scene.estimated,
         notes=tuple(relations),
     )
 
@@ -313,6 +313,11 @@ class _Scene:
     def curved(self) -> bool:
         """Whether tensions load the rolls."""
         return self.found[0].line.curved
+
+    @property
+    def estimated(self) -> bool:
+        """Whether errors are known from the differences only."""
+        return self.error is None and self.stated is None
 
     def solved_with(self, calibration: Calibration) -> bool:
         """Whether the contacts were solved under these factors, to the digits that are given."""
@@ -412,10 +417,14 @@ def _chosen(scene: _Scene, free: Group, *, wanted: bool) -> tuple[Grouping, _Fit
     for ways in _groupings(free):
         judged = sorted(((_expected_width(scene, way), way) for way in ways), key=lambda pair: pair[0])
         for width, way in judged:
+            fewest = len(way) + scene.estimated
+            if len(scene.measured) < fewest:
+                stated = "; with a stated error one less" if scene.estimated else ""
+                reasons.append(f"{_said(way)}: {fewest} runs at least are needed{stated}")
+                continue
             if width > TOLD_APART:
-                reasons.append(
-                    f"{_said(way)}: not told apart, a band of more than ±{TOLD_APART:g} is to be expected"
-                )
+                wide = f"a band wider than ±{TOLD_APART:g} is to be expected"
+                reasons.append(f"{_said(way)}: the runs do not tell, {wide}")
                 continue
             fit = _fit(scene, way)
             if isinstance(fit, _Fit):
@@ -433,12 +442,9 @@ def _expected_width(scene: _Scene, grouping: Grouping) -> float:
     """Widest half band of a grouping's factors before any residual is seen [-]; infinite where they cannot be told."""
     ones = [1.0] * len(grouping)
     power = scene.power(Calibration())
-    error = scene.sigma(power) * (TYPICAL_ERROR if scene.error is None and scene.stated is None else 1.0)
-    freedom = len(power) - len(grouping) - (scene.error is None and scene.stated is None)
-    if freedom < 0:
-        return math.inf
+    error = scene.sigma(power) * (TYPICAL_ERROR if scene.estimated else 1.0)
     weighed = scene.slopes(grouping, ones, power) / error[:, None]
-    if np.linalg.matrix_rank(weighed, tol=None) < len(grouping):
+    if np.linalg.matrix_rank(weighed) < len(grouping):
         return math.inf
     spread = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
     return float(_normal() * spread.max())
@@ -481,8 +487,7 @@ def _judged(
     sigma, freedom = scene.sigma(power), len(power) - len(values)
     chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
     error, ends, notes = scene.error, _normal(), []
-    estimated = scene.error is None and scene.stated is None
-    if estimated:
+    if scene.estimated:
         error = math.sqrt(chi_square / freedom)
         sigma, chi_square, ends = error * sigma, float(freedom), _student(freedom)
     elif freedom > 0 and chdtrc(freedom, chi_square) < POOR_FIT:
@@ -506,7 +511,7 @@ def _judged(
     correlation = covariance / np.outer(spread, spread)
     stated = None if scene.stated is not None else error
     return _Fit(
-        _calibration(grouping, values), factors, correlation, power, scene.sigma(power) if not estimated else sigma,
+        _calibration(grouping, values), factors, correlation, power, sigma if scene.estimated else scene.sigma(power),
         chi_square, freedom, stated, tuple(notes),
     )  # fmt: skip
 

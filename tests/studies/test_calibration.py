@@ -17,8 +17,8 @@ from conveyor.spec import dump, from_data
 from conveyor.units import from_si
 from tests.loop.loop_lines import DOWN, data, line
 
-QUICK = {"rtol": 1e-4, "strain": "off"}
-BY_LAW = QUICK | {"flexure": {"belt": {"loss_tangent": 0.2}}}
+QUICK = {"rtol": 1e-4, "strain": "off", "flexure_share": "11 %"}
+BY_LAW = {"rtol": 1e-4, "strain": "off", "flexure": {"belt": {"loss_tangent": 0.2}}}
 EMPTY_AND_FULL = [(flow, warmth) for flow in (0, 600, 1200) for warmth in (0, 15, 30)]
 TRAIN = [{"name": "gear", "efficiency": "94 %"}, {"name": "motor", "efficiency": "95 %", "side": "mains"}]
 
@@ -132,7 +132,7 @@ def test_empty_runs_at_one_temperature_tell_one_factor():
         in note
         for note in found.notes
     )
-    with pytest.raises(InputError, match="indentation; idler rotation: not told apart"):
+    with pytest.raises(InputError, match="indentation; idler rotation: the runs do not tell, a band wider"):
         conveyor.calibrate(given, runs, error=0.02, factors=["indentation", "idler_rotation"])
 
 
@@ -235,6 +235,10 @@ def test_what_cannot_be_calibrated_is_refused():
     full, empty = states((1200, 15)), states((0, 15), (0, 30))
     with pytest.raises(InputError, match="1 runs for 2 factors: give as many runs as factors"):
         conveyor.calibrate(given, full, error=0.02, factors=["indentation", "idler_rotation"])
+    with pytest.raises(
+        InputError, match=r"idler rotation: 2 runs at least are needed; with a stated error one less"
+    ):
+        conveyor.calibrate(given, full)
     with pytest.raises(
         InputError, match="factors: got rubber, allowed: indentation, idler_rotation, flexure"
     ):

@@ -21,9 +21,9 @@ ONE = {"temperatures": ["20 degC"], "roll_diameters": ["219 mm"], "speeds": ["5 
 
 
 def test_figures_are_those_of_a_single_contact():
-    found = conveyor.verify_sheet(["standard-cover"], line_loads=["1 N/mm", "8 N/mm"], **ONE)
+    found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm", "8 N/mm"], **ONE)
     (row,) = found.rows
-    compound = shelf.compound("standard-cover")
+    compound = shelf.compound("s100")
     roll = RollContact(0.1095, SPACING, 0.007, 5.0, compound.series(293.15), compound.poisson_ratio)
     for load, resistance in zip((1e3, 8e3), row.resistances, strict=True):
         # a load curve is good to its rtol of 1e-6, the single contact to its own
