@@ -131,7 +131,7 @@ def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
         )
     columns = _columns(grid, head, kind)
     mark = _mark(grid, columns, rows)
-    return tuple(_row(grid, columns, row, len(head.cells), mark, kind) for row in rows)
+    return tuple(_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows)
 
 
 def _grid(path: Path, kind: TableKind) -> TextGrid:
@@ -203,7 +203,7 @@ def _mark(grid: TextGrid, columns: list[_Head], rows: list[TextLine]) -> str:
 
 
 def _row(
-    grid: TextGrid, columns: list[_Head], row: TextLine, width: int, mark: str, kind: TableKind
+    grid: TextGrid, columns: list[_Head], row: TextLine, *, width: int, mark: str, kind: TableKind
 ) -> MeasuredRow:
     extra = next((i for i, cell in enumerate(row.cells) if cell and i >= width), None)
     if extra is not None:
