@@ -327,7 +327,7 @@ def test_us_units_give_the_same_si_values() -> None:
         "mm": ("in", 1 / 25.4), "m": ("ft", 1 / foot), "km": ("ft", 1000 / foot), "m/s": ("fpm", 60 / foot),
         "kg": ("lb", 1 / pound), "t": ("short_ton", 1000 / pound / 2000), "kg/m^2": ("lb/ft^2", foot**2 / pound),
         "kg/m^3": ("lb/ft^3", foot**3 / pound), "t/h": ("short_ton/h", 1000 / pound / 2000),
-        "N/mm": ("PIW", 25.4 / (pound * 9.80665)), "degC": ("degF", 1.8), "deg": ("rad", math.pi / 180),
+        "N/mm": ("lbf/in", 25.4 / (pound * 9.80665)), "degC": ("degF", 1.8), "deg": ("rad", math.pi / 180),
         "kW": ("hp", 1000 / (550 * foot * pound * 9.80665)), "h": ("min", 60.0),
         "kPa": ("psi", 1000 * 0.0254**2 / (pound * 9.80665)), "MPa": ("psi", 1e6 * 0.0254**2 / (pound * 9.80665)),
     }  # fmt: skip

@@ -22,7 +22,7 @@ from conveyor.units import System
 
 _MADE: Final = Path("template.xlsx")
 _ROUTE: Final[dict[System, dict[str, str]]] = {
-    "SI": {"length": "4 km", "lift": "45 m"},
+    "SI": {"length": "4000 m", "lift": "45 m"},
     "US": {"length": "13500 ft", "lift": "150 ft"},
 }
 """The one section that a template opens with."""

@@ -33,7 +33,9 @@ from conveyor.template.write import write_template
 
 @pytest.fixture(scope="session")
 def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_template(tmp_path_factory.mktemp("template") / "pristine.xlsx")
+    """A workbook of the ten sections of an example."""
+    given = spec.load(Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml")
+    return write_template(tmp_path_factory.mktemp("template") / "pristine.xlsx", given)
 
 
 @pytest.fixture
