@@ -11,8 +11,11 @@ from conveyor import anchoring, shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
 from conveyor.rolling_tests import read_rolling_tests
+from tests.test_cli import run
 
-HEAD = "line load [N/mm];resistance [N/m];roll diameter [mm];cover thickness [mm];speed [m/s];temperature [degC]"
+HEAD = (
+    "line load [N/mm];resistance [N/m];roll diameter [mm];cover thickness [mm];speed [m/s];temperature [degC]"
+)
 
 
 @pytest.fixture(scope="module")
@@ -77,21 +80,30 @@ def test_scatter_of_the_transfer_is_the_band(carrier, tmp_path):
     found = anchoring.anchored(carrier, tests, softened=False)
     assert found.compound.carrier is None
     # residuals are half of ln 1.1 everywhere: 12 rows, 3 parameters
-    assert found.anchor.half_width == pytest.approx(1.644854 * 0.5 * math.log(1.1) * math.sqrt(12 / 9), rel=5e-3)
+    assert found.anchor.half_width == pytest.approx(
+        1.644854 * 0.5 * math.log(1.1) * math.sqrt(12 / 9), rel=5e-3
+    )
     assert any("4 tests" in line for line in anchoring.lines(found))
 
 
 def test_units_of_the_headers(tmp_path):
     path = tmp_path / "us.csv"
-    head = "line load [lbf/in],rolling resistance [lbf/in],drum diameter [in],cover [in],belt speed [fpm],temperature [degF]"
-    path.write_text(f"{head},uncertainty [%],specimen\n20,0.2,6,0.25,900,68,8,rubber\n", encoding="utf-8")
+    head = "line load [lbf/in],rolling resistance [lbf/in],drum diameter [in],cover [in],belt speed [fpm]"
+    path.write_text(
+        f"{head},temperature [degF],uncertainty [%],specimen\n20,0.2,6,0.25,900,68,8,rubber\n",
+        encoding="utf-8",
+    )
     (test,) = read_rolling_tests(path)
     points = test.points()
     assert points.line_load == pytest.approx([20.0 * 4.4482216152605 / 0.0254])
     assert points.resistance == pytest.approx([0.2 * 4.4482216152605 / 0.0254])
     assert (points.radius, points.cover_thickness) == pytest.approx((0.0762, 0.00635))
     assert (points.speed, points.temperature) == pytest.approx((4.572, 293.15))
-    assert (test.specimen, test.relative_uncertainty, test.source) == ("rubber", pytest.approx(0.08), "us.csv")
+    assert (test.specimen, test.relative_uncertainty, test.source) == (
+        "rubber",
+        pytest.approx(0.08),
+        "us.csv",
+    )
 
 
 @pytest.mark.parametrize(
@@ -121,21 +133,21 @@ def test_no_test_is_refused(carrier):
         anchoring.anchored(carrier, [])
 
 
-def test_the_command_writes_a_compound_that_specs_take(carrier, tmp_path, run_cli):
+def test_the_command_writes_a_compound_that_specs_take(carrier, tmp_path):
     table = tmp_path / "campaign.csv"
     table.write_text(campaign(carrier, POINTS, lambda *_: 1.7), encoding="utf-8")
     own = tmp_path / "carrier.yaml"
     own.write_text(shelf.dump(carrier), encoding="utf-8")
     out = tmp_path / "acme-x.yaml"
-    done = run_cli("anchor", own, "--tests", table, "--name", "acme-x", "-o", out)
+    done = run("anchor", own, "--tests", table, "--name", "acme-x", "-o", out)
     assert done.returncode == 0, done.stderr
     for said in ("measured", "theory", "ratio", "1.700", "12 points of 4 tests"):
         assert said in done.stdout
     compound = shelf.compound(out)
     assert (compound.carrier, len(compound.tests)) == ("standard-cover", 4)
-    told = json.loads(run_cli("anchor", own, "--tests", table, "--json").stdout)
+    told = json.loads(run("anchor", own, "--tests", table, "--json").stdout)
     assert told["carrier"] is None
     assert [round(row["factor_in_the_middle"], 3) for row in told["levels"]] == [1.7, 1.7]
-    refused = run_cli("anchor", own, "--tests", table, "-o", table)
+    refused = run("anchor", own, "--tests", table, "-o", table)
     assert refused.returncode == 2
     assert table.read_text(encoding="utf-8").startswith("line load")

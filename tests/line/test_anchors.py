@@ -87,9 +87,7 @@ def test_softened_theory_between_its_loads_is_the_softened_contact():
     compound = shelf.compound("s100").replace(tests=[one_test((1.0, 8.0), (2.0, 16.0), (5.0, 60.0))])
     rows = anchor_rows(compound, softened=True)
     alone = [
-        anchor_rows(shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True)[
-            0
-        ]
+        anchor_rows(shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True)[0]
         for load_ in (1.0, 2.0, 5.0)
     ]
     for row, single in zip(rows, alone, strict=True):
