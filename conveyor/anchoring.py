@@ -95,14 +95,34 @@ def levels(found: Anchored) -> Table:
     """One row a tested temperature: the factor over the loads, and its band."""
     low, high = found.anchor.loads
     columns = (
-        Column("temperature", "temperature", lambda at: at),
-        Column("factor at lowest load", "factor", lambda at: float(found.anchor.factor(low, at))),
+        Column("temperature", "temperature", lambda at: at, json="temperature_degC"),
+        Column(
+            "factor at lowest load",
+            "factor",
+            lambda at: float(found.anchor.factor(low, at)),
+            json="factor_low",
+        ),
         Column(
             "factor in the middle", "factor", lambda at: float(found.anchor.factor(found.anchor.load, at))
         ),
-        Column("factor at highest load", "factor", lambda at: float(found.anchor.factor(high, at))),
-        Column("band, down", "share", lambda at: math.expm1(-found.anchor.band(found.anchor.load, at))),
-        Column("band, up", "share", lambda at: math.expm1(found.anchor.band(found.anchor.load, at))),
+        Column(
+            "factor at highest load",
+            "factor",
+            lambda at: float(found.anchor.factor(high, at)),
+            json="factor_high",
+        ),
+        Column(
+            "band, down",
+            "share",
+            lambda at: math.expm1(-found.anchor.band(found.anchor.load, at)),
+            json="band_down",
+        ),
+        Column(
+            "band, up",
+            "share",
+            lambda at: math.expm1(found.anchor.band(found.anchor.load, at)),
+            json="band_up",
+        ),
     )
     rows = tuple(found.anchor.temperatures.tolist())
     return Table("levels", SHEET, "Measured over calculated, nine tenths within the band", columns, rows)
@@ -113,15 +133,15 @@ def rows(found: Anchored) -> Table:
     tests = found.compound.tests
     points = [test.points() for test in tests]
     columns = (
-        Column("line load", "line force", attrgetter("line_load")),
-        Column("roll", "size", lambda row: 2.0 * points[row.test].radius),
-        Column("cover", "size", lambda row: points[row.test].cover_thickness),
-        Column("speed", "speed", lambda row: points[row.test].speed),
-        Column("temperature", "temperature", attrgetter("temperature")),
-        Column("measured", "line force", attrgetter("measured")),
-        Column("theory", "line force", attrgetter("calculated")),
-        Column("ratio", "factor", lambda row: row.measured / row.calculated),
-        Column("left", "share", found.left),
+        Column("line load", "line force", attrgetter("line_load"), json="line_load_N_per_m"),
+        Column("roll", "size", lambda row: 2.0 * points[row.test].radius, json="roll_mm"),
+        Column("cover", "size", lambda row: points[row.test].cover_thickness, json="cover_mm"),
+        Column("speed", "speed", lambda row: points[row.test].speed, json="speed_m_per_s"),
+        Column("temperature", "temperature", attrgetter("temperature"), json="temperature_degC"),
+        Column("measured", "line force", attrgetter("measured"), json="measured_N_per_m"),
+        Column("theory", "line force", attrgetter("calculated"), json="theory_N_per_m"),
+        Column("ratio", "factor", lambda row: row.measured / row.calculated, json="ratio"),
+        Column("left", "share", found.left, json="left"),
     )
     return Table("tests", SHEET, "Tests beside the theory", columns, found.rows)
 
@@ -151,8 +171,8 @@ def plain(found: Anchored) -> dict[str, Any]:
     return {
         "compound": found.compound.name,
         "carrier": found.compound.carrier,
-        "levels": levels(found).records(),
+        "levels": levels(found).plain(),
         "exponent": found.anchor.slope,
-        "tests": rows(found).records(),
+        "tests": rows(found).plain(),
         "notes": list(lines(found)),
     }

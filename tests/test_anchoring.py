@@ -147,7 +147,7 @@ def test_the_command_writes_a_compound_that_specs_take(carrier, tmp_path):
     assert (compound.carrier, len(compound.tests)) == ("standard-cover", 4)
     told = json.loads(run("anchor", own, "--tests", table, "--json").stdout)
     assert told["carrier"] is None
-    assert [round(row["factor_in_the_middle"], 3) for row in told["levels"]] == [1.7, 1.7]
+    assert [round(row["factor"], 3) for row in told["levels"]] == [1.7, 1.7]
     refused = run("anchor", own, "--tests", table, "-o", table)
     assert refused.returncode == 2
     assert table.read_text(encoding="utf-8").startswith("line load")
