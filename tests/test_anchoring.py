@@ -23,8 +23,9 @@ def carrier():
     return shelf.compound("standard-cover").replace(strain_dependence=None, tests=())
 
 
-def theory(carrier, load, diameter, cover, speed, celsius) -> float:
+def theory(carrier, *point) -> float:
     """Resistance per width of one roll [N/m], load in N/mm, lengths in mm."""
+    load, diameter, cover, speed, celsius = point
     rubber = carrier.series(celsius + 273.15)
     contact = RollContact(5e-4 * diameter, 1.0, 1e-3 * cover, speed, rubber)
     return float(indentation_resistance(contact, 1e3 * load).resistance)
