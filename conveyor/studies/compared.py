@@ -245,7 +245,7 @@ def ends(values: ArrayLike) -> tuple[float, float]:
     >>> [round(end, 9) for end in ends(range(101))]
     [5.0, 95.0]
     """
-    low, high = np.quantile(values, (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
+    low, high = np.quantile(np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
     return float(low), float(high)
 
 
