@@ -257,6 +257,17 @@ def test_workbook_and_figures(compared, tmp_path):
         assert (tmp_path / "p.svg").stat().st_size > 5000
 
 
+def test_the_power_axis_begins_at_a_round_figure_below_the_least(line, tmp_path):
+    names = ["low-rolling-resistance-cover", "standard-cover"]
+    found = conveyor.compare_compounds(line, names, temperatures=["15 degC", "20 degC"])
+    least = min(scene.motor for scene in found.scenes) / 1e3
+    (chart,) = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))["Power"]._charts
+    begin = chart.y_axis.scaling.min
+    # 95 % of the least, rounded down to a tenth of its decade, which is a tenth of the least at the most
+    assert 0.85 * least < begin <= 0.95 * least
+    assert begin == float(f"{begin:.2g}")
+
+
 def test_figures_are_saved_as_pictures_only(compared, tmp_path):
     from conveyor.report import plots
 
