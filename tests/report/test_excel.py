@@ -49,6 +49,23 @@ def test_sheets_and_charts(book):
     assert charts["Rubber"] == 2
 
 
+def test_facts_of_the_cover_stand_over_lines(book):
+    sheet = openpyxl.load_workbook(book)["Summary"]
+    rows = {sheet.cell(i, 1).value: i for i in range(1, sheet.max_row + 1)}
+
+    def lined(row):
+        return "".join(cell.column_letter for cell in sheet[row] if cell.border.bottom.style)
+
+    assert lined(rows["length [m]"]) == "ABDEFG"  # figures on the left, words on the right, nothing between
+    first = rows["Tensions and power"] + 1
+    assert lined(first + 1) == "AB"
+    assert [cell.font.b for cell in sheet[first][:2]] == [True, True]
+    assert [cell.font.b for cell in sheet[first + 1][:2]] == [False, False]
+    # the note of the classical estimate is as wide as its table
+    (note,) = [cell for cell in sheet["D"] if str(cell.value).startswith("classical secondary")]
+    assert sheet.cell(note.row - 1, 4).value == "motor power [kW]"
+
+
 def _beneath(sheet, chart):
     """Cells under a chart: its corner, and as many columns and rows as its size takes."""
     corner = chart.anchor._from

@@ -242,6 +242,13 @@ def test_refused_scenes_are_listed_and_not_averaged(line, tmp_path):
     assert len(written_tables(found, tmp_path)["refused"]) == len(found.refused)
 
 
+def test_without_a_temperature_that_all_answer_the_workbook_says_so(line, tmp_path):
+    found = conveyor.compare_compounds(line, ["s100", "standard-cover"], temperatures=["-90 degC"])
+    assert not found.scenes
+    book = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))
+    assert book["Power"]["A1"].value == "No temperature that every compound has an answer for"
+
+
 def test_workbook_and_figures(compared, tmp_path):
     book = openpyxl.load_workbook(compared.to_excel(tmp_path / "c.xlsx"))
     assert book.sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
