@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -171,6 +172,9 @@ def test_the_first_step_on_curves_is_never_the_last(hill):
     first = converged(None, steady, steady, hill.line, steady.largest)
     assert (first.steps, first.change) == (1, 0.0)
     assert not first.settled(hill.line.rtol)
+    second = converged(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
+    assert (second.steps, second.ratio) == (2, 0.0)
+    assert second.settled(hill.line.rtol)
 
 
 def test_safety_and_diameters():
