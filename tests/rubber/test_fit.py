@@ -10,6 +10,7 @@ import pytest
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
+from conveyor.rubber.misfit import scatter
 
 SHELF = Path(__file__).parents[2] / "materials"
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 13), np.logspace(-10, 2, 13))
@@ -273,6 +274,12 @@ def test_penalty_smooths_and_vanishes() -> None:
     assert np.all(np.diff(residual) >= -1e-9 * residual[0])
     # all that is free under an infinite one: E_e and a straight line of H/H0 over ln tau
     assert freedom[-1] == pytest.approx(3.0, abs=0.05)
+
+
+def test_the_middle_of_three_rows_of_one_frequency_is_held_to_the_mean_of_the_others() -> None:
+    # ln: 0, 0, 0.3: the middle one is 0.15 below the mean, whose variance with its own is 1 + 1/4 + 1/4
+    modulus = 1e6 * np.exp([0.0, 0.0, 0.3])
+    assert scatter(np.ones(3), modulus) == pytest.approx(0.15 / np.sqrt(1.5), rel=1e-9)
 
 
 def test_scatter_is_told_from_misfit() -> None:
