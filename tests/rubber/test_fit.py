@@ -11,6 +11,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
 from conveyor.rubber.misfit import scatter
+from conveyor.rubber.rows import Rows, relative_to_fit
 
 SHELF = Path(__file__).parents[2] / "materials"
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 13), np.logspace(-10, 2, 13))
@@ -116,6 +117,13 @@ def test_held_equilibrium_allows_slow_times() -> None:
     np.testing.assert_allclose(fit.series.moduli[:13], TRUTH.moduli, rtol=1e-9)
     with pytest.raises(InputError, match=r"times: 100000 s is outside the window .* hold equilibrium=<Pa>"):
         fit_prony(f, e1, e2, times=[1.0, 1e5])
+
+
+def test_exact_data_are_their_own_fit_with_the_plateau_held() -> None:
+    f, e1, e2 = data(TRUTH, FREQUENCY)
+    rows = Rows(f, e1, e2, np.concatenate([e1, e2]))
+    found = relative_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
+    np.testing.assert_allclose(found.scale, rows.scale, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
