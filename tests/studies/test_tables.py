@@ -258,6 +258,7 @@ def test_workbook_and_figures(compared, tmp_path):
     written = [book["Scenes"].cell(3 + k, column).value for k in range(len(compared.scenes))]
     assert written == pytest.approx([s.motor / 1e3 for s in compared.scenes])
     assert len(book["Power"]._charts) == len(SPEEDS)
+    assert book["Notes"]["A1"].value == "Compounds"
     for figure in (compared.plots.power_against_temperature(), compared.plots.power_against_speed()):
         assert len(figure.axes[0].lines) == len(NAMES)
         figure.savefig(tmp_path / "p.svg")
