@@ -257,6 +257,9 @@ def test_no_more_terms_than_the_data_support() -> None:
 def test_table_of_the_criterion() -> None:
     fit = fit_prony(*noisy(0.02, 2))
     chosen, *others = fit.candidates
+    # strengths a decade apart, from none to one that follows E'' smoothed over a decade
+    strengths = sorted({line.regularisation for line in fit.candidates} - {0.0})
+    assert np.log10(strengths) == pytest.approx(np.arange(-4.0, 2.0), abs=1e-9)
     assert (chosen.regularisation, chosen.terms) == (fit.regularisation, fit.active_terms)
     assert chosen.residual == pytest.approx(fit.residual, rel=1e-9)
     assert chosen.freedom == pytest.approx(fit.freedom, rel=1e-9)
