@@ -110,6 +110,8 @@ def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
         line.carry_compound, si(line.ambient.belt), result.contacts, ("carry", "return")
     )
     assert len(figure.axes) == 2
+    sizes = {text.get_fontsize() for axis in figure.axes for text in axis.get_legend().get_texts()}
+    assert len(sizes) == 1
     for axis in figure.axes:
         spans = {p.get_label(): p for p in axis.patches if isinstance(p, Rectangle)}
         assert len(spans) == 2
