@@ -270,6 +270,15 @@ def test_table_of_the_criterion() -> None:
     assert fit_prony(*noisy(0.02, 2), times=TRUTH.times).candidates == ()
 
 
+def test_the_criterion_is_formed_wherever_it_exists() -> None:
+    # its denominator is n - p - 2: six data and nearly four parameters of a penalised spectrum leave little of it
+    truth = PronySeries(3e6, [2e6, 1e6, 2e6], [1e-2, 1e-1, 1.0])
+    left = [
+        6.0 - line.freedom - 2.0 for line in fit_prony(*data(truth, np.logspace(-1.5, 1.5, 3))).candidates
+    ]
+    assert 0.0 < min(left) < 1.0
+
+
 def test_penalty_smooths_and_vanishes() -> None:
     f, e1, e2 = noisy(0.05, 7)
     freedom, residual = [], []
