@@ -206,7 +206,7 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
     creeps = [instantly_relaxed(problem.creep) for problem in problems]
     grade = grades_for(rtol)[0]
     curves: dict[int, LoadCurve] = {}
-    for members in alike(problems, creeps):
+    for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         high = guess(group)
         light = lowest[members]

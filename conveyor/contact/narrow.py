@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.belt import BeltSupport
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     ENERGY_OVER_ERROR,
@@ -60,7 +59,6 @@ _NEWTON_STEPS = 3  # of the nearly straight cubic; every move goes on from the l
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: mismatch of load that may be left; friction feels a third of it
 _LOAD_FELT = 1.5  # times β, whose value of order 8 is good to a tenth
-_TIMES = 1e100  # squares of larger retardation numbers overflow
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
 _WIDE_CHUNK = 16  # wide ones have several times the nodes
@@ -119,7 +117,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
     outcomes: list[Outcome | Left] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
     grade = grades_for(rtol)[0]
-    for members in alike(problems, creeps) if rtol >= FINE_FROM else []:
+    for members in alike(problems) if rtol >= FINE_FROM else []:
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
         alpha = guess(group)
@@ -156,20 +154,11 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
             yield same[start : start + step]
 
 
-def plain(problem: ContactProblem, creep: CreepSpectrum) -> bool:
-    """Whether the scene's retardation numbers can be squared."""
-    times = [creep.times]
-    if isinstance(problem.support, BeltSupport):
-        times.append(problem.support.top_creep.times)
-    return all(float(zeta.max(initial=0.0)) < _TIMES for zeta in times)
-
-
-def alike(problems: Sequence[ContactProblem], creeps: Sequence[CreepSpectrum]) -> Iterable[list[int]]:
+def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
     """Places of the scenes that can be solved side by side."""
     kinds: dict[type, list[int]] = {}
-    for i, (problem, creep) in enumerate(zip(problems, creeps, strict=True)):
-        if plain(problem, creep):
-            kinds.setdefault(kind(problem.layer), []).append(i)
+    for i, problem in enumerate(problems):
+        kinds.setdefault(kind(problem.layer), []).append(i)
     return kinds.values()
 
 

@@ -94,9 +94,10 @@ def _findings(
     if count >= FEWEST_FREQUENCIES:
         yield from _contradiction(frequency, storage, loss, shear)
     if count < FEWEST_FREQUENCIES or round(decades, 6) < LEAST_DECADES:
+        span = f"{decades:.2g}"
         yield Finding(
             "few-rows",
-            f"{count} frequencies over {decades:.2g} decades; a series needs {FEWEST_FREQUENCIES} over "
+            f"{count} frequencies over {span} decade{'s' * (span != '1')}; a series needs {FEWEST_FREQUENCIES} over "
             f"{LEAST_DECADES:g}: measure more frequencies, or more temperatures",
         )
     lowest, highest = float(storage.min()), float(storage.max())

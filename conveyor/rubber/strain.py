@@ -93,35 +93,6 @@ class StrainSweep:
                 "divide percentages by 100"
             )
 
-    def strain_at(self, storage: float) -> float:
-        """Strain amplitude at which the sweep shows a storage modulus, e.g. that of a master curve of unknown strain.
-
-        Parameters
-        ----------
-        storage : float
-            E' at the temperature and frequency of the sweep [Pa].
-
-        Returns
-        -------
-        float
-            Single strain amplitude, the smallest where there are several [-].
-
-        Raises
-        ------
-        RangeError
-            The sweep does not show this modulus.
-        """
-        from scipy.interpolate import PchipInterpolator
-
-        curve = PchipInterpolator(np.log(self.strain), self.storage - positive("storage", storage, "Pa"))
-        found = np.asarray(curve.roots(extrapolate=False), dtype=np.float64)
-        if found.size == 0:
-            raise RangeError(
-                f"storage = {storage:.4g} Pa: the sweep at {self.temperature:.2f} K shows {self.storage.min():.4g} "
-                f"to {self.storage.max():.4g} Pa; give the strain of the measurement itself"
-            )
-        return float(np.exp(found.min()))
-
 
 @dataclass(frozen=True, eq=False)
 class _Run:
@@ -240,14 +211,6 @@ class AmplitudeFactors:
     def nearest(self, temperature: float) -> float:
         """Temperature whose factors stand for one [K]: itself inside the sweeps, else that of the nearest."""
         return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
-
-    @property
-    def strain_range(self) -> tuple[float, float]:
-        """Lowest and largest strain amplitude that every sweep covers [-]."""
-        return (
-            max(float(sweep.strain[0]) for sweep in self.sweeps),
-            min(float(sweep.strain[-1]) for sweep in self.sweeps),
-        )
 
     def storage(self, strain: ArrayLike, temperature: float) -> FloatArray:
         """Factor of E'.

@@ -9,8 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from conveyor.contact import solve_many
 from conveyor.indentation import to_problem
@@ -22,7 +24,8 @@ from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
-_BAND = (0.05, 0.95)  # quantiles of the replicas: nine tenths lie between
+COVERED: Final = 0.9
+"""Share of what may be that a range or a band holds."""
 
 
 @dataclass(frozen=True)
@@ -236,7 +239,18 @@ def _band(
     contact, load = roll.curve.contact, roll.load.peak_line_load
     problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
-    low, high = np.quantile(friction[1:] / friction[0], _BAND)
+    return ends(friction[1:] / friction[0])
+
+
+def ends(values: ArrayLike) -> tuple[float, float]:
+    """Quantiles of what may be, between which nine tenths of it lie.
+
+    Examples
+    --------
+    >>> [round(end, 9) for end in ends(range(101))]
+    [5.0, 95.0]
+    """
+    low, high = np.quantile(np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
     return float(low), float(high)
 
 

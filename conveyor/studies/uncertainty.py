@@ -25,12 +25,11 @@ from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
+from conveyor.studies.compared import COVERED, ends
 from conveyor.units import Quantity, display, from_si, text
 
 Array = NDArray[np.float64]
 
-COVERED: Final = 0.9
-"""Share of what may be that a range or a band holds."""
 END: Final = float(ndtri(0.5 + 0.5 * COVERED))
 """Standard deviations from the middle of a range to its ends, normal."""
 SAMPLES: Final = 4096
@@ -180,7 +179,7 @@ def study(
     for variation in variations:
         mine = powers[at : at + len(variation.variants)]
         at += len(variation.variants)
-        low, high = _ends(mine) if variation.replicas else (mine[0], mine[1])
+        low, high = ends(mine) if variation.replicas else (mine[0], mine[1])
         effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
     effects.sort(key=lambda effect: -effect.swing)
     return CalculatedRanges(
@@ -197,12 +196,6 @@ def _answer(found: CalculatedConveyor | NoAnswer) -> CalculatedConveyor:
     if not isinstance(found, CalculatedConveyor):
         raise found
     return found
-
-
-def _ends(powers: Sequence[float]) -> tuple[float, float]:
-    """Quantiles of the replicas' powers."""
-    low, high = np.quantile(powers, (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
-    return float(low), float(high)
 
 
 def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, float]:
@@ -255,8 +248,7 @@ def hypercube_band(
         strata = (rng.permutation(samples) + rng.random(samples)) / samples
         z: Array = ndtri(strata) / END
         power += np.where(z < 0.0, z * (motor - effect.motor_low), z * (effect.motor_high - motor))
-    low, high = np.quantile(power, (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
-    return float(low), float(high)
+    return ends(power)
 
 
 def _variations(

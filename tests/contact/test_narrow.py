@@ -15,10 +15,12 @@ from conveyor.contact import (
     Free,
     HalfSpace,
     Status,
+    load,
+    narrow,
     solve,
     solve_many,
 )
-from conveyor.contact.checks import WRAPPED
+from conveyor.contact.checks import WRAPPED, pulling_and_pressing
 from conveyor.contact.creep import Creeps
 from conveyor.contact.layers import Layers
 from conveyor.contact.narrow import Left, solve_narrow
@@ -26,9 +28,37 @@ from conveyor.contact.quadrature import build_rule
 from conveyor.contact.scene import Scene
 from conveyor.contact.short_rule import CAPS, COARSE, FINE, _moments, _width, short_rule
 from conveyor.contact.single import by_half_width
-from conveyor.contact.spectral import assemble
+from conveyor.contact.spectral import Contact, assemble
 
 SUPPORTS = ("free", "confined", "half-space")
+
+
+@pytest.mark.parametrize("pressure", [1e-6, 1e-3, 0.05, 0.14])
+def test_an_elastic_half_space_is_guessed_as_hertz_has_it(pressure):
+    # p̃_m = α²/(4ρ²) is a straight line of logarithms: nothing is lost between the points of the tables
+    problem = ContactProblem("half-space", 0.3, pressure, CreepSpectrum(1.0))
+    hertz = 2.0 * problem.rho * np.sqrt(pressure)
+    alone, _ = load.guess(Scene.of(problem))
+    (batch,) = narrow.guess(narrow.Group.of([problem], [problem.creep]))
+    assert [np.exp(alone), batch] == pytest.approx([hertz, hertz], rel=1e-12)
+
+
+def test_a_half_width_with_no_place_on_the_roll_is_half_way_back_to_the_last_too_light():
+    search = load.LoadSearch(target=0.0, log_alpha=-1.0, slope=2.0, low=-3.0)
+    search.reject()
+    assert (search.high, search.log_alpha) == (-1.0, -2.0)
+
+
+@pytest.mark.parametrize(("tolerated", "pressing"), [(1.2, True), (0.8, False)])
+def test_a_contact_presses_where_its_tension_carries_no_more_than_is_tolerated(tolerated, pressing):
+    # p = sin θ + 0.6 sin 2θ = sin θ (1 + 1.2 cos θ) pulls where cos θ < -1/1.2; the load is π/2
+    pull, _ = integrate.quad(
+        lambda t: -(np.sin(t) ** 2) * (1.0 + 1.2 * np.cos(t)), np.arccos(-1.0 / 1.2), np.pi
+    )
+    one = np.ones(1)
+    contact = Contact(one, 0.0 * one, np.array([[1.0, 0.6, *[0.0] * 6]]), one, one, one > 0.0)
+    _, found = pulling_and_pressing(contact, tolerated * pull / (0.5 * np.pi))
+    assert found.tolist() == [pressing]
 
 
 def spectrum(seed: int, terms: int = 7) -> CreepSpectrum:

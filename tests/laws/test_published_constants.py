@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from conveyor.laws import resistance
-from conveyor.laws.resistance import cema
+from conveyor.laws import energy, resistance, roll_life
+from conveyor.laws.resistance import cema, roll_bearing
 
 # C over L [m], DIN 22101 and ISO 5048
 LENGTHS = """
@@ -14,6 +14,21 @@ LENGTHS = """
 500 1.20   550 1.18   600 1.17   700 1.14   800 1.12   900 1.10   1000 1.09   1500 1.06   2000 1.05   2500 1.04
 5000 1.03
 """
+
+# rated powers of motors [kW], IEC 60072-1
+MOTORS = """
+0.37 0.55 0.75 1.1 1.5 2.2 3 4 5.5 7.5 11 15 18.5 22 30 37 45 55 75 90 110 132 160 200 250 315 355 400 450 500 560 630
+710 800 900 1000
+"""
+
+
+def test_motors_of_the_printed_powers():
+    assert pytest.approx([1e3 * float(word) for word in MOTORS.split()], rel=1e-15) == energy.MOTOR_SERIES
+
+
+def test_exponents_of_rating_life():
+    # ISO 281: balls 3, rollers 10/3
+    assert pytest.approx((3.0, 10.0), rel=1e-15) == (roll_life.BALL_EXPONENT, 3.0 * roll_life.ROLLER_EXPONENT)
 
 
 @pytest.mark.filterwarnings("ignore:length = ")
@@ -43,6 +58,9 @@ def test_length_coefficients_at_the_printed_lengths():
         (resistance.ROLL_DRAG_TO_178, 2.45, 0.0, 2.45),
         (resistance.ROLL_DRAG_LARGER, 3.0, 0.0, 3.0),
         (resistance.FLEXURE_SHARE, 0.11, 0.0, 0.11),
+        (roll_bearing.BEARING_F0, 2.0, 0.7, 2.0),
+        (roll_bearing.BEARING_F1_FACTOR, 0.0009, 0.0004, 0.0009),
+        (roll_bearing.BEARING_F1_EXPONENT, 0.55, 0.55, 0.55),
         (cema.IDLER_FRICTION_4_IN, 2.3, 2.3, 2.3),
         (cema.IDLER_FRICTION_5_IN, 1.8, 1.8, 1.8),
         (cema.IDLER_FRICTION_6_IN, 1.5, 1.5, 1.5),

@@ -119,3 +119,7 @@ def test_pulley_diameter_of_a_five_mm_carcass(carcass, diameter):
 def test_refusals(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+def test_one_condition_governs_alone():
+    assert tension.governing_tension({"grip": 8448.0}) == ("grip", 8448.0)

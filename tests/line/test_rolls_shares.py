@@ -85,6 +85,10 @@ def test_each_wing_bears_half_of_what_lies_beside_the_middle_roll(line):
     assert loads.wing_contact(400.0 / 3.0) == pytest.approx((covered - 0.465) / 2.0, rel=1e-12)
     # so little that it lies on the middle roll alone
     assert loads.wing_contact(1.0) == pytest.approx(0.0, abs=1e-15)
+    # a flat belt has no wings
+    carry = line.idlers.carry
+    flat = carry.replace(rolls=1, trough_angle="0 deg", roll=carry.roll.replace(length="1400 mm"))
+    assert SetLoads(line, flat).wing_contact(400.0 / 3.0) == 0.0
 
 
 def test_what_a_valley_leaves_on_the_rolls_may_be_little():

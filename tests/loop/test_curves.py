@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -11,7 +12,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.line.line import Line
 from conveyor.line.stretches import roll_masses
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
-from conveyor.loop.curves import pressing_masses
+from conveyor.loop.curves import converged, pressing_masses
 from conveyor.pipeline import calculate
 from conveyor.remarks import warnings
 from conveyor.spec import from_data, load
@@ -119,6 +120,61 @@ def test_least_radii_are_those_of_the_laws():
     said = [w for w in told(tight, closed(tight)) if 'section "dip"' in w]
     assert any("carry: the empty belt lifts off on the concave curve of 60 m; at least" in w for w in said)
     assert any("carry: a strip of the belt goes slack" in w for w in said)
+
+
+def test_a_belt_between_two_rolls_is_a_v():
+    """Its centroid lies half way up its wings; what five rolls and no strength leave unknown is not guessed."""
+    carry = DATA["idlers"]["carry"]
+    roll = carry["roll"] | {"length": "580 mm"}
+
+    def dip(**changes):
+        found = closed(curved(VALLEY, **changes))
+        return next(c for c in belt_duty(found).curves if (c.section, c.strand) == ("dip", "carry"))
+
+    two = dip(idlers={"carry": carry | {"rolls": 2, "trough_angle": "20 deg", "roll": roll}})
+    half, stiffness = 0.25 * math.sin(math.radians(20.0)), 72.0 * 2000e3
+    assert two.overstress == pytest.approx(stiffness * half / (2000e3 / 6.7 - two.highest), rel=1e-12)
+    assert two.buckling == pytest.approx(stiffness * half / (two.lowest - LEAST_EDGE_TENSION), rel=1e-12)
+    five = dip(
+        idlers={
+            "carry": carry
+            | {
+                "rolls": 5,
+                "load_shares": ["4 %", "24 %", "44 %", "24 %", "4 %"],
+                "roll": carry["roll"] | {"length": "230 mm"},
+            }
+        }
+    )
+    assert (five.overstress, five.buckling) == (None, None)
+    unknown = dip(belt={"carcass": {"kind": "steel cord", "thickness": "5 mm"}})
+    assert (unknown.overstress, unknown.buckling) == (None, None)
+
+
+def test_strength_is_needed_per_width():
+    wide = {"width": "1200 mm", "carcass": DATA["belt"]["carcass"] | {"splice_strength": "45 %"}}
+    sets = DATA["idlers"]
+    long = {
+        "carry": sets["carry"] | {"roll": sets["carry"]["roll"] | {"length": "465 mm"}},
+        "return": sets["return"] | {"roll": sets["return"]["roll"] | {"length": "1400 mm"}},
+    }
+    narrow, duty = (
+        belt_duty(closed(made))
+        for made in (line(belt={"carcass": wide["carcass"]}), line(belt=wide, idlers=long))
+    )
+    factor = narrow.strength_needed / narrow.largest_steady  # the belt is 1 m wide there
+    assert duty.strength_needed == pytest.approx(factor * duty.largest_steady / 1.2, rel=1e-12)
+    assert duty.safety_steady == pytest.approx(1.2 * 2000e3 / duty.largest_steady, rel=1e-12)
+
+
+def test_the_first_step_on_curves_is_never_the_last(hill):
+    """Of one step the ratio of changes is not known."""
+    steady = hill.balance.settled.steady
+    first = converged(None, steady, steady, hill.line, steady.largest)
+    assert (first.steps, first.change) == (1, 0.0)
+    assert not first.settled(hill.line.rtol)
+    second = converged(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
+    assert (second.steps, second.ratio) == (2, 0.0)
+    assert second.settled(hill.line.rtol)
 
 
 def test_safety_and_diameters():

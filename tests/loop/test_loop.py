@@ -9,6 +9,7 @@ import pytest
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws import tension
+from conveyor.laws.resistance import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.loop.starting import every_state, motions
 from conveyor.units import quantity, si
 from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, along, balanced, closed, line, told
@@ -90,6 +91,30 @@ def test_the_loop_closes_in_every_state(case):
         level -= sum(side.force for side in state.drives)
         assert level == pytest.approx(state.leaving, abs=CLOSED * state.largest), state.name
         assert state.force == pytest.approx(sum(side.force for side in state.drives), rel=1e-14)
+
+
+def test_the_points_follow_the_belt_round_the_loop(case):
+    _, found = case
+    steady, last = found.settled.steady, found.settled.loop.frame.boundaries[-1]
+    tensions = {point.place: point.tension for point in found.points}
+    assert len(tensions) == len(found.points)
+    assert (np.diff([point.distance for point in found.points]) >= 0.0).all()
+    for stretch, start, end in zip(found.line.loop.stretches, steady.starts, steady.ends, strict=True):
+        name = f"{stretch.section}, {stretch.strand}"
+        assert (tensions[f"{name}, start"], tensions[f"{name}, end"]) == (start, end)
+    at_head = []
+    for drive, side in zip(found.line.drives, steady.drives, strict=True):
+        if drive.spot.boundary == last:
+            at_head.append(side.arriving)
+        else:
+            taken = tensions[f"{drive.name}, arriving"] - tensions[f"{drive.name}, leaving"]
+            assert taken == pytest.approx(side.force, abs=CLOSED * steady.largest)
+    # nothing stands between the end of the carry strand and a head pulley that is not driven
+    assert (found.points[-1].place, found.points[-1].tension) == (
+        ("drive, arriving", pytest.approx(at_head[0], rel=CLOSED))
+        if at_head
+        else ("head, arriving", pytest.approx(steady.ends[-1], rel=CLOSED))
+    )
 
 
 def test_drives_give_what_the_conveyor_takes(case):
@@ -286,6 +311,9 @@ def test_start_and_stop_are_newton():
     assert moving.start.torque_factor == pytest.approx(motors, rel=1e-12)
     assert moving.coasting is not None
     assert moving.coasting.deceleration == pytest.approx(force / (mass + 20e3), rel=1e-12)
+    # rolls that have stood turn harder
+    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * found.forces.parts["idler_rotation"]
+    assert moving.start.breakaway == pytest.approx(force + stuck, rel=1e-12)
     # energy: what moved is spent on the way
     kinetic = 0.5 * (mass + 20e3) * 4.0**2
     assert force * moving.coasting.distance == pytest.approx(kinetic, rel=1e-12)
@@ -295,7 +323,8 @@ def test_start_and_stop_are_newton():
 
 
 def test_brakes_hold_and_stop_a_downhill_conveyor():
-    none = line(**CASES["downhill"] | {"drive": {"stop_deceleration": "0.2 m/s^2"}})
+    wanted = {"stop_deceleration": "0.2 m/s^2", "reduced_mass": "8 t"}
+    none = line(**CASES["downhill"] | {"drive": wanted})
     moving = motions(closed(none))
     assert moving.coasting is None
     assert moving.coasting_least is None
@@ -304,10 +333,7 @@ def test_brakes_hold_and_stop_a_downhill_conveyor():
     said = told(none, closed(none))
     assert any(w.startswith("the conveyor does not stop by itself and has no brake") for w in said)
     assert any("needs a brake of" in w for w in said)
-    held = line(
-        **CASES["downhill"]
-        | {"drive": {"brake_force": f"{moving.brake_to_stop} N", "stop_deceleration": "0.2 m/s^2"}}
-    )
+    held = line(**CASES["downhill"] | {"drive": {"brake_force": f"{moving.brake_to_stop} N", **wanted}})
     stopped = motions(closed(held)).braked
     assert stopped is not None
     # the brake's own grip asks for tension, wraps for 1e-4 of force with it
@@ -326,5 +352,6 @@ def test_bulk_slides_where_friction_ends():
     assert (slip.braking, slip.starting) == pytest.approx((-grip - pull, grip - pull), rel=1e-9)
     assert any(w.startswith("the bulk slides at the start") for w in told(steep, found))
     steeper = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "30 deg"}], "pulleys": []})
+    assert (motions(closed(steeper)).slip.braking, motions(closed(steeper)).slip.starting) == (0.0, 0.0)
     said = told(steeper, closed(steeper))
     assert 'the bulk slides on the belt in section "s" at any speed: too steep for its friction' in said

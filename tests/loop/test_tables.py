@@ -35,6 +35,8 @@ def test_tables_are_what_was_calculated(name, tmp_path):
     profile = tables["profile"]
     assert profile["height [m]"].iloc[-1] == pytest.approx(route.rise, rel=1e-12, abs=1e-12)
     assert profile["horizontal [m]"].iloc[-1] <= route.length
+    along = profile["along the belt [m]"]
+    assert (along.iloc[0], along.iloc[-1]) == (0.0, pytest.approx(route.length, rel=1e-12))
     assert "moving mass [kg]" in figures(tables["start_stop"]).index
     safety = figures(tables["belt_strength"]).get("safety, steady [-]")
     assert (safety is None) == (done.belt_duty.safety_steady is None)

@@ -14,6 +14,8 @@ from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
+from conveyor.report.loop_plots import route_profile
+from conveyor.report.plots import master_curve, stacked
 from conveyor.report.svg import inline, restyle
 from conveyor.units import si
 
@@ -108,6 +110,8 @@ def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
         line.carry_compound, si(line.ambient.belt), result.contacts, ("carry", "return")
     )
     assert len(figure.axes) == 2
+    sizes = {text.get_fontsize() for axis in figure.axes for text in axis.get_legend().get_texts()}
+    assert len(sizes) == 1
     for axis in figure.axes:
         spans = {p.get_label(): p for p in axis.patches if isinstance(p, Rectangle)}
         assert len(spans) == 2
@@ -178,3 +182,33 @@ def test_drawn_twice_it_is_the_same(result):
     """Identifiers are hashes without salt of the day: a report of the same figures is the same text."""
     first, second = (inline(plots.resistance_breakdown(result.balance), "x", "bars") for _ in range(2))
     assert first == second
+
+
+def test_between_two_axes_is_as_much_room_as_below_and_above_them():
+    figure, axes = stacked(2, 7.0)
+    for axis in axes:
+        axis.set(xlabel="belt speed [m/s]", ylabel="motor power [kW]")
+    restyle(figure)
+    above, below = (axis.get_position() for axis in axes)
+    assert above.y0 - below.y1 == pytest.approx(below.y0 + 1.0 - above.y1, rel=1e-9)
+
+
+def test_a_master_curve_is_that_of_the_series(line):
+    compound = line.carry_compound
+    upper, lower = master_curve(compound).axes
+    series = compound.series(compound.reference)
+    for axis, values in ((upper, (series.storage, series.loss)), (lower, (series.tan_delta,))):
+        for curve, value in zip(axis.lines, values, strict=True):
+            unit = 1e-6 if axis is upper else 1.0  # [MPa]
+            assert curve.get_ydata() == pytest.approx(
+                unit * value(2.0 * np.pi * curve.get_xdata()), rel=1e-12
+            )
+
+
+def test_a_level_route_is_drawn_with_room_above_and_below(line):
+    level = [(50.0 * i, 0.0) for i in range(len(line.route.sections) + 1)]
+    (axis,) = route_profile(line, level).axes
+    low, high = axis.get_ylim()
+    assert low == -high
+    (axis,) = route_profile(line, [*level[:-1], (level[-1][0], 30.0)]).axes
+    assert axis.get_ylim()[1] > -axis.get_ylim()[0]

@@ -48,6 +48,28 @@ def test_a_measured_rubber_is_held_to_its_data():
     assert "Hz" in found(line)["rubber data cover the excited band, carry"].asked
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [(0.9, 1.1, "pass"), (1.1, 1.1, "FAIL"), (0.9, 0.9, "FAIL"), (1.1, 0.9, "FAIL")],
+)
+def test_data_cover_the_excited_band_where_they_reach_beyond_both_its_ends(low, high, verdict):
+    given = conveyor.load(SPECS / "overland_10km.yaml")
+    band = conveyor.analyse(given).contacts.excited_band("carry")
+    compound = given.belt.bottom_cover.compound
+    at = compound.frequencies(given.temperature)
+    stated = [limit.m_as("Hz") for limit in compound.range.frequency]
+    # as stated at the reference temperature, shifted like those of the file
+    reach = [
+        f"{share * end / now * then!r} Hz"
+        for share, end, now, then in zip((low, high), band, at, stated, strict=True)
+    ]
+    cover = given.belt.bottom_cover.replace(
+        compound=compound.replace(range=compound.range.replace(frequency=reach))
+    )
+    line = given.replace(belt=given.belt.replace(bottom_cover=cover))
+    assert found(line)["rubber data cover the excited band, carry"].verdict == verdict
+
+
 def test_us_units(line):
     of = found(line, "US")["motor power, drive"]
     assert of.found == "144.1 hp"

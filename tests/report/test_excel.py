@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import zipfile
 from datetime import date
+from operator import itemgetter
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -15,7 +16,10 @@ from openpyxl.utils import get_column_letter
 
 import conveyor
 from conveyor.errors import InputError
+from conveyor.report import charts
 from conveyor.report.cells import LONGEST
+from conveyor.report.columns import Column, Table
+from conveyor.report.places import TablePlace
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
@@ -43,6 +47,23 @@ def test_sheets_and_charts(book):
     charts = {sheet.title: len(sheet._charts) for sheet in read}
     assert charts["Summary"] == charts["Tensions"] == charts["Indentation"] == 1
     assert charts["Rubber"] == 2
+
+
+def test_facts_of_the_cover_stand_over_lines(book):
+    sheet = openpyxl.load_workbook(book)["Summary"]
+    rows = {sheet.cell(i, 1).value: i for i in range(1, sheet.max_row + 1)}
+
+    def lined(row):
+        return "".join(cell.column_letter for cell in sheet[row] if cell.border.bottom.style)
+
+    assert lined(rows["length [m]"]) == "ABDEFG"  # figures on the left, words on the right, nothing between
+    first = rows["Tensions and power"] + 1
+    assert lined(first + 1) == "AB"
+    assert [cell.font.b for cell in sheet[first][:2]] == [True, True]
+    assert [cell.font.b for cell in sheet[first + 1][:2]] == [False, False]
+    # the note of the classical estimate is as wide as its table
+    (note,) = [cell for cell in sheet["D"] if str(cell.value).startswith("classical secondary")]
+    assert sheet.cell(note.row - 1, 4).value == "motor power [kW]"
 
 
 def _beneath(sheet, chart):
@@ -106,6 +127,19 @@ def test_indentation_curves_of_the_chart_are_single_contacts(book, overland):
         assert labels == {series.tx.v}
         covered += range(first, last + 1)
     assert covered == list(range(header + 1, header + 1 + len(frame)))
+
+
+def test_two_contacts_of_one_label_are_two_curves():
+    """A smaller load begins another contact, though strand, roll and spacing read the same."""
+    columns = tuple(
+        Column(name, "text", itemgetter(k)) for k, name in enumerate(("contact", "line load", "indentation"))
+    )
+    points = [(1.0, 0.01), (2.0, 0.03), (1.0, 0.02), (2.0, 0.05), (3.0, 0.09)]
+    shown = Table("indentation", "Indentation", "", columns, tuple(("carry", *point) for point in points))
+    place = TablePlace(1, 6, 1, tuple(column.key for column in columns))
+    chart = charts.indentation(openpyxl.Workbook().active, shown, place)
+    covered = [series.yVal.numRef.f.rpartition("!")[2] for series in chart.series]
+    assert covered == ["$C$2:$C$3", "$C$4:$C$6"]
 
 
 def test_no_formula_and_no_error_cell(book):

@@ -183,7 +183,7 @@ LABORATORY = [
     Case("laboratory", "no unit for the moduli", laboratory(MASTER.replace("_MPa", "")), "--modulus-unit"),
     Case("laboratory", "no temperature stated", laboratory(MASTER), '--at "20 degC"'),
     Case("laboratory", "a negative modulus", laboratory(MASTER.replace("100,7", "100,-7"), "--at", "20 degC"), "data.csv:4: column 2"),
-    Case("laboratory", "too few rows", laboratory("".join(MASTER.splitlines(keepends=True)[:3]), "--at", "20 degC"), "data.csv: 2 frequencies over 1 decades; a series needs 5 over 1: measure more frequencies"),
+    Case("laboratory", "too few rows", laboratory("".join(MASTER.splitlines(keepends=True)[:3]), "--at", "20 degC"), "data.csv: 2 frequencies over 1 decade; a series needs 5 over 1: measure more frequencies"),
     Case("laboratory", "an .xls", laboratory(OLD_XLS, name="data.xls"), "old .xls workbook"),
     Case("laboratory", "120 kB that unpack to 120 MB", laboratory(bomb(120_000_000), name="data.xlsx"), "unpacks to more than 100,000,000 bytes"),
     Case("laboratory", "a folder", folder_named("data.csv", "fit", "data.csv"), "data.csv: is a folder"),

@@ -7,6 +7,7 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
+from conveyor.rubber import band as module
 from conveyor.rubber.band import ReplicaBand, bootstrap
 
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 25) / 2, np.logspace(-10, 2, 25))
@@ -120,3 +121,19 @@ def test_refusals() -> None:
         ReplicaBand([1.0, 2.0], [0.0], [[1.0, 1.0]])
     with pytest.raises(InputError, match=r"level = 1 must be > 0 and < 1"):
         ReplicaBand([1.0], [1e6], [[1.0]]).loss([1.0], level=1.0)
+
+
+def test_blocks_are_as_long_as_errors_hang_together():
+    # runs of 10 of one sign: of 79 neighbours 72 agree, 65/80 = 0.8125, and (1 + 0.8125)/(1 - 0.8125) = 9.7
+    runs = np.tile(np.repeat([0.01, -0.01], 10), 4)
+    _, block = module._ratios(1.0 + np.concatenate([runs, runs]), np.zeros(160))
+    assert block == 10
+
+
+def test_what_the_fit_took_of_an_error_is_given_back():
+    # a row that the fit follows by half leaves errors of sqrt(1 - 1/2) of their size
+    signs = np.tile([0.01, -0.01], 20)
+    drawn, block = module._ratios(np.exp(np.concatenate([signs, signs])), np.full(80, 0.5))
+    assert block == 1
+    spread = np.log(drawn[:, 0] / drawn[:, 1])
+    assert spread == pytest.approx(np.full(2, 0.02 * module.CALIBRATION / np.sqrt(0.5)), rel=1e-9)

@@ -10,6 +10,8 @@ import pytest
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
+from conveyor.rubber.misfit import scatter
+from conveyor.rubber.rows import Rows, relative_to_fit
 
 SHELF = Path(__file__).parents[2] / "materials"
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 13), np.logspace(-10, 2, 13))
@@ -115,6 +117,13 @@ def test_held_equilibrium_allows_slow_times() -> None:
     np.testing.assert_allclose(fit.series.moduli[:13], TRUTH.moduli, rtol=1e-9)
     with pytest.raises(InputError, match=r"times: 100000 s is outside the window .* hold equilibrium=<Pa>"):
         fit_prony(f, e1, e2, times=[1.0, 1e5])
+
+
+def test_exact_data_are_their_own_fit_with_the_plateau_held() -> None:
+    f, e1, e2 = data(TRUTH, FREQUENCY)
+    rows = Rows(f, e1, e2, np.concatenate([e1, e2]))
+    found = relative_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
+    np.testing.assert_allclose(found.scale, rows.scale, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -248,6 +257,9 @@ def test_no_more_terms_than_the_data_support() -> None:
 def test_table_of_the_criterion() -> None:
     fit = fit_prony(*noisy(0.02, 2))
     chosen, *others = fit.candidates
+    # strengths a decade apart, from none to one that follows E'' smoothed over a decade
+    strengths = sorted({line.regularisation for line in fit.candidates} - {0.0})
+    assert np.log10(strengths) == pytest.approx(np.arange(-4.0, 2.0), abs=1e-9)
     assert (chosen.regularisation, chosen.terms) == (fit.regularisation, fit.active_terms)
     assert chosen.residual == pytest.approx(fit.residual, rel=1e-9)
     assert chosen.freedom == pytest.approx(fit.freedom, rel=1e-9)
@@ -256,6 +268,15 @@ def test_table_of_the_criterion() -> None:
     best = min(line.score for line in fit.candidates)
     assert all(line.terms >= chosen.terms for line in others if line.score <= best + 2.0)
     assert fit_prony(*noisy(0.02, 2), times=TRUTH.times).candidates == ()
+
+
+def test_the_criterion_is_formed_wherever_it_exists() -> None:
+    # its denominator is n - p - 2: six data and nearly four parameters of a penalised spectrum leave little of it
+    truth = PronySeries(3e6, [2e6, 1e6, 2e6], [1e-2, 1e-1, 1.0])
+    left = [
+        6.0 - line.freedom - 2.0 for line in fit_prony(*data(truth, np.logspace(-1.5, 1.5, 3))).candidates
+    ]
+    assert 0.0 < min(left) < 1.0
 
 
 def test_penalty_smooths_and_vanishes() -> None:
@@ -273,6 +294,12 @@ def test_penalty_smooths_and_vanishes() -> None:
     assert np.all(np.diff(residual) >= -1e-9 * residual[0])
     # all that is free under an infinite one: E_e and a straight line of H/H0 over ln tau
     assert freedom[-1] == pytest.approx(3.0, abs=0.05)
+
+
+def test_the_middle_of_three_rows_of_one_frequency_is_held_to_the_mean_of_the_others() -> None:
+    # ln: 0, 0, 0.3: the middle one is 0.15 below the mean, whose variance with its own is 1 + 1/4 + 1/4
+    modulus = 1e6 * np.exp([0.0, 0.0, 0.3])
+    assert scatter(np.ones(3), modulus) == pytest.approx(0.15 / np.sqrt(1.5), rel=1e-9)
 
 
 def test_scatter_is_told_from_misfit() -> None:

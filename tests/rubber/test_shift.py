@@ -183,3 +183,13 @@ def test_refused_fits() -> None:
         fit_wlf([273.0, 283.0, 303.0, 313.0], [-3.0, -1.0, 0.7, 1.2], 293.0)
     with pytest.raises(NoSolutionError, match="do not follow a WLF law"):
         fit_wlf([273.0, 283.0, 303.0, 313.0], [2.0, 1.0, -1.0, -2.0], 293.0)
+
+
+def test_a_table_may_miss_its_reference_by_a_hundredth_of_a_decade():
+    for printed in (0.0099, -0.0099):
+        assert ShiftTable([280.0, 290.0], [1.0, printed], 290.0).log10_a_T(290.0) == pytest.approx(printed)
+    for printed in (0.0101, -0.0101):
+        with pytest.raises(
+            InputError, match=rf"log10 a_T at the reference .* is {printed}; it must be 0 to 0\.01"
+        ):
+            ShiftTable([280.0, 290.0], [1.0, printed], 290.0)

@@ -79,15 +79,6 @@ def test_sweeps_refuse_what_they_cannot_mean():
         sweeps("S100")[0].strain[0] = 1.0
 
 
-def test_strain_of_a_modulus():
-    ten = sweeps("S120")[1]
-    assert ten.strain_at(float(ten.storage[9])) == pytest.approx(ten.strain[9], rel=1e-9)
-    at = LAW_SWEEP.strain_at(7e6)  # half way between 10 and 4 MPa; PCHIP through points a factor 1.7 apart
-    assert at == pytest.approx(LAW.critical_strain, rel=0.02)
-    with pytest.raises(RangeError, match=r"storage = 2e\+07 Pa: the sweep at 293\.15 K shows .* to .* Pa"):
-        LAW_SWEEP.strain_at(2e7)
-
-
 # factors
 
 
@@ -113,7 +104,6 @@ def test_factors_between_strains_are_monotone_and_near_the_law():
     assert found == pytest.approx(LAW.storage(fine) / LAW.storage(STRAIN[0]), abs=2e-3)
     assert factors.loss(fine, 293.15) == pytest.approx(LAW.loss(fine) / LAW.loss(STRAIN[0]), abs=1e-2)
     assert factors.storage(fine.reshape(20, 20), 293.15).shape == (20, 20)
-    assert factors.strain_range == (STRAIN[0], STRAIN[-1])
 
 
 def test_factors_are_linear_in_temperature_and_held_beyond():

@@ -357,6 +357,17 @@ def test_cases_without_an_answer_are_listed_with_their_reason(line):
     assert "190 degC" in hot
     assert "the belt holds" in surge
     assert "the belt holds" in slow
+    (told,) = [check for check in study.checks if check.key == "case_answers"]
+    assert (told.calculated, told.required, told.verdict) == (1.0, 4.0, "FAIL")
+    # a take-up that is set anew is set for the one case there is
+    assert not [check for check in study.checks if check.key == "take_up_tension"]
+
+
+def test_a_take_up_set_anew_in_each_of_two_cases_is_not_checked(line):
+    two = analyse_cases(line, [LoadCase(name="full"), LoadCase(name="empty", loading="empty")])
+    (one,) = [check for check in two.checks if check.key == "take_up_tension"]
+    assert (one.calculated, one.verdict) == (None, "not checked")
+    assert one.required == max(result.found.balance.settled.needed for result in two.results)
 
 
 def test_refusals_name_what_is_wrong(line, found):

@@ -97,6 +97,22 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
     assert one.motor_high == pytest.approx(high, abs=0.15 * width)
 
 
+def test_band_of_two_replicas_lies_a_twentieth_inside_them(line):
+    # one is the fit, which leaves the power as it is; friction, and with it power, is linear between both
+    compound = shelf.compound("s100")
+    fit = compound.series(si(compound.reference_temperature))
+    band = {
+        "method": "by hand",
+        "equilibrium": [f"{share * fit.equilibrium!r} Pa" for share in (1.0, 1.5)],
+        "unit": "Pa",
+        "moduli": [[share * modulus for modulus in fit.moduli.tolist()] for share in (1.0, 1.5)],
+    }
+    stiff = compound.replace(prony=compound.prony.replace(band=band))
+    (one,) = compare_compounds(line, [stiff]).scenes
+    assert one.motor_high < one.motor  # stiff rubber is indented less
+    assert one.motor - one.motor_low == pytest.approx(0.95 / 0.05 * (one.motor - one.motor_high), rel=1e-6)
+
+
 def test_no_replicas_no_band(found):
     assert scene(found, "standard-cover", 293.15, 5.0).motor_low is None
 

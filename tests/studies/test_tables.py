@@ -242,6 +242,13 @@ def test_refused_scenes_are_listed_and_not_averaged(line, tmp_path):
     assert len(written_tables(found, tmp_path)["refused"]) == len(found.refused)
 
 
+def test_without_a_temperature_that_all_answer_the_workbook_says_so(line, tmp_path):
+    found = conveyor.compare_compounds(line, ["s100", "standard-cover"], temperatures=["-90 degC"])
+    assert not found.scenes
+    book = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))
+    assert book["Power"]["A1"].value == "No temperature that every compound has an answer for"
+
+
 def test_workbook_and_figures(compared, tmp_path):
     book = openpyxl.load_workbook(compared.to_excel(tmp_path / "c.xlsx"))
     assert book.sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
@@ -251,10 +258,22 @@ def test_workbook_and_figures(compared, tmp_path):
     written = [book["Scenes"].cell(3 + k, column).value for k in range(len(compared.scenes))]
     assert written == pytest.approx([s.motor / 1e3 for s in compared.scenes])
     assert len(book["Power"]._charts) == len(SPEEDS)
+    assert book["Notes"]["A1"].value == "Compounds"
     for figure in (compared.plots.power_against_temperature(), compared.plots.power_against_speed()):
         assert len(figure.axes[0].lines) == len(NAMES)
         figure.savefig(tmp_path / "p.svg")
         assert (tmp_path / "p.svg").stat().st_size > 5000
+
+
+def test_the_power_axis_begins_at_a_round_figure_below_the_least(line, tmp_path):
+    names = ["low-rolling-resistance-cover", "standard-cover"]
+    found = conveyor.compare_compounds(line, names, temperatures=["15 degC", "20 degC"])
+    least = min(scene.motor for scene in found.scenes) / 1e3
+    (chart,) = openpyxl.load_workbook(found.to_excel(tmp_path / "c.xlsx"))["Power"]._charts
+    begin = chart.y_axis.scaling.min
+    # 95 % of the least, rounded down to a tenth of its decade, which is a tenth of the least at the most
+    assert 0.85 * least < begin <= 0.95 * least
+    assert begin == float(f"{begin:.2g}")
 
 
 def test_figures_are_saved_as_pictures_only(compared, tmp_path):

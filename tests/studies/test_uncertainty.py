@@ -14,7 +14,8 @@ from conveyor.errors import InputError
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.pipeline import calculate
 from conveyor.spec import load
-from conveyor.studies.uncertainty import COVERED, SAMPLES, Effect, hypercube_band, root_of_squares, study
+from conveyor.studies.compared import COVERED
+from conveyor.studies.uncertainty import SAMPLES, Effect, hypercube_band, root_of_squares, study
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -94,6 +95,8 @@ def test_roll_drag_without_pulleys_is_a_linear_input(line):
     assert found.motor == pytest.approx(balance.power.motor, rel=1e-14)  # drag changes no contact
     assert found.band == (pytest.approx(one.motor_low), pytest.approx(one.motor_high))
     assert found.shares == (1.0,)
+    low, motor, high = (f"{power / 1e3:.1f}" for power in (found.band[0], found.motor, found.band[1]))
+    assert f"motor power {motor} kW, nine tenths from {low} to {high} kW" in repr(found)
 
 
 @pytest.mark.parametrize(

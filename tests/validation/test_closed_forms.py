@@ -95,7 +95,7 @@ def test_hunter_pressure_carries_the_load_and_gives_the_friction(n, memory):
     assert np.all(p > -1e-11 * contact.load_ratio)
 
 
-@pytest.mark.parametrize("memory", [0.0, 1e-300, math.inf])
+@pytest.mark.parametrize("memory", [0.0, 5e-324, 1e-300, math.inf])
 def test_hunter_loses_nothing_at_rest_and_at_infinite_speed(memory):
     contact = cf.hunter_at_load(10.0, memory=memory)
     assert contact.friction_at_load == pytest.approx(0.0, abs=1e-299)
@@ -316,6 +316,19 @@ def test_winkler_elements_of_one_memory_add_up():
 def test_winkler_at_load_is_a_round_trip(load):
     # d ln W/d ln a is about 3, the root is found to 1e-15 in ln a
     assert cf.winkler_at_load(load, **SPECTRUM).load == pytest.approx(load, rel=1e-13)
+
+
+@pytest.mark.parametrize("metre", [1e-15, 1.0, 1e15])
+def test_winkler_at_load_is_the_same_in_any_unit_of_length(metre):
+    # loads per width in N over the unit, moduli in N over its square
+    scene = {name: metre * SPECTRUM[name] for name in ("memories", "radius", "thickness")}
+    scene |= {name: SPECTRUM[name] / metre**2 for name in ("equilibrium", "moduli")}
+    # nearly at rest the contact is as long as the rubbery modulus allows
+    for slower in (1.0, 1e-6):
+        memories = slower * SPECTRUM["memories"]
+        plain = cf.winkler_at_load(1.0, **SPECTRUM | {"memories": memories})
+        found = cf.winkler_at_load(1.0 / metre, **scene | {"memories": metre * memories})
+        assert found.entry == pytest.approx(metre * plain.entry, rel=1e-13)
 
 
 def test_winkler_scales_as_the_sources_say():

@@ -101,9 +101,9 @@ class HunterContact:
         [1.57509]
         """
         require(bool(np.all(np.abs(s) <= 1.0)), "s", s, "positions from -1 to 1 are needed")
-        if self.memory == 0.0 or math.isinf(self.memory) or self.modulus_ratio == 1.0:
+        beta = self.modulus_ratio / self.memory if self.memory > 0.0 else math.inf
+        if beta in {0.0, math.inf} or self.modulus_ratio == 1.0:
             return self.load_ratio * np.sqrt(1.0 - s**2)
-        beta = self.modulus_ratio / self.memory
         depth = 2 + max(0, math.ceil(math.log2(beta)))
         edges = np.concatenate(([0.0], 0.5 ** np.arange(depth, -1, -1)))
         nodes, weights = np.polynomial.legendre.leggauss(_GAUSS)
@@ -237,8 +237,7 @@ def hunter_at_load(modulus_ratio: float, *, memory: float) -> HunterContact:
     _require_ratio(modulus_ratio)
     ok = 0.0 <= memory <= _LONGEST_MEMORY / 1e10 or memory == math.inf
     require(ok, "memory", memory, f"0 to {_LONGEST_MEMORY / 1e10:g}, or inf, is needed")
-    elastic = modulus_ratio == 1.0 or memory in {0.0, math.inf}
-    if elastic or modulus_ratio / memory == math.inf:
+    if modulus_ratio == 1.0 or memory in {0.0, math.inf}:
         return hunter(modulus_ratio, memory=memory)
     target = math.log(memory)
 
