@@ -19,7 +19,7 @@ from conveyor.errors import ConveyorError
 from conveyor.loop.balance import Balance
 from conveyor.loop.belt_duty import belt_duty
 from conveyor.loop.settled import holds
-from conveyor.loop.superposition import DRIVE_FORCE, Loading, Superposition
+from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
@@ -166,7 +166,7 @@ def load_states(
     own = calculate(conveyor) if given is None else given
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress)
-    adding = {temperature: Superposition(*pair) for temperature, pair in ends.items()}
+    adding = {temperature: Loadings(*pair) for temperature, pair in ends.items()}
     worst = _worst(adding)
     states = []
     if at in adding:
@@ -240,7 +240,7 @@ def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: Calcula
 
 
 def _worst(
-    adding: Mapping[float, Superposition],
+    adding: Mapping[float, Loadings],
 ) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
     """The worst loadings at whichever temperature, each with the figures it is worst for."""
     best: dict[str, tuple[float, float, Loading]] = {}

@@ -27,9 +27,10 @@ def told(found: Iterable[Check], system: str = "SI") -> list[Told]:
 
 
 def checks(result: Analysis, system: str = "SI", studies: Studies | None = None) -> list[Told]:
-    """Those of a result, and of its load cases."""
+    """Those of a result, of its load cases and of its load states."""
     cases = () if studies is None or studies.cases is None else studies.cases.checks
-    return told((*result.checks, *cases), system)
+    states = () if studies is None or studies.states is None else studies.states.checks
+    return told((*result.checks, *cases, *states), system)
 
 
 def case_checks(study: CaseStudy, system: str = "SI") -> list[Told]:
