@@ -87,7 +87,7 @@ class StateRefusal:
     reason: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedStates:
     """Load states of one conveyor.
 
@@ -105,6 +105,10 @@ class CalculatedStates:
     setting: float
     states: tuple[LoadState, ...]
     refused: tuple[StateRefusal, ...]
+
+    def __repr__(self) -> str:
+        name, answered = self.conveyor.name, len(self.states)
+        return f'StateStudy("{name}": {answered} states, {len(self.refused)} without an answer)'
 
     def state(self, key: str) -> LoadState | None:
         """The state of a key: full, empty, inclines, declines, worst and what `worst_key` makes."""
