@@ -2,7 +2,8 @@
 
     python benchmarks/sections.py
 
-1,000 sections times 6 load cases times 3 temperatures are 18 such loops; the table's last column is that sum.
+1,000 sections times 6 load cases times 3 temperatures are 18 such loops; the table's last column is that sum. Below it
+1,000 sections under 20 load cases, and their load states with the worst loadings at 5 temperatures.
 """
 
 from __future__ import annotations
@@ -18,8 +19,10 @@ from pathlib import Path
 
 import conveyor
 from conveyor.loop.balance import Balance, balance
-from conveyor.models import Conveyor
+from conveyor.models import Conveyor, standard_cases
 from conveyor.pipeline import calculate
+from conveyor.studies.cases import analyse_cases
+from conveyor.studies.states import load_states
 
 ROOT = Path(__file__).resolve().parents[1]
 COUNTS = (1, 10, 100, 1000)
@@ -65,6 +68,11 @@ def main() -> None:
 
         each = fastest(loop)
         print(f"{count:8d} {whole * 1e3:24.1f} {each * 1e3:17.3f} {CASES * each * 1e3:15.1f}")
+    cases = standard_cases(["-10 degC", "0 degC", "10 degC", "20 degC", "30 degC"])
+    study = analyse_cases(made, cases)
+    under = fastest(lambda: analyse_cases(made, cases), runs=3)
+    states = fastest(lambda: load_states(made, study.as_given, study), runs=3)
+    print(f"{len(study.results)} load cases {under:.2f} s, load states {states:.2f} s")
 
 
 if __name__ == "__main__":

@@ -120,6 +120,6 @@ def test_studies_show_themselves_in_one_line() -> None:
     )
     made = conveyor.studies.studies(line)
     compared = conveyor.compare_compounds(line, ["s100"])
-    for shown in map(repr, (made, made.cases, made.duty, made.uncertainty, compared)):
+    for shown in map(repr, (made, made.states, made.cases, made.duty, made.uncertainty, compared)):
         assert len(shown) < 300
         assert "\n" not in shown

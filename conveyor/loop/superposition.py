@@ -92,7 +92,7 @@ class _Sought:
     grip: tuple[float, int] | None = None
 
 
-class Superposition:
+class Loadings:
     """The loads of one conveyor between empty and full.
 
     Parameters

@@ -30,6 +30,7 @@ _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
     "largest_roll_load", "governed_by", "at_roll",
 )  # fmt: skip
+_STATE_KEYS = ("empty", "full", "inclines", "declines", "worst")
 _AT = (
     Column("temperature", "temperature", attrgetter("temperature")),
     Column("belt speed", "speed", attrgetter("speed"), key="speed"),
@@ -318,7 +319,9 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
     found: dict[str, Any] = {}
     if studies.states is not None:
-        found["states"] = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
+        named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
+        found["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
+        found["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
     study = studies.cases
     if study is not None:
         found["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)

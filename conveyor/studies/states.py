@@ -17,7 +17,7 @@ from typing import Final
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError
 from conveyor.loop.balance import Balance
-from conveyor.loop.superposition import DRIVE_FORCE, Loading, Superposition
+from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
@@ -91,7 +91,7 @@ class StateRefusal:
     reason: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CalculatedStates:
     """Load states of one conveyor.
 
@@ -116,6 +116,10 @@ class CalculatedStates:
     def setting(self) -> float:
         """Of the take-up in every state [N]."""
         return self.own.balance.settled.setting
+
+    def __repr__(self) -> str:
+        name, answered = self.conveyor.name, len(self.states)
+        return f'StateStudy("{name}": {answered} states, {len(self.refused)} without an answer)'
 
     def state(self, key: str) -> LoadState | None:
         """The state of a key: full, empty, inclines, declines, worst and what `worst_key` makes."""
@@ -184,7 +188,7 @@ def load_states(
     own = calculate(conveyor) if given is None else given
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress)
-    adding = {temperature: Superposition(*pair) for temperature, pair in ends.items()}
+    adding = {temperature: Loadings(*pair) for temperature, pair in ends.items()}
     worst = _worst(adding)
     states = []
     if at in adding:
@@ -258,7 +262,7 @@ def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: Calcula
 
 
 def _worst(
-    adding: Mapping[float, Superposition],
+    adding: Mapping[float, Loadings],
 ) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
     """The worst loadings at whichever temperature, each with the figures it is worst for."""
     best: dict[str, tuple[float, float, Loading]] = {}

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from conveyor.loop.superposition import DRIVE_FORCE, LEAST_FORCE, TAKE_UP, TENSION, Superposition
+from conveyor.loop.superposition import DRIVE_FORCE, LEAST_FORCE, TAKE_UP, TENSION, Loadings
 from conveyor.loop.take_up import at_one_setting
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
@@ -61,7 +61,7 @@ def bearing(conveyor, loading):
 
 def added(conveyor):
     ends = [closed(with_case(conveyor, LoadCase(name=name, loading=name))) for name in ("full", "empty")]
-    return Superposition(*at_one_setting(ends))
+    return Loadings(*at_one_setting(ends))
 
 
 def looked_for(found):

@@ -17,7 +17,8 @@ SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 @cache
 def _studied(stem: str) -> tuple[Analysis, Studies]:
     result = conveyor.analyse(conveyor.load(SPECS / f"{stem}.yaml"))
-    return result, studies(result.conveyor)
+    asked = studies(result.conveyor, result)
+    return result.beside(asked), asked
 
 
 @pytest.fixture(scope="session")
