@@ -76,11 +76,11 @@ class Analysis(CalculatedConveyor):
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
     def beside(self, studies: Studies | None) -> Self:
-        """Return the same load with the one take-up that the load cases of `conveyor.studies` ask for too."""
-        cases = None if studies is None else studies.cases
-        found = None if cases is None else cases.as_given
-        if found is None:
+        """Return the same load with the one take-up that the loads of `conveyor.studies` ask for too."""
+        states = None if studies is None else studies.states
+        if states is None:
             return self
+        found = states.own
         return replace(
             self,
             contacts=found.contacts,

@@ -38,7 +38,7 @@ class Start:
         Force of the motors at the belt by their torque: largest and least of the run-up, the least of a controlled
         start while each keeps its share.
     standstill : float
-        Force on the belt at rest.
+        Force on the belt at rest; of a controlled start with known motors at least their rated one.
     breakaway : float
         Resistance with the rolls after standstill, at most.
     """
@@ -211,6 +211,8 @@ def _start(found: Balance, mass: float, rotating: float) -> Start:
     if made.asked is None and made.rated is not None and made.standstill is not None:
         time = _time(line, made.rated, steady, mass + rotating)
         standstill = steady + (made.standstill - steady) * mass / (mass + rotating)
+    elif made.rated is not None:  # a controlled start rises until the belt breaks away, to the rated force at least
+        standstill = max(standstill, made.rated)
     return Start(
         force=made.force,
         acceleration=made.acceleration,

@@ -11,7 +11,7 @@ from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.cases import CalculatedCases, analyse_cases
 from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.studies.states import CalculatedStates, load_states
+from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.studies.uncertainty import CalculatedRanges, study
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -65,8 +65,9 @@ def studies(
 
     cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
     own = given if cases is None else cases.as_given
+    states, cases = at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases)
     return CalculatedStudies(
-        states=load_states(conveyor, own, cases, progress=told("load states")),
+        states=states,
         cases=cases,
         duty=analyse_duty(conveyor, progress=told("duty of a year")) if conveyor.duty else None,
         uncertainty=None

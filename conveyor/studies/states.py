@@ -17,7 +17,9 @@ from typing import Final
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError
 from conveyor.loop.balance import Balance
+from conveyor.loop.settled import holds
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
+from conveyor.loop.take_up import at_one_setting
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
@@ -210,6 +212,46 @@ def load_states(
         keys = tuple(map(worst_key, figures))
         states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, found))
     return CalculatedStates(own, tuple(states), tuple(refused))
+
+
+def at_one_take_up(
+    states: CalculatedStates, cases: CalculatedCases | None
+) -> tuple[CalculatedStates, CalculatedCases | None]:
+    """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
+
+    Parameters
+    ----------
+    states : CalculatedStates
+        With the spec's own load.
+    cases : CalculatedCases or None
+        At the same setting.
+
+    Raises
+    ------
+    NoSolutionError
+        No setting serves every load, or a load has no answer at it.
+    """
+    own, results = states.own, () if cases is None else cases.results
+    loads = [own.balance, *(result.found.balance for result in results)]
+    setting = at_one_setting([*loads, *(state.balance for state in states.states)])[0].settled.setting
+    if own.line.take_up.tension is not None or holds(own.balance.settled.setting, setting):
+        return states, cases
+    held = _held(own, setting)
+    moved = tuple(replace(state, balance=state.balance.held(setting)) for state in states.states)
+    if cases is not None:
+        found = tuple(replace(result, found=_held(result.found, setting)) for result in results)
+        cases = replace(cases, results=found, as_given=held)
+    return replace(states, own=held, states=moved), cases
+
+
+def _held(found: CalculatedConveyor, setting: float) -> CalculatedConveyor:
+    """A load with the take-up at a setting [N]; on vertical curves its tensions press on the rolls anew."""
+    if not found.line.curved:
+        return replace(found, balance=found.balance.held(setting))
+    (again,) = calculate_many([Variant(found.conveyor, found.temperature, take_up=setting)])
+    if not isinstance(again, CalculatedConveyor):
+        raise again
+    return replace(again, friction_band=found.friction_band)
 
 
 _Ends = tuple[Balance, Balance]
