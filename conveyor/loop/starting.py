@@ -211,7 +211,9 @@ def _start(found: Balance, mass: float, rotating: float) -> Start:
     if made.asked is None and made.rated is not None and made.standstill is not None:
         time = _time(line, made.rated, steady, mass + rotating)
         standstill = steady + (made.standstill - steady) * mass / (mass + rotating)
-    elif made.rated is not None:  # a controlled start rises until the belt breaks away, to the rated force at least
+    elif (
+        made.rated is not None
+    ):  # a controlled start rises until the belt breaks away, to the rated force at least
         standstill = max(standstill, made.rated)
     return Start(
         force=made.force,
