@@ -288,14 +288,19 @@ def indentation_curves(
     pressures = np.array([problem.pressure for problem in problems])
     curves = load_curves(problems, pressures * (np.asarray(lowest) / np.asarray(highest)), pressures, rtol)
     return [
-        NoSolutionError(
-            f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
-            f"({contact.support}), {low:.4g} to {high:.4g} N/m: {curve}{_advice(contact)}"
-        )
+        no_answer(contact, f"{low:.4g} to {high:.4g}", curve)
         if isinstance(curve, NoSolutionError)
         else IndentationCurve(contact, curve, low, high)
         for contact, curve, low, high in zip(contacts, curves, lowest, highest, strict=True)
     ]
+
+
+def no_answer(contact: RollContact, loads: str, why: NoSolutionError) -> NoSolutionError:
+    """Why a roll's contact has no answer under line loads [N/m], with the roll."""
+    return NoSolutionError(
+        f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
+        f"({contact.support}), {loads} N/m: {why}{_advice(contact)}"
+    )
 
 
 def _advice(contact: RollContact) -> str:

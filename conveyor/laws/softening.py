@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact import interior, solve
-from conveyor.indentation import RollContact, to_problem
+from conveyor.errors import NoSolutionError
+from conveyor.indentation import RollContact, no_answer, to_problem
 from conveyor.rubber import AmplitudeFactors, PronySeries, equivalent_linear
 
 Array = NDArray[np.float64]
@@ -98,9 +99,12 @@ def softened_cover(
         inside = interior(solution, depths=_DEPTHS, points=_POINTS)
         return inside.working_strain, inside.wave_number * passing
 
-    found = equivalent_linear(
-        contact.rubber, factors, strain_of, temperature=temperature, swept=swept, rtol=_STRAIN_RTOL
-    )
+    try:
+        found = equivalent_linear(
+            contact.rubber, factors, strain_of, temperature=temperature, swept=swept, rtol=_STRAIN_RTOL
+        )
+    except NoSolutionError as error:
+        raise no_answer(contact, f"{line_load:.4g}", error) from None
     return found.series, WorkingStrain(
         line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
     )
