@@ -93,37 +93,16 @@ def anchored(
 
 def levels(found: Anchored) -> Table:
     """One row a tested temperature: the factor over the loads, and its band."""
-    low, high = found.anchor.loads
+    level = found.anchor
+    low, high = level.loads
     columns = (
         Column("temperature", "temperature", lambda at: at, json="temperature_degC"),
-        Column(
-            "factor at lowest load",
-            "factor",
-            lambda at: float(found.anchor.factor(low, at)),
-            json="factor_low",
-        ),
-        Column(
-            "factor in the middle", "factor", lambda at: float(found.anchor.factor(found.anchor.load, at))
-        ),
-        Column(
-            "factor at highest load",
-            "factor",
-            lambda at: float(found.anchor.factor(high, at)),
-            json="factor_high",
-        ),
-        Column(
-            "band, down",
-            "share",
-            lambda at: math.expm1(-found.anchor.band(found.anchor.load, at)),
-            json="band_down",
-        ),
-        Column(
-            "band, up",
-            "share",
-            lambda at: math.expm1(found.anchor.band(found.anchor.load, at)),
-            json="band_up",
-        ),
-    )
+        Column("factor at lowest load", "factor", lambda at: float(level.factor(low, at)), json="factor_low"),
+        Column("factor in the middle", "factor", lambda at: float(level.factor(level.load, at)), json="factor"),
+        Column("factor at highest load", "factor", lambda at: float(level.factor(high, at)), json="factor_high"),
+        Column("band, down", "share", lambda at: math.expm1(-level.band(level.load, at)), json="band_down"),
+        Column("band, up", "share", lambda at: math.expm1(level.band(level.load, at)), json="band_up"),
+    )  # fmt: skip
     rows = tuple(found.anchor.temperatures.tolist())
     return Table("levels", SHEET, "Measured over calculated, nine tenths within the band", columns, rows)
 
