@@ -243,6 +243,7 @@ def calculate_many(
     progress: Progress | None = None,
     *,
     one_take_up: bool = False,
+    known: CalculatedConveyor | None = None,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -257,6 +258,8 @@ def calculate_many(
     one_take_up : bool
         Whether the take-up has one setting in all of them, the least that serves every state of each; else the least
         of each. A setting that the spec gives stands.
+    known : CalculatedConveyor, optional
+        A variant that is calculated already: the anchors of its compounds are taken over.
 
     Returns
     -------
@@ -268,7 +271,7 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared, told = _Shared(), _Told(len(variants), progress)
+    shared, told = _Shared(known), _Told(len(variants), progress)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -363,11 +366,16 @@ class _Shared:
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, known: CalculatedConveyor | None) -> None:
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
         self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
         self._covers: list[tuple[_Worked, Covers, dict[Strand, RunningCover]]] = []
+        if known is not None:
+            for strand, compound in compounds_by_strand(known.conveyor).items():
+                level = known.contacts.covers[strand].level
+                if level is not None:
+                    self._anchors.append(((compound,), (known.line.softened,), level.anchor))
 
     def loaded(self, variant: Variant, pressing: Pressing) -> tuple[_Loaded, Covers]:
         """The line of a variant under what presses on its curves, and its covers at their working strain.

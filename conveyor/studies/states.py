@@ -248,7 +248,7 @@ def _held(found: CalculatedConveyor, setting: float) -> CalculatedConveyor:
     """A load with the take-up at a setting [N]; on vertical curves its tensions press on the rolls anew."""
     if not found.line.curved:
         return replace(found, balance=found.balance.held(setting))
-    (again,) = calculate_many([Variant(found.conveyor, found.temperature, take_up=setting)])
+    (again,) = calculate_many([Variant(found.conveyor, found.temperature, take_up=setting)], known=found)
     if not isinstance(again, CalculatedConveyor):
         raise again
     return replace(again, friction_band=found.friction_band)
@@ -281,7 +281,7 @@ def _full_and_empty(
     setting = own.balance.settled.setting
     missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in found}
     if missing:
-        answers = calculate_many(list(missing.values()), progress=progress)
+        answers = calculate_many(list(missing.values()), progress=progress, known=own)
         for key, one in zip(missing, answers, strict=True):
             if isinstance(one, CalculatedConveyor):
                 found[key] = one
@@ -329,7 +329,7 @@ def _in_full(
         made = _loaded(conveyor, case, temperature, own)
     except ConveyorError as error:
         return error
-    (found,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)])
+    (found,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)], known=own)
     return found
 
 

@@ -173,7 +173,8 @@ def study(
         why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
         raise InputError(f"{why}: nothing to vary")
     variants = [each for variation in variations for each in variation.variants]
-    powers = [_answer(found).balance.power.motor for found in calculate_many(variants, rtol, progress)]
+    answers = calculate_many(variants, rtol, progress, known=middle)
+    powers = [_answer(found).balance.power.motor for found in answers]
     motor, at = middle.balance.power.motor, 0
     effects = []
     for variation in variations:
