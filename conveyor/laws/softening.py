@@ -73,6 +73,7 @@ def softened_cover(
     line_load: float,
     factors: AmplitudeFactors,
     temperature: float,
+    *,
     swept: PronySeries | None = None,
     inside: tuple[int, int] = INSIDE,
 ) -> tuple[PronySeries, WorkingStrain]:

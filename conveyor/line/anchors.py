@@ -105,7 +105,8 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
     nodes = np.unique(np.geomspace(low, high, SOFT_LOADS if high > low else 1))
     swept = compound.swept_series(points.temperature)
     covers = [
-        softened_cover(contact, w, factors, points.temperature, swept, COARSE)[0] for w in nodes.tolist()
+        softened_cover(contact, w, factors, points.temperature, swept=swept, inside=COARSE)[0]
+        for w in nodes.tolist()
     ]
     found = _resistance([replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes])
     shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(found)), nodes.size - 1)

@@ -128,7 +128,7 @@ def _softened(
     weights = np.concatenate([kind.weights * kind.sets for kind in kinds])
     contact = roll_contact(line, max(kinds, key=lambda kind: kind.highest), cover)
     series, strain = softened_cover(
-        contact, losing_load(loads, weights), factors, temperature, compound.swept_series(temperature)
+        contact, losing_load(loads, weights), factors, temperature, swept=compound.swept_series(temperature)
     )
     return replace(cover, rubber=series, strain=strain)
 

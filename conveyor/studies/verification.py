@@ -281,7 +281,7 @@ def _softened(roll: RollContact, load: float, compound: RubberCompound, temperat
     if factors is None:
         return roll
     swept = compound.swept_series(temperature)
-    return replace(roll, rubber=softened_cover(roll, load, factors, temperature, swept)[0])
+    return replace(roll, rubber=softened_cover(roll, load, factors, temperature, swept=swept)[0])
 
 
 def _filled(
