@@ -238,7 +238,7 @@ def _left_open(found: PowerRange, system: System) -> str:
     low, high = (figure(end, "power", system) for end in (found.low, found.high))
     first, motor = found.effects[0], figure(found.motor, "power", system)
     said = (
-        f"Motor power {motor}, {low.rpartition(' ')[0]} to {high} from what was not given (nine tenths); "
+        f"Motor power {motor}, {low.rpartition(' ')[0]} to {high} by defaults and the rubber's level (nine tenths); "
         f"replace first: {first.name} ({first.give})."
     )
     return " ".join((said, *(f"Not in it: {note}." for note in found.notes)))

@@ -7,6 +7,7 @@ squares. A default is one line of `DEFAULTS`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -24,7 +25,7 @@ from conveyor.laws.resistance import (
     Default,
 )
 from conveyor.line.roll_drags import assumed_share
-from conveyor.line.stretches import Stretch
+from conveyor.line.stretches import STRANDS, Stretch
 from conveyor.loop.balance import balance
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
@@ -54,6 +55,8 @@ class Assumed:
         Fields that replace it.
     share : callable
         Of a conveyor and a force of it the share that rests on this default; 0 where it is not in use.
+    band : callable, optional
+        Of a conveyor both ends, where they are not the same for all; `low` and `high` are then of no use.
     """
 
     key: str
@@ -62,6 +65,11 @@ class Assumed:
     high: float
     give: str
     share: Share
+    band: Callable[[CalculatedConveyor], tuple[float, float]] | None = None
+
+    def ends(self, found: CalculatedConveyor) -> tuple[float, float]:
+        """Both ends of the band on a conveyor [-]."""
+        return (self.low, self.high) if self.band is None else self.band(found)
 
 
 def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed:
@@ -102,6 +110,17 @@ def _unanchored(found: CalculatedConveyor, force: Force) -> Shares:
     return np.array([float(covers[stretch.strand].level is None) for stretch in found.line.stretches])
 
 
+def _tested(found: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose rubber has tests."""
+    return 0.0 if force.key != "indentation" else 1.0 - np.asarray(_unanchored(found, force))
+
+
+def _tests_band(found: CalculatedConveyor) -> tuple[float, float]:
+    """The wider band of the levels of both strands."""
+    half = max(found.contacts.level_band(strand) for strand in STRANDS)
+    return math.exp(-half), math.exp(half)
+
+
 def _pressed(found: CalculatedConveyor, force: Force) -> float:
     """Whether a cleaner is given without its pressure."""
     names = [each.name for each in found.balance.singles if each.key == "cleaner"]
@@ -123,6 +142,8 @@ DEFAULTS: Final = (
     banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
     Assumed("level", "level of the indentation, no rolling-resistance tests", 1.0, UNANCHORED, "a compound with tests",
             _unanchored),
+    Assumed("tested_level", "level of the indentation, band of its tests", 1.0, 1.0, "tests of the belt itself",
+            _tested, _tests_band),
     Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.
@@ -193,14 +214,15 @@ def power_range(found: CalculatedConveyor) -> PowerRange:
         if not any(_rests(assumed, found, force) for force in found.balance.every):
             continue
         try:
-            low, high = (_motor(found, assumed, factor) for factor in (assumed.low, assumed.high))
+            ends = assumed.ends(found)
+            low, high = (_motor(found, assumed, factor) for factor in ends)
         except NoSolutionError as error:
             notes.append(f"{assumed.what} at an end of its band: {error}")
             continue
         effects.append(
             AssumedEffect(
-                assumed.what, f"x {assumed.low:.3g}", "x 1", f"x {assumed.high:.3g}", low, high,
-                assumed.key, assumed.give, assumed.low, assumed.high,
+                assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
+                assumed.key, assumed.give, *ends,
             )
         )  # fmt: skip
     effects.sort(key=lambda effect: -effect.swing)

@@ -43,28 +43,32 @@ def test_each_default_scales_its_force_and_nothing_else(bare):
     found = calculate(bare)
     left = power_range(found)
     parts, watts = found.balance.forces.parts, found.line.speed / found.line.efficiency
-    assert {one.key for one in left.effects} == {"roll_drag", "flexure"}
+    keys = {"roll_drag": "idler_rotation", "flexure": "flexure", "tested_level": "indentation"}
+    assert {one.key for one in left.effects} == keys.keys()
     for one in left.effects:
-        force = parts["idler_rotation" if one.key == "roll_drag" else "flexure"]
+        force = parts[keys[one.key]]
         for factor, power in ((one.low_factor, one.motor_low), (one.high_factor, one.motor_high)):
             assert power - left.motor == pytest.approx((factor - 1.0) * force * watts, rel=ROUNDING)
     assert (left.low, left.high) == root_of_squares(left.motor, left.effects)
-    rotation, flexure = parts["idler_rotation"] * watts, parts["flexure"] * watts
-    assert left.motor - left.low == pytest.approx(math.hypot(0.5 * rotation, 0.5 * flexure), rel=ROUNDING)
-    assert left.high - left.motor == pytest.approx(math.hypot(0.5 * rotation, flexure), rel=ROUNDING)
+    rotation, flexure, rubber = (parts[key] * watts for key in ("idler_rotation", "flexure", "indentation"))
+    half = found.contacts.level_band(
+        "carry"
+    )  # one compound under both strands; the carry rolls are within its loads
+    assert half >= 0.15
+    down, up = -rubber * math.expm1(-half), rubber * math.expm1(half)
+    assert left.motor - left.low == pytest.approx(math.hypot(0.5 * rotation, 0.5 * flexure, down), rel=1e-2)
+    assert left.high - left.motor == pytest.approx(math.hypot(0.5 * rotation, flexure, up), rel=1e-2)
     swings = [one.swing for one in left.effects]
     assert swings == sorted(swings, reverse=True)
 
 
 def test_what_is_given_is_in_no_range(bare):
     known = calculated(drags(bare, "2 N"), flexure_share="10 %")
-    left = power_range(calculate(known))
-    assert left.effects == ()
-    assert (left.low, left.high) == (left.motor, left.motor)
+    assert [one.key for one in power_range(calculate(known)).effects] == ["tested_level"]
     one_strand = bare.idlers.carry.replace(roll=bare.idlers.carry.roll.replace(drag="2 N"))
     half = calculated(bare.replace(idlers=bare.idlers.replace(carry=one_strand)), flexure_share="10 %")
     found = calculate(half)
-    (drag,) = power_range(found).effects
+    (drag,) = (one for one in power_range(found).effects if one.key != "tested_level")
     rotation = next(force for force in found.balance.along if force.key == "idler_rotation").by_strand()[
         "return"
     ]
@@ -131,12 +135,24 @@ def test_reports_say_the_range_and_what_to_replace_first(line):
     note = found.contents(system="SI")["defaults"].note
     low, motor, high = (f"{power / 1e3:.1f} kW" for power in (left.low, left.motor, left.high))
     assert note.startswith(
-        f"Motor power {motor}, {low.removesuffix(' kW')} to {high} from what was not given (nine tenths); "
+        f"Motor power {motor}, {low.removesuffix(' kW')} to {high} by defaults and the rubber's level (nine tenths); "
     )
     assert "replace first: drag of the rolls in service (idlers.*.roll.drag or drag_law)." in note
-    assert " hp from what was" in found.contents(system="US")["defaults"].note
+    assert " hp by defaults" in found.contents(system="US")["defaults"].note
     cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]
     pressed = line.replace(route=line.route.replace(cleaners=cleaners))
     known = conveyor.analyse(calculated(drags(pressed, "2 N"), flexure_share="10 %"))
-    assert "defaults" not in known.contents()
-    assert known.to_dict()["defaults"]["motor_kW"] == {"low": None, "high": None}
+    assert [one["key"] for one in known.to_dict()["defaults"]["in_use"]] == ["tested_level"]
+
+
+def test_rubber_without_tests_may_lose_two_and_a_half_times_as_much(bare):
+    belt = bare.belt
+    plain = belt.bottom_cover.compound.replace(tests=())
+    cover = belt.bottom_cover.replace(compound=plain)
+    top = belt.top_cover if belt.top_cover.compound is None else belt.top_cover.replace(compound=plain)
+    found = calculate(bare.replace(belt=belt.replace(bottom_cover=cover, top_cover=top)))
+    (level,) = (one for one in power_range(found).effects if one.key == "level")
+    watts = found.line.speed / found.line.efficiency
+    assert level.motor_low == pytest.approx(found.balance.power.motor, rel=ROUNDING)
+    more = 1.5 * found.balance.forces.indentation * watts
+    assert level.motor_high - level.motor_low == pytest.approx(more, rel=ROUNDING)
