@@ -17,6 +17,7 @@ from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.representations import folded, of_table
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, bands, document, provenance
+from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
@@ -344,9 +345,22 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
     )
 
 
+def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
+    """Compounds with tests beside compounds without: their levels do not compare."""
+    compounds, anchored = comparison.compounds, comparison.conveyor.calculation.anchor == "tests"
+    bare = [compound.name for compound in compounds if not compound.tests]
+    if anchored and bare and len(bare) < len(compounds):
+        names = ", ".join(f'"{name}"' for name in bare)
+        yield (
+            f"{names}: no rolling-resistance tests, which the others have: the indentation may be up to {UNANCHORED:g} "
+            "times as much; what is saved beside tested compounds is not known (compare by theory alone: "
+            "calculation.anchor: off)"
+        )
+
+
 def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     """What to know of a comparison before believing it."""
-    lines = []
+    lines = list(_unequal_levels(comparison))
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
             lines.append(f'compound "{compound.name}" is illustrative, not measured: no choice rests on it')

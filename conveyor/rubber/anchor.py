@@ -20,6 +20,9 @@ from numpy.typing import ArrayLike
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray, positive_vector
 
+UNANCHORED: Final = 2.5
+"""Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
+data of tyre-type rubber [-]: how far indentation without tests may be below what is measured."""
 NINE_TENTHS: Final = 1.6448536269514722
 """Standard deviations from the middle of a normal distribution within which nine tenths lie [-]."""
 ONE_TEMPERATURE: Final = 2.0

@@ -29,16 +29,12 @@ from conveyor.line.stretches import STRANDS, Stretch
 from conveyor.loop.balance import balance
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
+from conveyor.rubber.anchor import UNANCHORED
 from conveyor.studies.uncertainty import Effect, root_of_squares
 
 Shares: TypeAlias = NDArray[np.float64] | float
 """Of a force what rests on a default [-]: of every stretch, shape (2n,), or at one place."""
 Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
-
-
-UNANCHORED: Final = 2.5
-"""Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
-data of tyre-type rubber [-]."""
 
 
 @dataclass(frozen=True)

@@ -158,3 +158,18 @@ def test_below_the_best_ever_published_it_warns(line):
     result = calculate(with_compound(light, linear("low-rolling-resistance-cover"), "both"))
     assert result.balance.friction_factor < 0.0075
     assert any("the best ever measured on a conveyor" in warning for warning in told(result))
+
+
+def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
+    from conveyor.report.comparing import remarks
+    from conveyor.studies.comparison import compare_compounds
+
+    def said(compounds):
+        found = compare_compounds(line, compounds, temperatures=["20 degC"])
+        return [remark for remark in remarks(found) if "no rolling-resistance tests, which the others have" in remark]
+
+    tested, untested = shelf.compound("standard-cover"), linear("low-rolling-resistance-cover")
+    (remark,) = said([tested, untested])
+    assert remark.startswith('"low-rolling-resistance-cover": ')
+    assert not said([untested, linear("standard-cover")])
+    assert not said([tested, shelf.compound("cold-resistant-cover")])
