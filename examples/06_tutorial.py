@@ -76,7 +76,9 @@ for name, other in {"as given": line, "standard cover": standard, "at -20 degC":
 # ## Compare compounds
 #
 # Over temperature, because the better cover in summer may be the worse one in a cold start. The data of a compound may
-# not reach as far as the rolls ask: `coverage` says so. S100 is measured (tyre-type), the others are constructed.
+# not reach as far as the rolls ask: `coverage` says so. The covers are constructed, at the level of a published
+# rolling-resistance test; S100 is measured (tyre-type) without such a test, at the level of the theory: it is not
+# better by what it seems to save.
 
 # %%
 comparison = conveyor.compare_compounds(

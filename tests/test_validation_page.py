@@ -96,9 +96,9 @@ def written() -> str:
     lines += [
         "## Measured conveyors",
         "",
-        "Covers of the shelf, defaults as they stand; the specs, `tests/validation/conveyors/*.yaml`, say what is "
-        "not printed and assumed. Henderson PC2 (f 0.0075 measured) and Channar (0.0085 to 0.011) are not calculated: "
-        "their rolls, spacings and covers are not printed; a report warns where f is below 0.0075.",
+        "Covers of the shelf, defaults as they stand; the specs are `tests/validation/conveyors/*.yaml` and say what "
+        "is not printed and assumed. Henderson PC2 (f 0.0075 measured) and Channar (0.0085 to 0.011) are not "
+        "calculated: their rolls, spacings and covers are not printed; a report warns where f is below 0.0075.",
         "",
         "| quantity | measured or printed | ours | ratio | band | |",
         "|---|---|---|---|---|---|",

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import conveyor
-from conveyor.analysis import Studies, analyse_cases, compare_compounds
+from conveyor.analysis import compare_compounds, studies
 from conveyor.models import LoadCase
 from conveyor.report.comparing import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build
 from conveyor.report.tables import of_analysis
+from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import headed
 
 ROOT = Path(__file__).parent.parent.parent
@@ -75,15 +77,20 @@ def page():
 
 
 def _of_a_rare_spec():
-    """Bearings' lives, CEMA's estimate, a case without an answer: nothing of it is in the example specs."""
+    """Bearings' lives, CEMA's estimate, a fixed take-up, cases and load states without an answer: in no example."""
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     idlers = line.idlers
     roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
     carry = idlers.carry.replace(roll=roll)
     cema = {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}
     line = line.replace(idlers=idlers.replace(carry=carry), calculation=line.calculation.replace(cema=cema))
-    slow = LoadCase(name="slow", speeds=("0.1 m/s",))
-    return conveyor.analyse(line), Studies(cases=analyse_cases(line, [slow]))
+    steel = line.belt.carcass.replace(kind="steel cord", strength="1600 N/mm", rating=None)
+    route = line.route.replace(take_up={"kind": "fixed", "position": "tail"})
+    slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
+    line = line.replace(cases=(slow, warm), route=route, belt=line.belt.replace(carcass=steel))
+    asked = studies(line)
+    refused = StateRefusal("full", 308.15, "bulk that does not fit")
+    return conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))
 
 
 @pytest.fixture(scope="module")
