@@ -84,9 +84,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
 
     if rated is not None and torques:
         least = of_motors(float(_possible(line, np.asarray(steady), np.asarray(mass))))
-    return RunUp(
-        forces, acceleration, factor, of_motors(_wanted(line)), together, standstill, least, largest
-    )
+    return RunUp(forces, acceleration, factor, of_motors(_wanted(line)), together, standstill, least, largest)
 
 
 def uncontrolled(line: Line) -> bool:

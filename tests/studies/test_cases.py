@@ -37,9 +37,7 @@ def line() -> Conveyor:
     """Covers without strain sweeps and tests: contacts depend on temperature alone, bulk on the descent drives."""
     given = spec("overland")
     plain = shelf.compound("low-rolling-resistance-cover").replace(strain_dependence=None, tests=())
-    top, bottom = (
-        cover.replace(compound=plain) for cover in (given.belt.top_cover, given.belt.bottom_cover)
-    )
+    top, bottom = (cover.replace(compound=plain) for cover in (given.belt.top_cover, given.belt.bottom_cover))
     return given.replace(belt=given.belt.replace(top_cover=top, bottom_cover=bottom))
 
 
