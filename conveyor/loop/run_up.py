@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from conveyor.laws.motion import START_FACTOR, start_force
 from conveyor.line.line import Line
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -60,50 +65,63 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
     Of the motor's force k η P/v each drive keeps what accelerates its own rotating masses: F = k η P/v - m a. A
     controlled start keeps the shares of the drives and is as fast as the weakest motor allows.
     """
-    drives, masses = line.drives, [drive.reduced_mass for drive in line.drives]
-    rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
+    drives, rated, torques = line.drives, _rated(line), [torque for _, torque in line.torque_curve]
+    pushed, per_drive = started(line, np.asarray(steady), np.asarray(mass))
+    forces, acceleration = tuple(per_drive.tolist()), float(pushed)
+    factor = math.fsum(forces) / steady
     together = None if rated is None else math.fsum(rated)
     standstill = least = largest = None
     if together is not None and torques:
         standstill, least, largest = (
             torque * together for torque in (torques[0], min(torques), max(torques))
         )
-    if line.start_factor is None and rated is not None and torques:
-        given = [max(torques) * force for force in rated]
-        acceleration = (math.fsum(given) - steady) / (mass + math.fsum(masses))
-        forces = [force - own * acceleration for force, own in zip(given, masses, strict=True)]
-        if acceleration <= 0.0:
-            forces, acceleration = [drive.share * steady for drive in drives], 0.0
-        return RunUp(
-            tuple(forces),
-            acceleration,
-            math.fsum(forces) / steady,
-            None,
-            together,
-            standstill,
-            least,
-            largest,
-        )
-    wanted = START_FACTOR.value if line.start_factor is None else line.start_factor
-    own = math.fsum(masses) / mass
+    if uncontrolled(line):
+        return RunUp(forces, acceleration, factor, None, together, standstill, least, largest)
+    own = math.fsum(drive.reduced_mass for drive in drives) / mass
 
     def of_motors(factor: float) -> float:
         return factor * steady + (factor - 1.0) * steady * own
 
-    most = wanted
     if rated is not None and torques:
-        possible = min(
-            (min(torques) * force / steady + drive.reduced_mass / mass)
-            / (drive.share + drive.reduced_mass / mass)
-            for force, drive in zip(rated, drives, strict=True)
-            if drive.share + drive.reduced_mass > 0.0
-        )
-        most, least = min(wanted, possible), of_motors(possible)
-    factor = max(1.0, most)
-    return RunUp(
-        tuple(drive.share * factor * steady for drive in drives),
-        (factor - 1.0) * steady / mass, factor, of_motors(wanted), together, standstill, least, largest,
-    )  # fmt: skip
+        least = of_motors(float(_possible(line, np.asarray(steady), np.asarray(mass))))
+    return RunUp(forces, acceleration, factor, of_motors(_wanted(line)), together, standstill, least, largest)
+
+
+def uncontrolled(line: Line) -> bool:
+    """Whether a start takes all that the motors give, and not a multiple of the steady force."""
+    return line.start_factor is None and _rated(line) is not None and bool(line.torque_curve)
+
+
+def started(line: Line, steady: Array, mass: Array) -> tuple[Array, Array]:
+    """Acceleration [m/s²] and force of every drive [N], shape (d, ...), at one or many loads as `run_up` takes them."""
+    shares = np.array([drive.share for drive in line.drives])
+    own = np.array([drive.reduced_mass for drive in line.drives])
+    if uncontrolled(line):
+        given = max(torque for _, torque in line.torque_curve) * np.array(_rated(line))
+        acceleration = np.maximum((given.sum() - steady) / (mass + own.sum()), 0.0)
+        pulled = np.add.outer(given, np.zeros_like(acceleration)) - np.multiply.outer(own, acceleration)
+        return acceleration, np.where(acceleration > 0.0, pulled, np.multiply.outer(shares, steady))
+    factor = np.maximum(1.0, np.minimum(_wanted(line), _possible(line, steady, mass)))
+    return (factor - 1.0) * steady / mass, np.multiply.outer(shares, factor * steady)
+
+
+def _wanted(line: Line) -> float:
+    """Force of a controlled start over the steady one."""
+    return START_FACTOR.value if line.start_factor is None else line.start_factor
+
+
+def _possible(line: Line, steady: Array, mass: Array) -> Array:
+    """The same at which the weakest motor, at its least torque, still keeps its share; infinite where not known."""
+    rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
+    if rated is None or not torques:
+        return np.full_like(steady, np.inf)
+    factors = [
+        (min(torques) * force / steady + drive.reduced_mass / mass)
+        / (drive.share + drive.reduced_mass / mass)
+        for force, drive in zip(rated, line.drives, strict=True)
+        if drive.share + drive.reduced_mass > 0.0
+    ]
+    return np.asarray(np.min(factors, axis=0))
 
 
 def _rated(line: Line) -> list[float] | None:

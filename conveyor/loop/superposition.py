@@ -5,8 +5,9 @@ that is loaded or not. In a state of motion a tension is then
 
     T = c + Σ xᵢ qᵢ + a (μ + Σ xᵢ μᵢ) + Σ ω_d F_d,    a = (ξ - 1) R/M  or  -(R + B)/(M + M_r),
 
-with xᵢ 0 or 1, and R, M and the drives' F of the same kind. With a = 0 the signs of the coefficients are the answer;
-with it they are the beginning of an ascent by whole sections.
+with xᵢ 0 or 1, and R, M and the drives' F of the same kind; of an uncontrolled start F_d and a are what the motors give
+at R and M. With a = 0 the signs of the coefficients are the answer; with it they are the beginning of an ascent by
+whole sections.
 """
 
 from __future__ import annotations
@@ -21,10 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.forces import without_rubber
+from conveyor.laws.motion import START_FACTOR
 from conveyor.laws.tension import grip_tension
 from conveyor.line.places import Stand
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.frame import Frame
+from conveyor.loop.run_up import started, uncontrolled
 from conveyor.loop.settled import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.tensions import STEADY
 
@@ -68,7 +71,10 @@ class _Events:
 
 @dataclass(frozen=True)
 class _State:
-    """A state of motion: friction over the computed one, drive force over the steady one; None with brakes alone."""
+    """A state of motion: friction over the computed one, drive force over the steady one; None with brakes alone.
+
+    A start of a belt that has to be pulled is that of `run_up`.
+    """
 
     name: str
     friction: float
@@ -144,7 +150,10 @@ class Loadings:
         mixed = replace(
             line,
             stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs),
-            loading=tuple(point for point in line.loading if loading[point.spot.boundary - count]),
+            loading=tuple(
+                point if loading[point.spot.boundary - count] else replace(point, flow=0.0, flow_beyond=0.0)
+                for point in line.loading
+            ),
         )
         along = tuple(
             replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
@@ -212,7 +221,8 @@ class Loadings:
     @cached_property
     def _states(self) -> tuple[_State, ...]:
         """Every state of motion that may decide something; which occur depends on the loading."""
-        factor, certain = self.line.start_factor, self.line.least_friction
+        wanted, certain = self.line.start_factor, self.line.least_friction
+        factor = START_FACTOR.value if wanted is None else wanted
         states = [_State(STEADY, 1.0, 1.0), _State(START, 1.0, factor)]
         if certain < 1.0:
             states += [_State(LEAST, certain, 1.0), _State(LEAST_BRAKING, certain, factor)]
@@ -244,7 +254,13 @@ class Loadings:
         if state.over is None:
             slowing = (resistance + self.brakes.sum()) / (mass + self.rotating.sum())
             return -slowing, np.multiply.outer(self.rotating, slowing) - _column(self.brakes, slowing)
-        return (state.over - 1.0) * resistance / mass, np.multiply.outer(self.shares * state.over, resistance)
+        acceleration = (state.over - 1.0) * resistance / mass
+        forces = np.multiply.outer(self.shares * state.over, resistance)
+        if state.name != START:
+            return acceleration, forces
+        pulls = resistance > 0.0
+        pushed, pulled = started(self.line, np.where(pulls, resistance, 1.0), mass)
+        return np.where(pulls, pushed, acceleration), np.where(pulls, pulled, forces)
 
     def _offsets(self, state: _State, loading: Loading, acceleration: float, forces: Array) -> Array:
         """Tension over that of the head's return strand before and behind every event [N], shape (e + 1,)."""
@@ -298,7 +314,7 @@ class Loadings:
         step = events.more_certain + state.friction * (events.more_force - events.more_certain)
         added = events.by_section(step + acceleration * events.more_mass, self.count)
         taken = np.zeros_like(anchor)  # share of the drives that stand before a place
-        if state.over is not None:
+        if state.over is not None and not (state.name == START and uncontrolled(self.line)):
             _, forces = self._motion(state, total, self._masses[0])
             for share, at in zip(self.shares * state.over, self.drive_at, strict=True):
                 taken[at + 1 :] += share
@@ -519,7 +535,7 @@ def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
             continue
         if force.key == "secondary_by_length":
             yield from _by_length(full, empty, force.total)
-        elif spot.stand is Stand.LANDING:
+        elif spot.stand is Stand.LANDING or force.kind == "lift":  # of a tripper, over its section's tail end
             certain = force.total if force.certain else 0.0
             yield (0.0, 0.0, 0.0, force.total, certain, 0.0, spot.boundary - count)
         else:

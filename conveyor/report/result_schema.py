@@ -166,6 +166,7 @@ _POWER: Final = _of(
             {}, also=dict.fromkeys(("empty", "full", "inclines", "declines", "worst"), _STATE), of="of load"
         )
         | {"additionalProperties": _STATE},
+        "worst_states": _each(_STATE, of="loadings that are worst for a figure, those of `states` among them"),
         "load_cases": _of(
             {
                 "conveyor": _TEXT,

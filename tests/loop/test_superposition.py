@@ -37,6 +37,8 @@ def route(rng, count):
             "brake_force": f"{rng.uniform(20, 200):.1f} kN",
             "reduced_mass": f"{rng.uniform(1, 20):.1f} t",
         }
+    if rng.random() < 0.5:  # else all that the motors give
+        drive["start_factor"] = 1.4
     made = {"sections": sections, "pulleys": []}
     kind = str(rng.choice(["gravity", "fixed", ""]))
     if kind:
@@ -45,7 +47,7 @@ def route(rng, count):
         made["feeding"] = FEEDING | {"share": 0.6}
         made["further_feeding"] = [FEEDING | {"section": "s1", "share": 0.4}]
     secondary = "C" if rng.random() < 0.2 else "itemised"
-    return line(route=made, drive=drive, calculation={"secondary": secondary})
+    return line(route=made, drive=drive, calculation={"secondary": secondary, "not_given": "nothing"})
 
 
 def bearing(conveyor, loading):

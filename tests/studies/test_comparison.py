@@ -113,8 +113,10 @@ def test_band_of_two_replicas_lies_a_twentieth_inside_them(line):
     assert one.motor - one.motor_low == pytest.approx(0.95 / 0.05 * (one.motor - one.motor_high), rel=1e-6)
 
 
-def test_no_replicas_no_band(found):
-    assert scene(found, "standard-cover", 293.15, 5.0).motor_low is None
+def test_no_replicas_and_no_tests_no_band(line):
+    untested = shelf.compound("standard-cover").replace(strain_dependence=None, tests=())
+    (one,) = compare_compounds(line, [untested]).scenes
+    assert (one.motor_low, one.motor_high) == (None, None)
 
 
 def test_coverage_is_the_excited_band_of_the_analysis(line, found):

@@ -102,7 +102,7 @@ def test_the_worst_may_be_what_installed_motors_do_not_give(line, own):
     given = line.replace(drive=line.drive.replace(installed_power=full))
     checked = {check.key: check for check in load_states(given).checks}
     assert checked["motor_power"].verdict == "FAIL"
-    assert "worst for drive force" in checked["motor_power"].subject.text()
+    assert "worst for drive force" in checked["motor_power"].case.text()
     assert checked["take_up_tension"].verdict == "FAIL"
     assert checked["slack_belt"].verdict == "pass"
 

@@ -11,7 +11,7 @@ from scipy.special import ndtri
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.models import Conveyor, Uncertainty
+from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.pipeline import calculate
 from conveyor.spec import load
 from conveyor.studies.compared import COVERED
@@ -27,6 +27,18 @@ RTOL = 1e-4
 def line() -> Conveyor:
     given = load(SPECS / "overland.yaml")
     return given.replace(calculation=given.calculation.replace(rtol=RTOL, flexure_share="11 %"))
+
+
+def on(conveyor: Conveyor, bottom: RubberCompound) -> Conveyor:
+    """The conveyor with a compound under the carry rolls, and one without replicas and tests under the others."""
+    plain = shelf.compound("standard-cover").replace(strain_dependence=None, tests=())
+    belt = conveyor.belt
+    return conveyor.replace(
+        belt=belt.replace(
+            top_cover=belt.top_cover.replace(compound=plain),
+            bottom_cover=belt.bottom_cover.replace(compound=bottom),
+        )
+    )
 
 
 def ranges(**given: object) -> Uncertainty:
@@ -167,12 +179,11 @@ def test_downhill_the_power_falls_with_the_drag():
 
 def test_rubber_is_the_band_of_its_replicas(line):
     compound = shelf.compound("s100").replace(strain_dependence=None)
-    belt = line.belt.replace(bottom_cover=line.belt.bottom_cover.replace(compound=compound))
-    given = line.replace(belt=belt)
+    given = on(line, compound)
     found = study(given, ranges(rubber=True))
     (one,) = found.effects
     assert one.name == 'rubber "S100"'
-    assert any('"standard-cover" has no replicas' in note for note in found.notes)
+    assert any('"standard-cover" has no replicas and no tests' in note for note in found.notes)
     powers = []
     for replica in compound.replicas(si(compound.reference_temperature)):
         prony = compound.prony.replace(
@@ -183,8 +194,7 @@ def test_rubber_is_the_band_of_its_replicas(line):
                 for e, t in zip(replica.moduli, replica.times, strict=True)
             ],
         )
-        bottom = belt.bottom_cover.replace(compound=compound.replace(prony=prony))
-        powers.append(calculate(given.replace(belt=belt.replace(bottom_cover=bottom))).balance.power.motor)
+        powers.append(calculate(on(line, compound.replace(prony=prony))).balance.power.motor)
     expected = np.quantile(powers, [0.5 * (1.0 - COVERED), 0.5 * (1.0 + COVERED)])
     assert [one.motor_low, one.motor_high] == pytest.approx(expected, rel=2.0 * RTOL)
 
@@ -229,8 +239,9 @@ def test_studies_without_an_answer_are_refused(line):
         InputError, match="uncertainty: missing; give the spec ranges, or pass them: nothing to vary"
     ):
         study(line)
+    bare = on(line, shelf.compound("low-rolling-resistance-cover").replace(strain_dependence=None, tests=()))
     with pytest.raises(InputError, match=r"has no replicas.*nothing to vary"):
-        study(line, ranges(rubber=True))
+        study(bare, ranges(rubber=True))
     with pytest.raises(
         InputError, match=r"uncertainty.flow: an end of the range is refused: material.flow: got 3600"
     ):
