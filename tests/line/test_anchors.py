@@ -166,7 +166,11 @@ def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
 
     def said(compounds):
         found = compare_compounds(line, compounds, temperatures=["20 degC"])
-        return [remark for remark in remarks(found) if "no rolling-resistance tests, which the others have" in remark]
+        return [
+            remark
+            for remark in remarks(found)
+            if "no rolling-resistance tests, which the others have" in remark
+        ]
 
     tested, untested = shelf.compound("standard-cover"), linear("low-rolling-resistance-cover")
     (remark,) = said([tested, untested])

@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 
 from conveyor import shelf
+from conveyor.laws.take_up import take_up_mass
+from conveyor.laws.tension import sag_tension
 from conveyor.line.anchors import anchor, anchor_rows
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
@@ -109,12 +111,36 @@ def test_measured_and_printed_friction(k):
     assert low <= row.ratio <= high, row
 
 
-def test_what_the_report_prints_exactly():
-    """Sag tension (m'_B + m'_G) g a/(8 sag), and the take-up's 13 t on two strands, to their printed digits."""
-    line = calculated("curragh_north").line
-    mass = line.stretches[0].line_mass
-    assert mass * line.gravity * 5.0 / (8.0 * 0.02) == pytest.approx(37.57e3, abs=5.0)
-    assert 13e3 * line.gravity / 2.0 == pytest.approx(63.74e3, abs=5.0)
+@pytest.mark.parametrize(
+    ("belt", "flow", "speed", "spacing", "sag", "printed"),
+    [
+        (30.0, 2500.0, 7.5, 5.0, 0.02, 37.57),  # Curragh North C3
+        (39.62, 1000.0, 5.2, 1.2, 0.015, 9.12),  # PC01, a pipe conveyor
+        (11.06, 120.0, 1.0, 1.2, 0.015, 4.35),  # BC-01
+    ],
+)
+def test_sag_tensions_of_printed_reports(belt, flow, speed, spacing, sag, printed):  # noqa: PLR0917 a printed row
+    """Helix delta-T, g 9.80665: kg/m, t/h, m/s, m, sag; to the printed digits of kN."""
+    mass = belt + flow / 3.6 / speed
+    tension = sag_tension(mass, spacing=spacing, relative_sag=sag, gravity=9.80665)
+    assert tension / 1e3 == pytest.approx(printed, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("tonnes", "strands", "gravity", "printed"),
+    [
+        (13.0, 2, 9.80665, 63.74),  # Curragh North C3
+        (17.0, 2, 9.80665, 83.36),  # PC01
+        (2.0, 2, 9.80665, 9.81),  # BC-01
+        (46.9, 4, 9.81, 115.0),  # take-ups of four strands
+        (20.0, 4, 9.81, 49.0),
+    ],
+)
+def test_take_up_tensions_of_printed_reports(tonnes, strands, gravity, printed):
+    """Tension = mass g/strands, to the printed digits of kN."""
+    mass = take_up_mass(1e3 * printed, reeving=1.0, gravity=gravity, strands=strands)
+    digit = 0.5 if printed == 115.0 else 0.05 if printed == 49.0 else 0.005
+    assert mass == pytest.approx(1e3 * tonnes, abs=1e3 * digit * strands / gravity)
 
 
 def test_the_site_is_within_the_range_that_its_defaults_leave():
