@@ -81,10 +81,11 @@ def anchored(
     """
     if not tests:
         raise InputError("tests: give at least one")
-    changes: dict[str, Any] = {"tests": tuple(tests)}
+    missing = tuple(line for line in compound.missing if not line.startswith("rolling-resistance tests"))
+    changes: dict[str, Any] = {"tests": tuple(tests), "missing": missing}
     if name is not None and name != compound.name:
         lacking = f"its spectrum, shift and strain dependence: those of {compound.name} carry the tests"
-        changes |= {"name": name, "carrier": compound.name, "missing": (lacking, *compound.missing)}
+        changes |= {"name": name, "carrier": compound.name, "missing": (lacking, *missing)}
         changes["description"] = f"Tested; carried by the spectrum of {compound.name}: {compound.description}"
     made = compound.replace(**changes)
     found = anchor_rows(made, softened=softened)

@@ -140,7 +140,8 @@ def test_take_up_tensions_of_printed_reports(tonnes, strands, gravity, printed):
     """Tension = mass g/strands, to the printed digits of kN."""
     mass = take_up_mass(1e3 * printed, reeving=1.0, gravity=gravity, strands=strands)
     digit = 0.5 if printed == 115.0 else 0.05 if printed == 49.0 else 0.005
-    assert mass == pytest.approx(1e3 * tonnes, abs=1e3 * digit * strands / gravity)
+    # half a printed digit, and the rounding of floats where the figure is just between two
+    assert mass == pytest.approx(1e3 * tonnes, abs=1e3 * digit * strands / gravity * (1.0 + 1e-9))
 
 
 def test_the_site_is_within_the_range_that_its_defaults_leave():
