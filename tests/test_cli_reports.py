@@ -71,9 +71,15 @@ def test_everything_is_written_and_said(written):
     assert "[hp]" in (folder / "a.html").read_text(encoding="utf-8")
 
 
+def at_the_take_up(spec):
+    """The analysis with the take-up that serves the load states too, as `power` shows it."""
+    line = conveyor.load(spec)
+    return conveyor.analyse(line).beside(conveyor.studies.studies(line))
+
+
 def test_units_of_the_terminal(written):
     done, _ = written
-    found = conveyor.analyse(conveyor.load(SPECS / "in_plant_us.yaml")).balance
+    found = at_the_take_up(SPECS / "in_plant_us.yaml").balance
     assert f"{found.power.motor / HORSE:,.1f} hp" in done.stdout
     assert f"{found.forces.total / 4.4482216152605:,.0f} lbf" in done.stdout
     assert not re.search(r"\d (kN|kW|N|°C|m/s)\b", done.stdout)
@@ -89,7 +95,7 @@ def test_units_of_the_spec_are_the_default(tmp_path, inside):
     assert "Plant 7, revision C" in shown
     assert " kW" in inside("power", spec, "--units", "SI")
     assert json.loads(inside("power", spec, "--json"))["power_kW"]["motor"] == pytest.approx(
-        conveyor.analyse(conveyor.load(spec)).balance.power.motor / 1e3
+        at_the_take_up(spec).balance.power.motor / 1e3
     )
 
 

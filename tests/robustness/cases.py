@@ -251,7 +251,7 @@ COMMANDS = [
     Case("command line", "units that are none", given("power", "spec.yaml", "--units", "imperial"), "--units"),
     Case("command line", "a range that leads nowhere", given("compare", "spec.yaml", "-c", "s100", "--temperature", "20:0:5"), "expected from:to:step"),
     Case("no answer", "a free cover wrapped around the roll", edited(("ambient: {", "calculation: {support: free, gauss_points: 1}\nambient: {")), "confined", code=1),
-    Case("no answer", "a temperature that no compound reaches", given("compare", "spec.yaml", "-c", "s100", "--temperature", "-90"), "no scene has an answer", code=1),
+    Case("no answer", "a temperature that no compound reaches", given("compare", "spec.yaml", "-c", "s100", "--temperature", "-90"), "no scene has an answer", code=1, lines=2),
     Case("no answer", "one contact too heavily loaded", given("contact", "--support", "free", "--radius", "0.1", "--thickness", "0.05", "--pressure", "0.5"), "lower the load", code=1),
     Case("stopped", "Ctrl-C while it calculates", older("r.xlsx", "power", "--force", "spec.yaml", "-o", "r.xlsx"), "conveyor: stopped by Ctrl-C", code=130, spoil=stopped),
 ]  # fmt: skip
