@@ -26,7 +26,7 @@ def test_calibrate_prints_a_fragment_that_power_takes(tmp_path: Path) -> None:
     power = run("power", tmp_path / "spec.json", "--json")
     assert power.returncode == 0, power.stderr
     told = json.loads(power.stdout)
-    # the take-up of `power` serves the load states too: wraps and bearings follow its tension, by less than a thousandth
+    # the take-up of `power` serves the load states too; wraps and bearings follow its tension, less than a thousandth
     assert told["power_kW"]["motor"] == pytest.approx(run_of["calibrated_kW"], rel=1e-3)
     assert any("calculation.calibration" in text for text in told["warnings"])
 
