@@ -5,8 +5,8 @@
 Every conveyor is an example spec of another length and lift, its factors drawn evenly (indentation and flexure 0.7 to
 2, idler rotation 0.6 to 1.6); runs empty, at half and full load, at 0, 15 and 30 degC; power with 2 % noise, DRAWS
 times. Counted is how often the band of a factor holds the truth; of a factor for several forces the truth is the mean
-of theirs, weighted by what each takes of the power at full load and 15 degC. Beside it the power there against its
-truth. The error of a count is binomial: sqrt(p (1 - p)/n).
+of theirs as the runs weigh them: what least squares makes of runs without noise. Beside it the power at full load and
+15 degC against its truth. The error of a count is binomial: sqrt(p (1 - p)/n).
 """
 
 from __future__ import annotations
@@ -75,7 +75,8 @@ def main(conveyors: int, draws: int) -> None:
             for flow, warmth in STATES
         ]
         made = powers(spec.replace(calculation=spec.calculation.replace(calibration=truth)), runs)
-        plain = {force.key: force.total for force in powers(spec, [runs[AT]])[0].balance.along}
+        plain = [{force.key: force.total for force in one.balance.along} for one in powers(spec, runs)]
+        weights = np.array([one.balance.power.motor for one in made]) ** -2.0
         for _ in range(draws):
             noise = 1.0 + NOISE * rng.standard_normal(len(runs))
             noisy = [
@@ -87,11 +88,8 @@ def main(conveyors: int, draws: int) -> None:
             except InputError:
                 refused += 1
                 continue
-            for factor in found.factors:
-                shares_of = [plain[name] for name in factor.forces]
-                true = sum(truth.factors[n] * s for n, s in zip(factor.forces, shares_of, strict=True)) / sum(
-                    shares_of
-                )
+            groups = [factor.forces for factor in found.factors]
+            for factor, true in zip(found.factors, means(groups, plain, weights, truth), strict=True):
                 held[factor.name].append(factor.low <= true <= factor.high)
             off.append(found.runs[AT].after / made[AT].balance.power.motor - 1.0)
     every = [one for each in held.values() for one in each]
@@ -105,6 +103,19 @@ def main(conveyors: int, draws: int) -> None:
         f"power at full load, 15 degC: off by {spread:.2%} (one standard deviation), {mean:+.2%} in the mean"
     )
     print(f"{refused} of {conveyors * draws} refused; {perf_counter() - begun:.0f} s")
+
+
+def means(
+    groups: list[tuple[str, ...]], forces: list[dict[str, float]], weights: np.ndarray, truth: Calibration
+) -> list[float]:
+    """Truth of every group: its mean as the runs weigh it, P = sum of J_i theta_i, A = (X'WX)^-1 X'W."""
+    columns = np.array([[sum(one[name] for name in group) for group in groups] for one in forces])
+    solved = np.linalg.solve(columns.T @ (weights[:, None] * columns), columns.T * weights)
+    found = []
+    for k, group in enumerate(groups):
+        moved = {name: float(solved[k] @ np.array([one[name] for one in forces])) for name in group}
+        found.append(sum(truth.factors[name] * share for name, share in moved.items()))
+    return found
 
 
 def shares(spec: Conveyor) -> bool:
