@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
-from conveyor.laws.motion import reduced_mass, typical_reduced_mass
+from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.line import usual
@@ -309,6 +309,11 @@ class Line:
     def count(self) -> int:
         """Number of sections n."""
         return len(self.sections)
+
+    @property
+    def start_over_steady(self) -> float:
+        """Force of a controlled start over the steady one [-]: as given, else usual."""
+        return START_FACTOR.value if self.start_factor is None else self.start_factor
 
     @property
     def brakes(self) -> list[float]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.motion import START_FACTOR, start_force
+from conveyor.laws.motion import start_force
 from conveyor.line.line import Line
 
 Array = NDArray[np.float64]
@@ -84,7 +84,9 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
 
     if rated is not None and torques:
         least = of_motors(float(_possible(line, np.asarray(steady), np.asarray(mass))))
-    return RunUp(forces, acceleration, factor, of_motors(_wanted(line)), together, standstill, least, largest)
+    return RunUp(
+        forces, acceleration, factor, of_motors(line.start_over_steady), together, standstill, least, largest
+    )
 
 
 def uncontrolled(line: Line) -> bool:
@@ -101,13 +103,8 @@ def started(line: Line, steady: Array, mass: Array) -> tuple[Array, Array]:
         acceleration = np.maximum((given.sum() - steady) / (mass + own.sum()), 0.0)
         pulled = np.add.outer(given, np.zeros_like(acceleration)) - np.multiply.outer(own, acceleration)
         return acceleration, np.where(acceleration > 0.0, pulled, np.multiply.outer(shares, steady))
-    factor = np.maximum(1.0, np.minimum(_wanted(line), _possible(line, steady, mass)))
+    factor = np.maximum(1.0, np.minimum(line.start_over_steady, _possible(line, steady, mass)))
     return (factor - 1.0) * steady / mass, np.multiply.outer(shares, factor * steady)
-
-
-def _wanted(line: Line) -> float:
-    """Force of a controlled start over the steady one."""
-    return START_FACTOR.value if line.start_factor is None else line.start_factor
 
 
 def _possible(line: Line, steady: Array, mass: Array) -> Array:

@@ -9,7 +9,6 @@ from functools import cached_property
 
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
-from conveyor.laws.motion import START_FACTOR
 from conveyor.loop.run_up import run_up
 from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, MotionState, Singles
 
@@ -188,7 +187,7 @@ def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
 def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
     """Steady running and every state that the grip of the drives has to hold in."""
     line, mass = loop.line, loop.masses.whole
-    factor = START_FACTOR.value if line.start_factor is None else line.start_factor
+    factor = line.start_over_steady
 
     def shared(name: str, force: float, friction: float, over: float) -> Motion:
         forces = [drive.share * over * force for drive in line.drives]

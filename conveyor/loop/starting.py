@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from conveyor.errors import NoSolutionError
-from conveyor.laws.motion import START_FACTOR, Stop, brake_force, bulk_slip_limits, run_up_time, stop
+from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, run_up_time, stop
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
@@ -198,7 +198,7 @@ def _start(found: Balance, mass: float, rotating: float) -> Start:
     line, steady = found.line, found.settled.force
     stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * found.forces.parts["idler_rotation"]
     if steady <= 0.0:
-        factor = START_FACTOR.value if line.start_factor is None else line.start_factor
+        factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass
         time = line.speed / abs(braking) if braking else None
         return Start(

@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.forces import without_rubber
-from conveyor.laws.motion import START_FACTOR
 from conveyor.laws.tension import grip_tension
 from conveyor.line.places import Stand
 from conveyor.loop.balance import Balance, balance
@@ -221,8 +220,7 @@ class Loadings:
     @cached_property
     def _states(self) -> tuple[_State, ...]:
         """Every state of motion that may decide something; which occur depends on the loading."""
-        wanted, certain = self.line.start_factor, self.line.least_friction
-        factor = START_FACTOR.value if wanted is None else wanted
+        factor, certain = self.line.start_over_steady, self.line.least_friction
         states = [_State(STEADY, 1.0, 1.0), _State(START, 1.0, factor)]
         if certain < 1.0:
             states += [_State(LEAST, certain, 1.0), _State(LEAST_BRAKING, certain, factor)]
