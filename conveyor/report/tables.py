@@ -72,10 +72,11 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
     every = _every_check(analysis, studies)
     found = deciding(every)
     studied, drawn = of_studies(studies, system)
+    left_open = power_range(analysis)
     parts = (
         identity(analysis.conveyor, system),
-        results(analysis),
-        defaults(power_range(analysis), system),
+        results(analysis, left_open),
+        defaults(left_open, system),
         inputs(analysis.conveyor),
         sections(analysis),
         classical(analysis),
@@ -161,11 +162,10 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     return figures("identity", "", "The conveyor", rows)
 
 
-def results(a: CalculatedConveyor) -> Table:
+def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     """Figures of the whole conveyor; the range of power where defaults leave one open."""
     conveyor, found = a.conveyor, a.balance
     forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
-    left_open = power_range(a)
     low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
     even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
@@ -1085,7 +1085,7 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
         "checks": [_told(check, governs=any(check is one for one in governing)) for check in every],
         "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, governing)],
     }
-    return placed(data, results(a).rows) | ({} if studies is None else plain_studies(studies))
+    return placed(data, results(a, left_open).rows) | ({} if studies is None else plain_studies(studies))
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:

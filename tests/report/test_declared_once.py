@@ -41,8 +41,8 @@ def probed(result, monkeypatch):
         more = Column("probe", "force", lambda r: r.forces["indentation"], json="probe_N", total=True)
         return replace(table, columns=(*table.columns, more))
 
-    def with_figure(a):
-        table = results(a)
+    def with_figure(a, left_open):
+        table = results(a, left_open)
         more = Figure("probing", "power", 12_345.0, "tile large cover notebook", "power_kW.probing")
         return replace(table, rows=(*table.rows, more))
 
