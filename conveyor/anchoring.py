@@ -133,7 +133,7 @@ def lines(found: Anchored) -> tuple[str, ...]:
     moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
     strain = "at the strain of each test" if found.softened and found.compound.strain_dependence else "linear"
     said = [
-        f"{level.points} points of {len(tests)} tests; the anchor leaves {float(np.median(left)):.1%} of a row in the "
+        f"{level.points} points of {len(tests)} {'test' if len(tests) == 1 else 'tests'}; the anchor leaves {float(np.median(left)):.1%} of a row in the "
         f"median, {max(left):.1%} at most; rubber taken {strain}",
         f"factor over the line load: exponent {level.slope:+.3f}"
         if level.slope
