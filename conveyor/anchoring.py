@@ -132,8 +132,9 @@ def lines(found: Anchored) -> tuple[str, ...]:
     level, tests = found.anchor, found.compound.tests
     moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
     strain = "at the strain of each test" if found.softened and found.compound.strain_dependence else "linear"
+    count = "1 test" if len(tests) == 1 else f"{len(tests)} tests"
     said = [
-        f"{level.points} points of {len(tests)} {'test' if len(tests) == 1 else 'tests'}; the anchor leaves {float(np.median(left)):.1%} of a row in the "
+        f"{level.points} points of {count}; the anchor leaves {float(np.median(left)):.1%} of a row in the "
         f"median, {max(left):.1%} at most; rubber taken {strain}",
         f"factor over the line load: exponent {level.slope:+.3f}"
         if level.slope
