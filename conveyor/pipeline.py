@@ -25,6 +25,7 @@ from conveyor.line.covers import (
     Covers,
     Level,
     RunningCover,
+    StrandAtWork,
     compounds_by_strand,
     covers_of,
     rubbers,
@@ -276,19 +277,17 @@ def calculate_many(
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
     while going:
-        loaded: dict[int, tuple[_Loaded, Covers]] = {}
+        loaded: dict[int, _Loaded] = {}
         for i, step in going.items():
             try:
                 loaded[i] = shared.loaded(variants[i], step.pressing)
             except (NoSolutionError, RangeError, InputError) as error:
                 refused[i] = error
             told(len(variants) - len(going), len(loaded))
-        lines = [one.line for one, _ in loaded.values()]
-        solved = solve_contacts(lines, [covers for _, covers in loaded.values()], rtol)
-        for i, contacts in zip(loaded, solved, strict=True):
+        for i, contacts in _solved(shared, loaded, rtol).items():
             try:
-                made[i] = _closed(variants[i], loaded[i][0], contacts)
-            except NoSolutionError as error:
+                made[i] = _closed(variants[i], loaded[i], contacts)
+            except (NoSolutionError, RangeError, InputError) as error:
                 refused[i] = error
         for i in refused:
             made.pop(i, None)
@@ -324,16 +323,28 @@ class _Step:
 
 @dataclass(frozen=True, eq=False)
 class _Loaded:
-    """A line with its loop and the forces that no rubber changes."""
+    """A line with its loop, the forces that no rubber changes, and the covers its rolls are to work."""
 
     line: Line
     frame: Frame
     fixed: WithoutRubber
+    works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoSolutionError) -> CalculatedConveyor:
+def _solved(
+    shared: _Shared, loaded: Mapping[int, _Loaded], rtol: float | None
+) -> dict[int, Contacts | NoAnswer]:
+    """The contacts of loaded lines, their covers at their working strain; all side by side."""
+    running = dict(zip(loaded, shared.softened([one.works for one in loaded.values()]), strict=True))
+    covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
+    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
+    refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
+    return {**refused, **dict(zip(covers, solved, strict=True))}
+
+
+def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
     """Close the loop around the forces of the rolls."""
-    if isinstance(contacts, NoSolutionError):
+    if not isinstance(contacts, Contacts):
         raise contacts
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
@@ -370,33 +381,60 @@ class _Shared:
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
         self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
-        self._covers: list[tuple[_Worked, Covers, dict[Strand, RunningCover]]] = []
+        self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
+        self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
-                level = known.contacts.covers[strand].level
-                if level is not None:
-                    self._anchors.append(((compound,), (known.line.softened,), level.anchor))
+                cover = known.contacts.covers[strand]
+                if cover.level is not None:
+                    self._anchors.append(((compound,), (known.line.softened,), cover.level.anchor))
+                work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
+                self._running[self._first(work)] = cover
 
-    def loaded(self, variant: Variant, pressing: Pressing) -> tuple[_Loaded, Covers]:
-        """The line of a variant under what presses on its curves, and its covers at their working strain.
+    def loaded(self, variant: Variant, pressing: Pressing) -> _Loaded:
+        """The line of a variant under what presses on its curves, and its covers before its rolls work them.
 
         Raises
         ------
         NoSolutionError
-            The belt lifts off on a concave curve, or a cover has no answer at its strain.
+            The belt lifts off on a concave curve.
         RangeError
-            A compound is not known at the belt's temperature, or at the strain of the rolls.
+            A compound is not known at the belt's temperature.
         InputError
             A law of roll drag does not hold at a load.
         """
         given, at = variant.conveyor, variant.covers_at
-        carry, back = compounds_by_strand(given).values()
-        rubber = _once(self._rubbers, (carry, back), (at,), lambda: rubbers(given, at))
+        compounds = compounds_by_strand(given)
+        rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
         parts = (given.belt, given.idlers, given.material, given.route, given.drive, given.calculation)
         air = given.air_temperature if given.idlers.drag_follows_air else None
         loaded = _once(self._lines, parts, (air, dict(pressing)), lambda: _prepared(given, pressing))
-        plain = covers_of(given, rubber, self._levels(given, at))
-        return loaded, self._softened(_Worked(loaded.line, given, at), plain)
+        covers = covers_of(given, rubber, self._levels(given, at))
+        return replace(
+            loaded,
+            works={
+                strand: StrandAtWork(loaded.line, strand, cover, compounds[strand], at)
+                for strand, cover in covers.items()
+            },
+        )
+
+    def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
+        """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
+        firsts = [{strand: self._first(work) for strand, work in works.items()} for works in scenes]
+        asked = dict.fromkeys(first for works in firsts for first in works.values())
+        new = [first for first in asked if first not in self._running]
+        self._running.update(zip(new, softened_covers(new), strict=True))
+        return [
+            _together({strand: self._running[first] for strand, first in works.items()}) for works in firsts
+        ]
+
+    def _first(self, work: StrandAtWork) -> StrandAtWork:
+        """The first strand that works its cover alike."""
+        alike = self._alike.setdefault(work.scene, [])
+        first = next((one for one in alike if work.like(one)), None)
+        if first is None:
+            alike.append(first := work)
+        return first
 
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
@@ -411,15 +449,6 @@ class _Shared:
                 tests = _once(self._anchors, (compound,), (softened,), made)
             found[strand] = None if tests is None else Level(tests, at)
         return found
-
-    def _softened(self, work: _Worked, covers: Covers) -> Covers:
-        """The very covers of a line that works the same rubber alike, so that load curves are shared."""
-        for other, known, found in self._covers:
-            if all(covers[s].like(known[s]) for s in covers) and work.like(other):
-                return found
-        made = softened_covers(work.line, covers, work.conveyor, work.temperature)
-        self._covers.append((work, covers, made))
-        return made
 
 
 def _once(
@@ -437,36 +466,17 @@ def _once(
     return made
 
 
+def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAnswer:
+    """The covers of all strands, or why the first of those without has none."""
+    for cover in covers.values():
+        if not isinstance(cover, RunningCover):
+            return cover
+    return {strand: cover for strand, cover in covers.items() if isinstance(cover, RunningCover)}
+
+
 def _prepared(conveyor: Conveyor, pressing: Pressing) -> _Loaded:
     line = Line.of(conveyor, pressing)
     return _Loaded(line, Frame(line), without_rubber(line))
-
-
-@dataclass(frozen=True, eq=False)
-class _Worked:
-    """A line at work on the rubber of its conveyor at a temperature [K]."""
-
-    line: Line
-    conveyor: Conveyor
-    temperature: float
-
-    def like(self, other: _Worked) -> bool:
-        """Whether the rolls work the same compounds exactly as another line's do."""
-        mine, theirs = self.line, other.line
-        if mine is theirs and self.temperature == other.temperature:
-            same = True
-        else:
-            same = (self.temperature, mine.speed, mine.softened, mine.support) == (
-                other.temperature, theirs.speed, theirs.softened, theirs.support
-            ) and len(mine.kinds) == len(theirs.kinds) and all(
-                a.bears_like(b) for a, b in zip(mine.kinds, theirs.kinds, strict=True)
-            )  # fmt: skip
-        pairs = zip(
-            compounds_by_strand(self.conveyor).values(),
-            compounds_by_strand(other.conveyor).values(),
-            strict=True,
-        )
-        return same and all(a is b for a, b in pairs)
 
 
 class _Told:

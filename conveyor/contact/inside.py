@@ -125,29 +125,38 @@ class Inside:
             away = x - strip.centre
             away -= 2.0 * math.pi * np.round(away / (2.0 * math.pi))
             octave = np.floor(np.log2(np.maximum(np.abs(away) / (_NEAR * strip.alpha), 0.5)))
-            for group in np.unique(octave):
-                chosen = np.flatnonzero(octave == group)
-                m, parts = self._coefficients(strip, away[chosen], z, strains_only=strains_only)
+            groups = [np.flatnonzero(octave == one) for one in np.unique(octave)]
+            rules = [self._rule(strip, np.abs(away[chosen])) for chosen in groups]
+            m = np.concatenate([nodes for nodes, _ in rules])
+            weights = np.concatenate([weights for _, weights in rules])
+            parts = self._coefficients(strip, m, weights, z, strains_only=strains_only)
+            start = 0
+            for chosen, (nodes, _) in zip(groups, rules, strict=True):
+                its = parts[:, start : start + nodes.size]
+                start += nodes.size
                 for i in range(0, chosen.size, _CHUNK):
                     part = chosen[i : i + _CHUNK]
-                    turn = np.multiply.outer(m, away[part])
-                    fields = parts.real @ np.cos(turn) - parts.imag @ np.sin(turn)
+                    turn = np.multiply.outer(nodes, away[part])
+                    fields = its.real @ np.cos(turn) - its.imag @ np.sin(turn)
                     out[:, :, part] += fields.reshape(count, z.size, part.size)
         return list(out)
 
-    def _coefficients(
-        self, strip: _Strip, away: Array, z: Array, *, strains_only: bool
-    ) -> tuple[Array, ComplexArray]:
-        """Wave numbers and the fields' amplitudes, shape (count · nz, k)."""
-        distance = np.abs(away)
+    def _rule(self, strip: _Strip, distance: Array) -> tuple[Array, Array]:
+        """Wave numbers and weights of the sum at distances from a strip's centre."""
         gap, span = float(distance.min()) - strip.alpha, float(distance.max()) + strip.alpha
         end = _HARMONICS * self.points / strip.alpha
         if gap >= 0.5 * strip.alpha:
             end = min(end, _FAR / gap)
         m, weights = series_rule(_Unity(), _PLAIN, span=span, end=end)
         keep = m <= end
-        m, window = m[keep], 0.5 * special.erfc((m[keep] / end - _MIDDLE) / _RAMP)
-        wave = 2.0 * weights[keep].real * window * strip.amplitude(m)
+        window = 0.5 * special.erfc((m[keep] / end - _MIDDLE) / _RAMP)
+        return m[keep], 2.0 * weights[keep].real * window
+
+    def _coefficients(
+        self, strip: _Strip, m: Array, weights: Array, z: Array, *, strains_only: bool
+    ) -> ComplexArray:
+        """The fields' weighted amplitudes at wave numbers m, shape (k,); (count · nz, k)."""
+        wave = weights * strip.amplitude(m)
         strained = self.scale * wave * self.problem.creep.compliance(m)
         D, T, H, U = self.shapes(m, z)
         bulk = 1.0 - 2.0 * self.nu
@@ -156,7 +165,7 @@ class Inside:
             # i m k u_x = ε_xx
             moved = strained / m
             parts = [wave * D, 1j * wave * T, wave * H, *parts, -1j * moved * (D + bulk * H), moved * U]
-        return m, np.concatenate(parts)
+        return np.concatenate(parts)
 
     def dissipation(self, z: Array) -> tuple[Array, float]:
         """D R/F_N = ρ²/((1-ν) p̃_m) Σ m Im j 2 (D² + T² + (1-2ν) H²) |p̂_m|², shape (nz,); and its mean m."""

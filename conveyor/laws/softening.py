@@ -7,16 +7,24 @@ energy; moduli are softened by the compound's strain sweeps (conveyor.rubber.equ
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact import interior, solve
-from conveyor.errors import NoSolutionError
+from conveyor.contact import ContactSolution, Status, interior, solve_many
+from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import RollContact, no_answer, to_problem
-from conveyor.rubber import AmplitudeFactors, PronySeries, equivalent_linear
+from conveyor.rubber import (
+    AmplitudeFactors,
+    EquivalentLinear,
+    PronySeries,
+    StrainTask,
+    equivalent_linear_many,
+)
+from conveyor.rubber.equivalent import Worked
 
 Array = NDArray[np.float64]
 
@@ -68,18 +76,11 @@ def losing_load(line_loads: Array, weights: Array) -> float:
     return float(lost @ line_loads / lost.sum())
 
 
-def softened_cover(
-    contact: RollContact,
-    line_load: float,
-    factors: AmplitudeFactors,
-    temperature: float,
-    *,
-    swept: PronySeries | None = None,
-    inside: tuple[int, int] = INSIDE,
-) -> tuple[PronySeries, WorkingStrain]:
-    """Series of a cover at the strain of a roll's own contact.
+@dataclass(frozen=True, eq=False)
+class WorkedCover:
+    """A cover whose moduli depend on the strain that rolls work it at.
 
-    Parameters
+    Attributes
     ----------
     contact : RollContact
         With the series at the strain of the master curve.
@@ -89,10 +90,23 @@ def softened_cover(
         Of the compound.
     temperature : float
         Of the cover [K].
-    swept : PronySeries, optional
+    swept : PronySeries or None
         Beyond the sweeps: the series at the nearest temperature they reach.
-    inside : tuple of int
-        Depths and points at which the strain is taken.
+    """
+
+    contact: RollContact
+    line_load: float
+    factors: AmplitudeFactors
+    temperature: float
+    swept: PronySeries | None = None
+
+
+SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
+"""Series at the working strain, and that strain."""
+
+
+def softened_cover(work: WorkedCover, *, inside: tuple[int, int] = INSIDE) -> SoftCover:
+    """Series of one cover at the strain of a roll's own contact.
 
     Raises
     ------
@@ -101,19 +115,61 @@ def softened_cover(
     RangeError
         The strain is outside the sweeps.
     """
-    passing = 2.0 * math.pi / contact.spacing * contact.speed
+    (found,) = softened_many([work], inside=inside)
+    if isinstance(found, tuple):
+        return found
+    raise found
 
-    def strain_of(series: PronySeries) -> tuple[float, float]:
-        solution = solve(to_problem(replace(contact, rubber=series), line_load), _CONTACT_RTOL)
-        strained = interior(solution, depths=inside[0], points=inside[1])
-        return strained.working_strain, strained.wave_number * passing
 
-    try:
-        found = equivalent_linear(
-            contact.rubber, factors, strain_of, temperature=temperature, swept=swept, rtol=_STRAIN_RTOL
-        )
-    except NoSolutionError as error:
-        raise no_answer(contact, f"{line_load:.4g}", error) from None
-    return found.series, WorkingStrain(
-        line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
+def softened_many(
+    works: Sequence[WorkedCover], *, inside: tuple[int, int] = INSIDE
+) -> list[SoftCover | NoSolutionError | RangeError]:
+    """Series of covers at the strains of the rolls' own contacts, solved side by side.
+
+    Parameters
+    ----------
+    works : sequence of WorkedCover
+        Covers.
+    inside : tuple of int
+        Depths and points at which the strain is taken.
+
+    Returns
+    -------
+    list
+        In their order the covers, or why there is none.
+    """
+
+    def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
+        problems = [
+            to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
+            for i, one in zip(asked, series, strict=True)
+        ]
+        solved = zip(asked, solve_many(problems, _CONTACT_RTOL), strict=True)
+        return [_worked(works[i].contact, solution, inside) for i, solution in solved]
+
+    tasks = [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
+    answers = equivalent_linear_many(tasks, strains_of, rtol=_STRAIN_RTOL)
+    return [_cover(work, found) for work, found in zip(works, answers, strict=True)]
+
+
+def _worked(
+    contact: RollContact, solution: ContactSolution, inside: tuple[int, int]
+) -> Worked | NoSolutionError:
+    """Strain and angular frequency of a solved contact [-], [rad/s], or why there is none."""
+    if solution.status is not Status.OK:
+        return NoSolutionError(solution.message)
+    strained = interior(solution, depths=inside[0], points=inside[1])
+    return strained.working_strain, strained.wave_number * 2.0 * math.pi / contact.spacing * contact.speed
+
+
+def _cover(
+    work: WorkedCover, found: EquivalentLinear | NoSolutionError | RangeError
+) -> SoftCover | NoSolutionError | RangeError:
+    if isinstance(found, NoSolutionError):
+        return no_answer(work.contact, f"{work.line_load:.4g}", found)
+    if isinstance(found, RangeError):
+        return found
+    strain = WorkingStrain(
+        work.line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
     )
+    return found.series, strain

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import RollContact, indentation_curves
-from conveyor.laws.softening import COARSE, softened_cover
+from conveyor.laws.softening import COARSE, WorkedCover, softened_many
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
+from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor, fit_anchor
 
 Array = NDArray[np.float64]
@@ -104,10 +105,12 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
         return _resistance([contact], [points.line_load])[0]
     nodes = np.unique(np.geomspace(low, high, SOFT_LOADS if high > low else 1))
     swept = compound.swept_series(points.temperature)
-    covers = [
-        softened_cover(contact, w, factors, points.temperature, swept=swept, inside=COARSE)[0]
-        for w in nodes.tolist()
-    ]
+    works = [WorkedCover(contact, w, factors, points.temperature, swept) for w in nodes.tolist()]
+    covers: list[PronySeries] = []
+    for soft in softened_many(works, inside=COARSE):
+        if not isinstance(soft, tuple):
+            raise soft
+        covers.append(soft[0])
     found = _resistance([replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes])
     shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(found)), nodes.size - 1)
     return np.asarray(np.exp(shape(np.log(points.line_load))))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import RollContact
-from conveyor.laws.softening import WorkingStrain, losing_load, softened_cover
+from conveyor.laws.softening import SoftCover, WorkedCover, WorkingStrain, losing_load, softened_many
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import STRANDS, Strand
@@ -46,14 +47,6 @@ class RunningCover:
     poisson: float
     strain: WorkingStrain | None = None
     level: Level | None = None
-
-    def like(self, other: RunningCover) -> bool:
-        """Whether it is as thick and of the very same rubber."""
-        mine, theirs = (
-            (self.thickness, self.poisson, self.level),
-            (other.thickness, other.poisson, other.level),
-        )
-        return self.rubber is other.rubber and mine == theirs
 
 
 Covers = Mapping[Strand, RunningCover]
@@ -96,41 +89,77 @@ def covers_of(
     }
 
 
-def softened_covers(
-    line: Line, covers: Covers, conveyor: Conveyor, temperature: float
-) -> dict[Strand, RunningCover]:
-    """The covers at the strain their rolls work them at, where the compounds have sweeps, at a temperature [K].
+@dataclass(frozen=True, eq=False)
+class StrandAtWork:
+    """The rolls of a strand of a line on their cover, whose rubber is at the strain of its master curve."""
 
-    Raises
-    ------
-    NoSolutionError
-        A cover has no answer at its working strain.
-    RangeError
-        A compound's sweeps do not reach the strain.
+    line: Line
+    strand: Strand
+    cover: RunningCover
+    compound: RubberCompound
+    temperature: float
+
+    @property
+    def kinds(self) -> tuple[RollKind, ...]:
+        """Its rolls."""
+        return tuple(kind for kind in self.line.kinds if kind.strand == self.strand)
+
+    @property
+    def scene(self) -> tuple[object, ...]:
+        """What must be equal where two strands work their covers alike, besides the compound and the rolls."""
+        line, cover = self.line, self.cover
+        return (
+            self.strand,
+            self.temperature,
+            line.speed,
+            line.softened,
+            line.support,
+            cover.thickness,
+            cover.level,
+        )
+
+    def like(self, other: StrandAtWork) -> bool:
+        """Whether it works the very same compound exactly as another strand of the same scene does."""
+        return self.compound is other.compound and (
+            self.line is other.line
+            or (
+                len(self.kinds) == len(other.kinds)
+                and all(a.bears_like(b) for a, b in zip(self.kinds, other.kinds, strict=True))
+            )
+        )
+
+    def worked(self) -> WorkedCover | None:
+        """The contact whose strain softens the cover; None where nothing does."""
+        factors = self.compound.amplitude_factors() if self.line.softened else None
+        if factors is None:
+            return None
+        loads = np.concatenate([kind.line_loads for kind in self.kinds])
+        weights = np.concatenate([kind.weights * kind.sets for kind in self.kinds])
+        contact = roll_contact(self.line, max(self.kinds, key=lambda kind: kind.highest), self.cover)
+        swept = self.compound.swept_series(self.temperature)
+        return WorkedCover(contact, losing_load(loads, weights), factors, self.temperature, swept)
+
+
+def softened_covers(works: Sequence[StrandAtWork]) -> list[RunningCover | NoSolutionError | RangeError]:
+    """The covers at the strain their rolls work them at, where the compounds have sweeps, solved side by side.
+
+    Returns
+    -------
+    list
+        In their order the covers; or why there is none: it has no answer at its working strain, or the sweeps of its
+        compound do not reach the strain.
     """
-    if not line.softened:
-        return dict(covers)
-    compounds = compounds_by_strand(conveyor)
-    return {
-        strand: _softened(line, strand, cover, compounds[strand], temperature)
-        for strand, cover in covers.items()
-    }
+    asked = {i: worked for i, work in enumerate(works) if (worked := work.worked()) is not None}
+    found = dict(zip(asked, softened_many(list(asked.values())), strict=True))
+    return [_running(work.cover, found.get(i)) for i, work in enumerate(works)]
 
 
-def _softened(
-    line: Line, strand: Strand, cover: RunningCover, compound: RubberCompound, temperature: float
-) -> RunningCover:
-    factors = compound.amplitude_factors()
-    if factors is None:
+def _running(
+    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None
+) -> RunningCover | NoSolutionError | RangeError:
+    if soft is None:
         return cover
-    kinds = [kind for kind in line.kinds if kind.strand == strand]
-    loads = np.concatenate([kind.line_loads for kind in kinds])
-    weights = np.concatenate([kind.weights * kind.sets for kind in kinds])
-    contact = roll_contact(line, max(kinds, key=lambda kind: kind.highest), cover)
-    series, strain = softened_cover(
-        contact, losing_load(loads, weights), factors, temperature, swept=compound.swept_series(temperature)
-    )
-    return replace(cover, rubber=series, strain=strain)
+    return replace(cover, rubber=soft[0], strain=soft[1]) if isinstance(soft, tuple) else soft
 
 
 def roll_contact(line: Line, kind: RollKind, cover: RunningCover) -> RollContact:

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from conveyor.rubber.band import ReplicaBand, bootstrap
-from conveyor.rubber.equivalent import EquivalentLinear, equivalent_linear, softened
+from conveyor.rubber.equivalent import (
+    EquivalentLinear,
+    StrainTask,
+    equivalent_linear,
+    equivalent_linear_many,
+    softened,
+)
 from conveyor.rubber.fit import PronyFit, fit_prony
 from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
@@ -39,11 +45,13 @@ __all__ = [
     "ShiftLaw",
     "ShiftTable",
     "StrainSweep",
+    "StrainTask",
     "Superposition",
     "bootstrap",
     "compare_shift_laws",
     "entropic_b_T",
     "equivalent_linear",
+    "equivalent_linear_many",
     "fit_arrhenius",
     "fit_kraus",
     "fit_prony",

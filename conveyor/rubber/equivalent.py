@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import NoSolutionError, RangeError
 from conveyor.rubber.arrays import positive
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.strain import AmplitudeFactors
+
+Worked: TypeAlias = tuple[float, float]
+"""Strain amplitude [-] and angular frequency [rad/s] that a series is worked at."""
 
 _LARGEST_STEP = math.log(3.0)
 _MOST_STEPS = 30
@@ -106,7 +110,7 @@ class EquivalentLinear:
 def equivalent_linear(
     series: PronySeries,
     factors: AmplitudeFactors,
-    strain_of: Callable[[PronySeries], tuple[float, float]],
+    strain_of: Callable[[PronySeries], Worked],
     *,
     temperature: float,
     swept: PronySeries | None = None,
@@ -166,20 +170,82 @@ def equivalent_linear(
     >>> round(soft.strain, 4), round(soft.storage_factor, 3)
     (0.0181, 0.6)
     """
+    task = StrainTask(series, factors, temperature, swept)
+    (found,) = equivalent_linear_many([task], lambda _, asked: [strain_of(one) for one in asked], rtol=rtol)
+    if isinstance(found, EquivalentLinear):
+        return found
+    raise found
+
+
+@dataclass(frozen=True, eq=False)
+class StrainTask:
+    """A series to be taken at the strain it works at; attributes as the arguments of `equivalent_linear`."""
+
+    series: PronySeries
+    factors: AmplitudeFactors
+    temperature: float
+    swept: PronySeries | None = None
+
+
+def equivalent_linear_many(
+    tasks: Sequence[StrainTask],
+    strains_of: Callable[[list[int], list[PronySeries]], Sequence[Worked | NoSolutionError]],
+    *,
+    rtol: float = 1e-3,
+) -> list[EquivalentLinear | NoSolutionError | RangeError]:
+    """Iterate many series side by side, each as `equivalent_linear` does.
+
+    Parameters
+    ----------
+    tasks : sequence of StrainTask
+        Series.
+    strains_of : callable
+        Working strain and frequency of whatever is made of a series, or why there is none: of the numbers of the tasks
+        that go on, and a series of each.
+    rtol : float
+        Relative change of strain and frequency at which to stop [-].
+
+    Returns
+    -------
+    list
+        In their order the answers, or why there is none.
+    """
     positive("rtol", rtol, "-")
-    strain, omega = strain_of(series)
+    found: dict[int, EquivalentLinear | NoSolutionError | RangeError] = {}
+    going = {i: _iteration(task, rtol) for i, task in enumerate(tasks)}
+    asked = {i: next(steps) for i, steps in going.items()}
+    while asked:
+        heard = zip(list(asked), strains_of(list(asked), list(asked.values())), strict=True)
+        for i, worked in heard:
+            try:
+                if isinstance(worked, NoSolutionError):
+                    raise worked
+                asked[i] = going[i].send(worked)
+            except StopIteration as done:
+                found[i] = done.value
+            except (NoSolutionError, RangeError) as error:
+                found[i] = error
+            if i in found:
+                del asked[i]
+    return [found[i] for i in range(len(tasks))]
+
+
+def _iteration(task: StrainTask, rtol: float) -> Generator[PronySeries, Worked, EquivalentLinear]:
+    """Ask for the strain of one series after the other until it no longer changes."""
+    series, factors, temperature = task.series, task.factors, task.temperature
+    strain, omega = yield series
     trial = math.log(positive("strain_of's strain", strain, "-"))
     before: tuple[float, float] | None = None
     for step in range(2, _MOST_STEPS + 1):
         amplitude = math.exp(trial)
         f = float(factors.storage(amplitude, temperature))
         g = float(factors.loss(amplitude, temperature))
-        if swept is not None:
-            there, here = complex(swept.modulus(omega)), complex(series.modulus(omega))
+        if task.swept is not None:
+            there, here = complex(task.swept.modulus(omega)), complex(series.modulus(omega))
             f = 1.0 + min(1.0, there.real / here.real) * (f - 1.0)
             g = 1.0 + min(1.0, there.imag / here.imag) * (g - 1.0)
         soft = softened(series, storage_factor=f, loss_factor=g, omega=omega)
-        strain, heard = strain_of(soft)
+        strain, heard = yield soft
         change = math.log(positive("strain_of's strain", strain, "-")) - trial
         if abs(change) < rtol and abs(math.log(heard / omega)) < rtol:
             return EquivalentLinear(soft, strain, omega, f, g, step)

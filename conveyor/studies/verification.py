@@ -19,7 +19,7 @@ from conveyor import shelf
 from conveyor.arguments import checked
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
-from conveyor.laws.softening import softened_cover
+from conveyor.laws.softening import WorkedCover, softened_cover
 from conveyor.line.anchors import anchor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature
@@ -281,7 +281,7 @@ def _softened(roll: RollContact, load: float, compound: RubberCompound, temperat
     if factors is None:
         return roll
     swept = compound.swept_series(temperature)
-    return replace(roll, rubber=softened_cover(roll, load, factors, temperature, swept=swept)[0])
+    return replace(roll, rubber=softened_cover(WorkedCover(roll, load, factors, temperature, swept))[0])
 
 
 def _filled(

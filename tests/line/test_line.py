@@ -12,7 +12,6 @@ from conveyor.forces import Force, ForceSums
 from conveyor.indentation import RollContact, indentation_curve, indentation_resistance
 from conveyor.laboratory import read_dma
 from conveyor.laws.resistance import length_coefficient
-from conveyor.line.covers import RunningCover
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate
 from conveyor.rubber import PronySeries, fit_prony, shifted
@@ -306,15 +305,3 @@ def test_load_exponent_of_s100():
     exponents = np.diff(np.log(resistance)) / math.log(2.0)
     assert np.all((exponents > 1.25) & (exponents < 1.32)), exponents
     assert math.log(resistance[-1] / resistance[0]) / math.log(8.0) == pytest.approx(1.28, abs=0.01)
-
-
-def test_covers_are_alike_of_one_thickness_poisson_and_the_very_rubber():
-    rubber = PronySeries(8e6, [4e6], [1e-3])
-    cover = RunningCover(0.005, rubber, 0.5)
-    assert cover.like(RunningCover(0.005, rubber, 0.5))
-    for other in (
-        RunningCover(0.006, rubber, 0.5),
-        RunningCover(0.005, rubber, 0.49),
-        RunningCover(0.005, PronySeries(8e6, [4e6], [1e-3]), 0.5),
-    ):
-        assert not cover.like(other)

@@ -128,6 +128,17 @@ def test_cases_of_one_temperature_share_their_load_curves(line):
     assert len(curves) == 2 * 2  # strands, temperatures
 
 
+def test_a_strand_that_is_worked_alike_shares_its_cover_also_with_what_is_known():
+    given = spec("overland")  # strain sweeps soften the covers; the bulk presses on the carry strand only
+    own = calculate(given)
+    (empty,) = calculate_many([Variant(with_case(given, LoadCase(name="e", loading="empty")))], known=own)
+    assert empty.contacts.covers["return"] is own.contacts.covers["return"]
+    assert empty.contacts.covers["carry"].strain.strain < own.contacts.covers["carry"].strain.strain
+    faster = given.replace(belt=given.belt.replace(speed="6 m/s"))
+    (alone,) = calculate_many([Variant(faster)], known=own)
+    assert alone.contacts.covers["return"].strain.frequency > own.contacts.covers["return"].strain.frequency
+
+
 def test_one_result_a_case_speed_and_temperature(found):
     keys = [(r.case.name, r.speed, r.temperature) for r in found.results]
     assert len(set(keys)) == len(keys) == 4 * 2 * 2
