@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 from collections.abc import Iterable
+from itertools import pairwise
+from textwrap import dedent
 from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
-from pydantic.json_schema import GenerateJsonSchema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic_core.core_schema import ModelSchema
 
 from conveyor.errors import InputError
 from conveyor.units import is_quantity, written
@@ -91,8 +96,35 @@ def field_path(location: Location) -> str:
     return path.removeprefix(".")
 
 
+def field_docs(model: type[BaseModel]) -> dict[str, str]:
+    """Docstrings below the fields of a model: read from its source when they are asked for, not at every start."""
+    docs: dict[str, str] = {}
+    for owner in reversed(model.__mro__):
+        if issubclass(owner, BaseModel) and owner is not BaseModel:
+            (written_down,) = ast.parse(dedent(inspect.getsource(owner))).body
+            docs |= _docs_below(written_down.body if isinstance(written_down, ast.ClassDef) else [])
+    return {name: docs[name] for name in model.model_fields if name in docs}
+
+
+def _docs_below(statements: list[ast.stmt]) -> dict[str, str]:
+    """Name of a field and the string on its own that follows it."""
+    docs = {}
+    for field, after in pairwise(statements):
+        match field, after:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
+                docs[name] = inspect.cleandoc(text)
+    return docs
+
+
 class _SchemaWriter(GenerateJsonSchema):
-    """Writes default quantities as specs write them."""
+    """Writes fields with their docstrings, default quantities as specs write them."""
+
+    def model_schema(self, schema: ModelSchema) -> JsonSchemaValue:
+        written_down = super().model_schema(schema)
+        fields = schema["cls"].model_fields
+        for name, doc in field_docs(schema["cls"]).items():
+            written_down["properties"][fields[name].alias or name]["description"] = doc
+        return written_down
 
     def encode_default(self, dft: Any) -> Any:
         if isinstance(dft, Model):
@@ -108,7 +140,6 @@ class Model(BaseModel):
         extra="forbid",
         allow_inf_nan=False,
         populate_by_name=True,
-        use_attribute_docstrings=True,
         validate_default=True,
     )
 

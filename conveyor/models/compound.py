@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
@@ -99,7 +100,7 @@ class RubberCompound(Model):
         """Reference temperature [K]."""
         return si(self.reference_temperature)
 
-    @property
+    @cached_property
     def series_at_reference(self) -> PronySeries:
         """Terms at the reference temperature [Pa, s]."""
         from conveyor.rubber import PronySeries
@@ -115,6 +116,10 @@ class RubberCompound(Model):
 
     def amplitude_factors(self) -> AmplitudeFactors | None:
         """Return the factors of strain on E' and E'', if the compound has the data."""
+        return self._factors
+
+    @cached_property
+    def _factors(self) -> AmplitudeFactors | None:
         return None if self.strain_dependence is None else self.strain_dependence.factors()
 
     def swept_series(self, temperature: float) -> PronySeries:

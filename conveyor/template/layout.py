@@ -12,6 +12,7 @@ from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
 from pydantic import BaseModel, StringConstraints, TypeAdapter
 from pydantic.fields import FieldInfo
 
+from conveyor.models.base import field_docs
 from conveyor.models.compound import CompoundReference
 from conveyor.units import Bounds, Measure
 from conveyor.units.kinds import KINDS
@@ -119,15 +120,17 @@ def leaves(part: Part) -> Iterator[Leaf]:
 
 
 def _parts(model: type[BaseModel], seen: tuple[type[BaseModel], ...]) -> tuple[Part, ...]:
-    return tuple(_part(info.alias or name, info, (*seen, model)) for name, info in model.model_fields.items())
+    docs = field_docs(model)
+    return tuple(
+        _part(info.alias or name, info, docs.get(name), (*seen, model))
+        for name, info in model.model_fields.items()
+    )
 
 
-def _part(key: str, info: FieldInfo, seen: tuple[type[BaseModel], ...]) -> Part:
+def _part(key: str, info: FieldInfo, doc: str | None, seen: tuple[type[BaseModel], ...]) -> Part:
     outer = (*info.metadata, *((info,) if info.discriminator else ()))
     base, marks = _unwrapped(info.annotation, outer)
-    about = _About(
-        key=key, doc=first_line(info.description), required=info.is_required(), default=_default(info)
-    )
+    about = _About(key=key, doc=first_line(doc), required=info.is_required(), default=_default(info))
     return _built(about, base, marks, seen)
 
 
