@@ -3,48 +3,27 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 import conveyor
-from conveyor.cli.app import app, progress, values
+from conveyor.cli.app import progress, values
 from conveyor.errors import InputError
+from tests.command_line import run
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "examples" / "specs"
 HORSE = 745.69987158227022  # [W], 550 ft lbf/s
 
 
-def run(*arguments: str | Path, cwd: Path = ROOT, columns: int = 120) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-W", "error", "-m", "conveyor.cli", *map(str, arguments)]
-    environment = {**os.environ, "COLUMNS": str(columns), "PYTHONIOENCODING": "utf-8"}
-    return subprocess.run(
-        command, cwd=cwd, capture_output=True, text=True, encoding="utf-8", check=False, env=environment
-    )
-
-
-@pytest.fixture
-def inside(monkeypatch, capsys):
-    """The command in this process: its standard output."""
-
-    def done(*arguments, columns=120):
-        monkeypatch.setenv("COLUMNS", str(columns))
-        app(list(map(str, arguments)), prog_name="conveyor", standalone_mode=False)
-        return capsys.readouterr().out
-
-    return done
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     folder = tmp_path_factory.mktemp("reports")
     options = ("--html", "a.html", "--tables", "t", "--plots", "p", "--plot-kind", "svg", "--units", "us")
-    return run("power", SPECS / "in_plant_us.yaml", *options, cwd=folder), folder
+    return run("power", SPECS / "in_plant_us.yaml", *options, cwd=folder, columns=120), folder
 
 
 def test_everything_is_written_and_said(written):
@@ -73,8 +52,8 @@ def test_everything_is_written_and_said(written):
 
 def at_the_take_up(spec):
     """The analysis with the take-up that serves the load states too, as `power` shows it."""
-    line = conveyor.load(spec)
-    return conveyor.analyse(line).beside(conveyor.studies.studies(line))
+    found = conveyor.analyse(conveyor.load(spec))
+    return found.beside(conveyor.studies.studies(found.conveyor, found))
 
 
 def test_units_of_the_terminal(written):
@@ -85,16 +64,16 @@ def test_units_of_the_terminal(written):
     assert not re.search(r"\d (kN|kW|N|°C|m/s)\b", done.stdout)
 
 
-def test_units_of_the_spec_are_the_default(tmp_path, inside):
+def test_units_of_the_spec_are_the_default(tmp_path):
     spec = tmp_path / "own.yaml"
     text = (SPECS / "in_plant_us.yaml").read_text(encoding="utf-8")
     text = re.sub(r"(?ms)^report:.*?(?=^\S)", "", text)
     spec.write_text(text + "\nreport: {units: US, project: Plant 7, revision: C}\n", encoding="utf-8")
-    shown = inside("power", spec)
+    shown = run("power", spec).stdout
     assert " hp" in shown
     assert "Plant 7, revision C" in shown
-    assert " kW" in inside("power", spec, "--units", "SI")
-    assert json.loads(inside("power", spec, "--json"))["power_kW"]["motor"] == pytest.approx(
+    assert " kW" in run("power", spec, "--units", "SI").stdout
+    assert json.loads(run("power", spec, "--json").stdout)["power_kW"]["motor"] == pytest.approx(
         at_the_take_up(spec).balance.power.motor / 1e3
     )
 
@@ -118,8 +97,8 @@ def busy(tmp_path_factory):
 
 @pytest.mark.parametrize("columns", [80, 120])
 @pytest.mark.parametrize("command", [("power",), ("compare", "-c", "standard-cover", "-c", "s100")])
-def test_nothing_is_wider_than_the_terminal(command, columns, busy, inside):
-    shown = inside(command[0], busy, *command[1:], "--units", "us", columns=columns)
+def test_nothing_is_wider_than_the_terminal(command, columns, busy):
+    shown = run(command[0], busy, *command[1:], "--units", "us", columns=columns).stdout
     assert max(map(len, shown.splitlines())) <= columns
     assert "…" not in shown
     if command[0] == "power":
@@ -127,7 +106,7 @@ def test_nothing_is_wider_than_the_terminal(command, columns, busy, inside):
         assert "load cases that govern" in shown
 
 
-def test_comparison_writes_a_page_and_figures(tmp_path, inside, monkeypatch):
+def test_comparison_writes_a_page_and_figures(tmp_path):
     options = ("-c", "standard-cover", "-c", "low-rolling-resistance-cover", "--temperature", "32:68:18 degF")
     files = (
         "--html",
@@ -142,8 +121,9 @@ def test_comparison_writes_a_page_and_figures(tmp_path, inside, monkeypatch):
         "v.svg",
     )
     spec = SPECS / "in_plant_us.yaml"
-    monkeypatch.chdir(tmp_path)
-    shown = inside("compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us")
+    shown = run(
+        "compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us", cwd=tmp_path
+    ).stdout
     assert {path.name for path in tmp_path.iterdir()} == {"c.html", "c.csv", "t", "t.svg", "v.svg"}
     assert f"tables: {len(list((tmp_path / 't').iterdir()))} in t" in shown
     head, first, *_ = (tmp_path / "c.csv").read_text(encoding="utf-8").splitlines()
@@ -175,8 +155,8 @@ def test_outputs_are_refused_before_anything_is_spent(options, message, tmp_path
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
-def test_quiet_writes_and_says_nothing(tmp_path, inside):
-    assert inside("power", SPECS / "shuttle.yaml", "--html", tmp_path / "a.html", "-q") == ""
+def test_quiet_writes_and_says_nothing(tmp_path):
+    assert run("power", SPECS / "shuttle.yaml", "--html", tmp_path / "a.html", "-q").stdout == ""
     assert (tmp_path / "a.html").stat().st_size > 10_000
 
 

@@ -6,9 +6,6 @@ import contextlib
 import io
 import re
 import shlex
-import signal
-import sys
-import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,9 +15,9 @@ from ruamel.yaml import YAML
 import conveyor
 import conveyor.spec
 from conveyor.analysis import studies
-from conveyor.cli import main
 from conveyor.reference import anchor
 from conveyor.starter.values import values
+from tests.command_line import run
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "materials" / "README.md"]
@@ -59,31 +56,7 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for folder in ("examples", "materials", "tests"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)  # the command line replaces it
     return tmp_path
-
-
-@contextlib.contextmanager
-def signals_kept() -> Any:
-    before = signal.getsignal(signal.SIGPIPE) if hasattr(signal, "SIGPIPE") else None
-    try:
-        yield
-    finally:
-        if before is not None:
-            signal.signal(signal.SIGPIPE, before)
-
-
-def run(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> tuple[int, str, str]:
-    out, err = io.StringIO(), io.StringIO()
-    monkeypatch.setattr(sys, "argv", ["conveyor", *arguments])
-    with (
-        signals_kept(),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(err),
-        pytest.raises(SystemExit) as left,
-    ):
-        main()
-    return int(left.value.code or 0), out.getvalue(), err.getvalue()
 
 
 def same(printed: str, expected: str) -> None:
@@ -97,7 +70,7 @@ def same(printed: str, expected: str) -> None:
 
 
 @pytest.mark.parametrize("page", pages_with("sh", "powershell"), ids=named)
-def test_commands_of_a_page(page: Path, checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_commands_of_a_page(page: Path, checkout: Path) -> None:
     printed = ""
     for block in blocks(page):
         if block.language == "text" and printed:
@@ -114,7 +87,7 @@ def test_commands_of_a_page(page: Path, checkout: Path, monkeypatch: pytest.Monk
                 inputs = [word for word in command.split() if word.endswith((".html", ".xlsx"))]
                 assert all((checkout / name).exists() for name in inputs)
                 continue
-            code, out, err = run(shlex.split(command)[1:], monkeypatch)
+            code, out, err = run(*shlex.split(command)[1:], cwd=checkout, columns=80)
             printed += out
             assert code == (2 if REFUSED in command else 0), f"{command}: {err}"
             if REFUSED in command:
@@ -164,8 +137,9 @@ def test_fragment_of_a_spec(page: Path, number: int) -> None:
     """A whole spec runs as it stands, a fragment merged into the overland example."""
     fragment = YAML(typ="safe").load(blocks(page)[number].text)
     line = conveyor.spec.from_data(fragment if "name" in fragment else merged(overland(), fragment))
-    assert conveyor.analyse(line).balance.power.motor > 0.0
-    studies(line)
+    found = conveyor.analyse(line)
+    assert found.balance.power.motor > 0.0
+    studies(line, found)
 
 
 def test_defaults_on_the_designers_page_do_what_it_says() -> None:

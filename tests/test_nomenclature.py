@@ -12,11 +12,11 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor.analysis import Studies, studies
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
 from conveyor.report.comparing import of_comparison, plain
 from conveyor.report.tables import of_analysis
 from conveyor.spec import from_data
+from tests.worked_examples import worked_example
 
 ROOT = Path(__file__).parent.parent
 SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")
@@ -48,14 +48,8 @@ def rows() -> dict[str, list[str]]:
     return found
 
 
-@cache
-def analysed(name: str) -> tuple[conveyor.Analysis, Studies]:
-    line = conveyor.load(ROOT / "examples" / "specs" / f"{name}.yaml")
-    return conveyor.analyse(line), studies(line)
-
-
 def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
-    result, asked = analysed(name)
+    result, asked = worked_example(name)
     for table in of_analysis(result, asked).tables:
         if table.key not in OF_WORDS:
             yield pd.Series(dtype=float, index=table.frame().iloc[:, 0]) if table.by_row else table.frame()
@@ -64,7 +58,7 @@ def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
 
 
 def comparison() -> conveyor.Comparison:
-    line = analysed("overland_10km")[0].conveyor
+    line = worked_example("overland_10km")[0].conveyor
     return conveyor.compare_compounds(
         line, compounds=["standard-cover", "s100"], temperatures=["10 degC"], extra_costs={"s100": 2e4}
     )
@@ -95,7 +89,7 @@ def test_every_column_of_an_analysis_is_named_with_its_unit(name: str) -> None:
 
 
 def test_every_column_of_lives_is_named() -> None:
-    line = analysed("overland_10km")[0].conveyor
+    line = worked_example("overland_10km")[0].conveyor
     bearing = {"dynamic_rating": "22 kN", "distance": "0.3 m"}
     data = line.as_data()
     for strand in ("carry", "return"):
@@ -138,7 +132,7 @@ def keys(data: object, path: str = "") -> Iterator[str]:
 def test_every_key_of_the_json_is_named() -> None:
     told = set(re.findall(r"`([^`]+)`", page().replace("\n", " ")))
     for name in SPECS:
-        result, asked = analysed(name)
+        result, asked = worked_example(name)
         for key in keys(result.to_dict(asked)):
             assert key in told or key.rsplit(".", 1)[-1] in rows(), key
     for key in keys(plain(comparison())):

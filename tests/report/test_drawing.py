@@ -39,7 +39,7 @@ def result(line):
 
 @pytest.fixture(scope="module")
 def figures(result, line):
-    asked = studies(line)
+    asked = studies(line, result)
     return {system: result.plots.every(asked, system=system) for system in ("SI", "US")}
 
 

@@ -221,8 +221,8 @@ def test_curves_differ_without_colour(text):
     assert len({found[0] if found else "solid" for found in dashes}) == 3
 
 
-def test_verdicts_are_words(result, page, line):
-    words = [check.verdict for check in checks(result, "SI", studies(line))]
+def test_verdicts_are_words(result, page, studied):
+    words = [check.verdict for check in checks(result, "SI", studied)]
     table = page.prose.split("Found against")[1].split("Warnings")[0]
     for word in ("pass", "FAIL", "not checked"):
         assert table.count(f" {word} ") == words.count(word)

@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import os
 import re
-import signal
-import sys
 import tempfile
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
-import pytest
-
-from conveyor.cli import main
+from tests import command_line
 from tests.robustness.arrange import Case
 from tests.robustness.cases import CASES
 
@@ -55,28 +48,8 @@ def files(folder: Path) -> dict[str, bytes | None]:
 def run(case: Case, folder: Path) -> Outcome:
     """Run a case in a folder of its own, in this process."""
     arguments, before = case.arrange(folder), files(folder)
-    handler, shown = signal.getsignal(signal.SIGPIPE), warnings.showwarning
-    out, err = io.StringIO(), io.StringIO()
-    with pytest.MonkeyPatch.context() as patched:
-        patched.chdir(folder)
-        patched.setattr(sys, "argv", ["conveyor", *arguments])
-        patched.setenv("COLUMNS", "120")
-        patched.delenv("CONVEYOR_SHELF", raising=False)
-        if case.spoil is not None:
-            case.spoil(patched)
-        try:
-            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-                main()
-            code = 0
-        except SystemExit as left:
-            code = int(left.code or 0)
-        except Exception as error:  # noqa: BLE001 a traceback is an outcome, and a fault
-            code = -1
-            err.write(f"Traceback: {type(error).__name__}: {error}")
-        finally:
-            signal.signal(signal.SIGPIPE, handler)
-            warnings.showwarning = shown
-    return Outcome(code, out.getvalue(), err.getvalue(), before, files(folder))
+    done = command_line.run(*arguments, cwd=folder, columns=120, spoil=case.spoil)
+    return Outcome(done.returncode, done.stdout, done.stderr, before, files(folder))
 
 
 def row(case: Case, outcome: Outcome) -> str:

@@ -1,0 +1,19 @@
+"""Analyses and studies of the example specs, calculated once for all tests of a process."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import conveyor
+from conveyor.analysis import Analysis, Studies, studies
+
+SPECS = Path(__file__).parent.parent / "examples" / "specs"
+
+
+@cache
+def worked_example(stem: str) -> tuple[Analysis, Studies]:
+    """Analysis beside its studies, as `power` shows it, and the studies, of an example by its name without ending."""
+    result = conveyor.analyse(conveyor.load(SPECS / f"{stem}.yaml"))
+    asked = studies(result.conveyor, result)
+    return result.beside(asked), asked
