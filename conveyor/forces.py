@@ -71,6 +71,8 @@ class Force:
         Name of its column in tables of sections; `name` without it.
     assumed : bool
         Whether it is that of a usual part which the spec does not have.
+    bulk : int or None
+        Number of the section without whose bulk it is not there; None where it needs none, and along the belt.
     """
 
     key: str
@@ -83,6 +85,7 @@ class Force:
     place: str = ""
     short: str = ""
     assumed: bool = False
+    bulk: int | None = None
 
     @property
     def total(self) -> float:
@@ -286,26 +289,31 @@ def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> For
 
 
 def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
-    if point.flow == 0.0:
-        return
-
     def force(
-        key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False
+        key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False, bulk: int
     ) -> Force:
         return Force(
             key, f"{name}{point.name}", kind, newtons, _law(f"ISO 5048, {law}", point.assumed),
-            certain=certain, spot=point.spot, place=point.place, assumed=point.assumed,
+            certain=certain, spot=point.spot, place=point.place, assumed=point.assumed, bulk=bulk,
         )  # fmt: skip
 
-    if point.lift is not None:
+    if point.lift is not None and point.flow > 0.0:
         bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
         yield Force(
             "tripper_lift", f"lift over the tripper{point.name}", "lift", bulk, "ISO 5048, F_St of the bulk",
-            certain=True, spot=point.before, place=point.place,
+            certain=True, spot=point.before, place=point.place, bulk=point.comes_with,
         )  # fmt: skip
-    if line.secondary != "C" or point.lift is not None:
+    if point.flow > 0.0 and (line.secondary != "C" or point.lift is not None):
         inertia = acceleration_resistance(point.flow, belt_speed=line.speed, initial_speed=point.speed)
-        yield force("acceleration", "acceleration of the bulk", "secondary", inertia, "F_bA", certain=True)
+        yield force(
+            "acceleration",
+            "acceleration of the bulk",
+            "secondary",
+            inertia,
+            "F_bA",
+            certain=True,
+            bulk=point.comes_with,
+        )
         length = acceleration_length(
             belt_speed=line.speed,
             initial_speed=point.speed,
@@ -322,7 +330,11 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             skirt_friction=point.skirt_friction,
             gravity=line.gravity,
         )
-        yield force("loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f")
+        yield force(
+            "loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f", bulk=point.comes_with
+        )
+    if point.flow_beyond == 0.0:
+        return
     # the bulk that lies there already rubs on the skirts of a later feeding point too
     beyond = skirt_resistance(
         volume_flow=point.flow_beyond / line.density,
@@ -333,7 +345,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         skirt_friction=point.skirt_friction,
         gravity=line.gravity,
     )
-    yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL")
+    yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL", bulk=point.section)
 
 
 def _law(source: str, assumed: bool) -> str:

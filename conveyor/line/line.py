@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -60,13 +59,16 @@ class BeltBody:
 class LoadingPoint:
     """Where bulk lands: its place, the flow that does, all flow that lies there from then on [kg/s, m/s, m].
 
-    Of a tripper `lift` is how high it raises the bulk [m], before the drives at `before`; None of fresh bulk.
+    `section` is the number of the section that is fed, `comes_with` of that whose bulk lands: the same of fresh bulk,
+    the one before of a tripper, whose `lift` is how high it raises the bulk [m], before the drives at `before`.
     `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
     """
 
     name: str
     spot: Spot
     place: str
+    section: int
+    comes_with: int
     flow: float
     flow_beyond: float
     speed: float
@@ -399,16 +401,19 @@ def _loading_points(conveyor: Conveyor, places: Places) -> tuple[LoadingPoint, .
 def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: bool) -> LoadingPoint:
     route, flow = conveyor.route, si(conveyor.material.flow)
     spot = places.landing(point.section)
-    section = route.sections[0].name if point.section is None else point.section
-    beyond, share, lift, before = flow * route.flow_shares[section], _given(point.share, 1.0), None, spot
+    names = [section.name for section in route.sections]
+    fed = 0 if point.section is None else names.index(point.section)
+    beyond, share, lift, before = flow * route.flow_shares[names[fed]], _given(point.share, 1.0), None, spot
     if point is not route.feeding and route.feeds_back(point):
-        previous = next(a for a, b in itertools.pairwise(route.sections) if b.name == section)
+        previous = route.sections[fed - 1]
         share = route.flow_shares[previous.name] if previous.loaded else 0.0
         lift, before = _given(point.tripper_lift, 0.0), places.before("carry", previous.name)
     return LoadingPoint(
         name=f", {point.section or 'first'}" if route.further_feeding else "",
         spot=spot,
         place=places.name(spot),
+        section=fed,
+        comes_with=fed if lift is None else fed - 1,
         flow=flow * share,
         flow_beyond=beyond,
         speed=si(point.speed),

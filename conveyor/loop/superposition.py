@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 
 from conveyor.forces import without_rubber
 from conveyor.laws.tension import grip_tension
-from conveyor.line.places import Stand
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.frame import Frame
 from conveyor.loop.run_up import started, uncontrolled
@@ -150,7 +149,11 @@ class Loadings:
             line,
             stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs),
             loading=tuple(
-                point if loading[point.spot.boundary - count] else replace(point, flow=0.0, flow_beyond=0.0)
+                replace(
+                    point,
+                    flow=point.flow * bool(loading[point.comes_with]),
+                    flow_beyond=point.flow_beyond * bool(loading[point.section]),
+                )
                 for point in line.loading
             ),
         )
@@ -533,9 +536,9 @@ def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
             continue
         if force.key == "secondary_by_length":
             yield from _by_length(full, empty, force.total)
-        elif spot.stand is Stand.LANDING or force.kind == "lift":  # of a tripper, over its section's tail end
+        elif force.bulk is not None:
             certain = force.total if force.certain else 0.0
-            yield (0.0, 0.0, 0.0, force.total, certain, 0.0, spot.boundary - count)
+            yield (0.0, 0.0, 0.0, force.total, certain, 0.0, force.bulk)
         else:
             always += force.total
     yield (always, 0.0, 0.0, 0.0, 0.0, 0.0, -1)

@@ -36,7 +36,8 @@ def scaled(value: Quantity, factor: float) -> Quantity:
 def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = None) -> Conveyor:
     """The conveyor loaded as a case says, at a belt speed.
 
-    A loading point resists only where bulk lies on the section it feeds.
+    A loading point resists only where bulk lies on the section it feeds; a tripper lifts and speeds up what the section
+    before it brings.
 
     Parameters
     ----------
@@ -79,15 +80,17 @@ def _loaded(section: Section, case: LoadCase) -> Section:
 
 
 def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
-    """The route with those sections; loading points above unloaded ones do not resist."""
+    """The route with those sections; loading points above unloaded ones do not resist, but for what a tripper brings."""
     route = conveyor.route
     bearing = {section.name: section.loaded for section in sections}
-    points = [
-        point
-        if bearing[sections[0].name if point.section is None else point.section]
-        else point.replace(speed=speed, skirt_length="0 m")
-        for point in route.feeding_points
-    ]
+    points = []
+    for point in route.feeding_points:
+        if bearing[sections[0].name if point.section is None else point.section]:
+            points.append(point)
+        elif point is not route.feeding and route.feeds_back(point):
+            points.append(point.replace(skirt_length="0 m"))
+        else:
+            points.append(point.replace(speed=speed, skirt_length="0 m"))
     if not points:
         return route.replace(sections=sections)
     return route.replace(sections=sections, feeding=points[0], further_feeding=points[1:])

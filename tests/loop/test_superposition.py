@@ -95,14 +95,16 @@ def test_figures_of_a_loading_are_those_of_its_loop(seed):
         assert looked_for(found.loaded(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
 
 
-@pytest.mark.parametrize("loading", [(True, True, True, True), (False, False, False, False)])
+@pytest.mark.parametrize("loading", list(itertools.product([False, True], repeat=4)))
 def test_the_lift_over_a_tripper_goes_with_its_bulk(loading):
     tripper = FEEDING | {"section": "c", "tripper_lift": "5 m"}
     conveyor = line(route={"further_feeding": [tripper], "pulleys": []}, calculation={"not_given": "nothing"})
     found = added(conveyor)
     alone = closed(bearing(conveyor, loading)).held(found.setting)
     expected = looked_for(alone)
-    assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED)
+    scale = CLOSED * alone.tensions.largest
+    assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
+    assert looked_for(found.loaded(np.array(loading))) == pytest.approx(expected, rel=CLOSED, abs=scale)
 
 
 @pytest.mark.parametrize("seed", range(15))
