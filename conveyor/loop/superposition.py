@@ -526,7 +526,7 @@ def _along(found: Balance) -> list[tuple[float, float, float] | None]:
 
 def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
     """Forces at a spot: feeding points with the section they feed, the length coefficient by section, the rest."""
-    frame, count = full.frame, full.line.count
+    frame = full.frame
     spot = frame.spots[j]
     always = math.fsum(
         force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot

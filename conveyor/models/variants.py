@@ -80,7 +80,7 @@ def _loaded(section: Section, case: LoadCase) -> Section:
 
 
 def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
-    """The route with those sections; loading points above unloaded ones do not resist, but for what a tripper brings."""
+    """The route with those sections; above unloaded ones loading points do not resist, but what a tripper brings."""
     route = conveyor.route
     bearing = {section.name: section.loaded for section in sections}
     points = []

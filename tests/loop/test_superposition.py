@@ -107,6 +107,11 @@ def test_the_lift_over_a_tripper_goes_with_its_bulk(loading):
     assert looked_for(found.loaded(np.array(loading))) == pytest.approx(expected, rel=CLOSED, abs=scale)
 
 
+def test_no_loading_beats_the_worst_of_a_belt_with_a_tripper():
+    tripper = FEEDING | {"section": "c", "tripper_lift": "5 m"}
+    _never_beaten(added(line(route={"further_feeding": [tripper], "pulleys": []})))
+
+
 @pytest.mark.parametrize("seed", range(15))
 def test_no_loading_of_all_beats_the_worst(seed):
     rng = np.random.default_rng(100 + seed)
