@@ -5,19 +5,24 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 import typer.core
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.printable import in_json, printable
+from conveyor.ranges import MOST, spaced
+
+if TYPE_CHECKING:
+    from conveyor.models import Conveyor
 
 # matrices here are small: more BLAS threads than one cost time, and a lot of it on a busy machine
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -39,8 +44,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact", "validate",
-    "schema",
+    "new", "power", "compare", "study", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact",
+    "validate", "schema",
 )  # fmt: skip
 
 app = typer.Typer(
@@ -113,6 +118,14 @@ Shelves = Annotated[
     list[Path] | None,
     typer.Option("--shelf", metavar="FOLDER", help="Further folder of compound files; may be repeated."),
 ]
+Changed = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="FIELD=VALUE",
+        help='Change a field of the spec, as in --set "belt.speed=5.5 m/s"; may be repeated.',
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
 UnitsOption = Annotated[
     Units | None,
@@ -129,8 +142,43 @@ Force = Annotated[
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
-_MOST_VALUES = 1000
+_ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
+
+
+def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None = None) -> Conveyor:
+    """The conveyor of a spec, with fields changed by `FIELD=VALUE`.
+
+    Raises
+    ------
+    InputError
+        The spec is refused, or a change.
+    """
+    import conveyor
+    from conveyor import shelf
+    from conveyor.models.fields import with_fields
+
+    line = conveyor.load(path, shelves=shelves or ())
+    changes: dict[str, Any] = {}
+    for given in changed or ():
+        parts = _ASSIGNED.fullmatch(given)
+        if parts is None:
+            raise InputError(f'--set: got "{given}", expected FIELD=VALUE, as in "belt.speed=5.5 m/s"')
+        if parts[1] in changes:
+            raise InputError(f"--set: {parts[1]} is given twice")
+        changes[parts[1]] = _value(parts[2])
+    try:
+        return with_fields(line, changes, resolve=shelf.resolver(extra=shelves or (), base=path.parent))
+    except InputError as error:
+        raise InputError("\n".join(f"--set {line}" for line in str(error).splitlines())) from None
+
+
+def _value(written: str) -> Any:
+    """A number, true, false or a list as JSON has them; else text."""
+    try:
+        return json.loads(written)
+    except ValueError:
+        return written
 
 
 def print_json(data: object) -> None:
@@ -208,24 +256,16 @@ def values(given: str, option: str, *units: str) -> list[str]:
     unit = next((known for known in units if given.strip().endswith(known)), units[0])
     body = given.strip().removesuffix(unit).strip()
     try:
-        found = _range(body) if ":" in body else [float(part) for part in body.split(",")]
+        found = spaced(body) if ":" in body else [float(part) for part in body.split(",")]
     except ValueError:
         found = []
-    if not (0 < len(found) <= _MOST_VALUES and all(map(math.isfinite, found))):
+    if not (0 < len(found) <= MOST and all(map(math.isfinite, found))):
         allowed = " or ".join(units)
         raise InputError(
-            f'{option}: got "{given}", expected from:to:step (at most {_MOST_VALUES} values) or a,b,c in {allowed}, '
+            f'{option}: got "{given}", expected from:to:step (at most {MOST} values) or a,b,c in {allowed}, '
             'such as "-30:40:5" or "20"'
         )
     return [f"{value:.12g} {unit}" for value in found]
-
-
-def _range(given: str) -> list[float]:
-    """Values of ``from:to:step``, the end included; none where the step leads nowhere or to too many."""
-    low, high, step = (float(part) for part in given.split(":"))
-    if not (math.isfinite(low + high + step) and step > 0.0 and (high - low) / step <= _MOST_VALUES):
-        return []
-    return [low + k * step for k in range(math.floor((high - low) / step + 1e-9) + 1)]
 
 
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:

@@ -10,6 +10,7 @@ import typer
 
 from conveyor.cli.app import (
     AsJson,
+    Changed,
     Force,
     Quiet,
     Shelves,
@@ -20,6 +21,7 @@ from conveyor.cli.app import (
     json_text,
     print_text,
     progress,
+    read_spec,
     say,
 )
 from conveyor.cli.outputs import Outputs
@@ -82,6 +84,7 @@ def calibrate(
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
+    changed: Changed = None,
 ) -> None:
     """Which factors on indentation, idler rotation and flexure measured power tells apart, with bands."""
     to = Outputs(spec, measured, force=force)
@@ -90,7 +93,7 @@ def calibrate(
     import conveyor
     from conveyor.report import calibrating, excel
 
-    line = conveyor.load(spec, shelves=shelf or ())
+    line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
     with progress(silent=quiet or as_json) as told:
         found = conveyor.calibrate(

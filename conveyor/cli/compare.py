@@ -12,6 +12,7 @@ import typer
 from conveyor.cli.app import (
     AsJson,
     AsParquet,
+    Changed,
     Force,
     Quiet,
     Shelves,
@@ -26,6 +27,7 @@ from conveyor.cli.app import (
     one_of,
     print_text,
     progress,
+    read_spec,
     say,
     values,
 )
@@ -117,6 +119,7 @@ def compare(
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
+    changed: Changed = None,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     to = Outputs(spec, *compounds, force=force)
@@ -126,10 +129,9 @@ def compare(
     to.file("--csv", csv, ".csv")
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
-    import conveyor
     from conveyor.analysis import compare_compounds
 
-    line = conveyor.load(spec, shelves=shelf or ())
+    line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
     with progress(silent=quiet or as_json) as told:
         found = compare_compounds(

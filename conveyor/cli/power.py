@@ -11,6 +11,7 @@ import typer
 from conveyor.cli.app import (
     AsJson,
     AsParquet,
+    Changed,
     Force,
     ImageKind,
     Quiet,
@@ -25,6 +26,7 @@ from conveyor.cli.app import (
     json_text,
     print_text,
     progress,
+    read_spec,
     say,
 )
 from conveyor.cli.outputs import Outputs
@@ -64,6 +66,7 @@ def power(
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
+    changed: Changed = None,
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     to = Outputs(spec, force=force)
@@ -76,7 +79,7 @@ def power(
     from conveyor.analysis import studies
     from conveyor.report.tables import of_analysis
 
-    line = conveyor.load(spec, shelves=shelf or ())
+    line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
     result = conveyor.analyse(line)
     with progress(silent=quiet or as_json) as told:

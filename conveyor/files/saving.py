@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
@@ -84,6 +84,26 @@ def save(contents: Mapping[Path, bytes | memoryview], *, folders: Iterable[Path]
         undo.pop_all()
     for kept in older:
         _without(kept.unlink)
+
+
+@contextmanager
+def growing(path: Path) -> Iterator[Path]:
+    """A temporary file beside a path, for what is written piece by piece; it takes the path's name when it is whole.
+
+    Raises
+    ------
+    InputError
+        It cannot be written; an older file is untouched, nothing temporary is left.
+    """
+    writable(path)
+    part = _beside(_target(path))
+    try:
+        yield part
+        part.replace(_target(path))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _replaced(target: Path, part: Path, undo: ExitStack) -> Path:

@@ -75,13 +75,14 @@ def csv(frame: pd.DataFrame) -> bytes:
     "name,power [kW]\r\n'=1+1,1.5\r\nmine,-2.0\r\n"
     """
     safe = pd.DataFrame(
-        {_plain(str(name)): [_plain(value) for value in frame[name].tolist()] for name in frame.columns},
+        {plain(str(name)): [plain(value) for value in frame[name].tolist()] for name in frame.columns},
         dtype=object,
     )
     return safe.to_csv(index=False, lineterminator="\r\n").encode("utf-8-sig")
 
 
-def _plain(value: object) -> object:
+def plain(value: object) -> object:
+    """A cell of a CSV file: no text of it is read as a formula."""
     if not isinstance(value, str):
         return value
     return f"'{printable(value)}" if value.startswith(_FORMULA) else printable(value)

@@ -220,8 +220,12 @@ def headed(label: str, kind: str, system: System = "SI") -> str:
     >>> headed("motor power", "power", "US"), headed("strand", "text"), headed("share", "share")
     ('motor power [hp]', 'strand', 'share [-]')
     """
-    sign = unit(kind, system).label
-    return label if sign is None else f"{label} [{sign}]"
+    return labelled(label, unit(kind, system).label)
+
+
+def labelled(label: str, sign: str | None) -> str:
+    """Return a label and a unit as every table has them; without a unit the label."""
+    return f"{label} [{sign}]" if sign else label
 
 
 def unsigned(number: str) -> str:

@@ -186,6 +186,28 @@ def si_with_unit(value: Quantity) -> tuple[float, str]:
     return si(value), next((label for kind, label in _SI_LABELS.items() if is_kind(value, kind)), "K")
 
 
+def between(low: Quantity, high: Quantity, share: float) -> Quantity:
+    """The quantity a share of the way from one to another, in the unit of the first.
+
+    Raises
+    ------
+    InputError
+        They are of different kinds.
+
+    Examples
+    --------
+    >>> text(between(quantity("-10 degC"), quantity("30 degC"), 0.25))
+    '0 degC'
+    """
+    if low.dimensionality != high.dimensionality:
+        raise InputError(f"got {text(low)} and {text(high)}, expected two of one kind")
+    base, other = low.to_base_units(), high.to_base_units()
+    found: Quantity = _build(base.magnitude + share * (other.magnitude - base.magnitude), base.units).to(
+        low.units
+    )
+    return _build(float(f"{found.magnitude:.9g}"), low.units)
+
+
 def same(one: Quantity, other: Quantity) -> bool:
     """Tell whether two quantities have the same value, in whatever units."""
     return si(one) == si(other)

@@ -1,0 +1,124 @@
+"""Points of a study: the exact calculation of a spec with some fields changed, many side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Final, TypeAlias
+
+from conveyor.checks import Check, checks
+from conveyor.errors import ConveyorError, InputError
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.fields import with_fields
+from conveyor.models.study import Changes
+from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+
+RTOL: Final = 1e-4
+"""Of the contacts of a study: their true error is a fifth of it, far below what a spec knows."""
+
+Answer: TypeAlias = list[float | int | None] | str
+"""Figures of a point, SI, in the order asked for; or why it has none."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """A figure of a point: words, kind of quantity, and how it is read."""
+
+    label: str
+    kind: str
+    get: Callable[[CalculatedConveyor], float | int | None]
+
+
+def _failed(every: Iterable[Check]) -> int:
+    return sum(check.failed for check in every)
+
+
+OUTPUTS: Final[Mapping[str, Output]] = {
+    "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
+    "mains_power": Output("mains power", "power", attrgetter("balance.power.mains")),
+    "energy_per_tonne_km": Output(
+        "energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")
+    ),
+    "effective_tension": Output("effective tension", "force", attrgetter("balance.forces.total")),
+    "indentation": Output("indentation", "force", attrgetter("balance.forces.indentation")),
+    "friction_factor": Output("equivalent DIN f", "friction", attrgetter("balance.friction_factor")),
+    "largest_tension": Output("largest tension", "force", attrgetter("balance.tensions.largest")),
+    "take_up": Output("setting of the take-up", "force", attrgetter("balance.settled.setting")),
+    "belt_safety": Output("belt safety", "ratio", attrgetter("belt_duty.safety")),
+    "energy_per_year": Output(
+        "energy per year", "energy", lambda a: None if a.year is None else JOULE_PER_KWH * a.year.energy
+    ),
+    "cost_per_year": Output("cost per year", "money", lambda a: None if a.year is None else a.year.cost),
+    "failed": Output(
+        "failed checks of the own load",
+        "count",
+        lambda a: sum(check.verdict == "FAIL" for check in checks(a)),
+    ),
+    "error_estimate": Output("largest error estimate of the contacts", "error", attrgetter("error_estimate")),
+}
+"""Figures by key."""
+
+
+def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
+    """Figures asked for; all of them of none.
+
+    Raises
+    ------
+    InputError
+        A key is not known.
+    """
+    asked = tuple(keys) or tuple(OUTPUTS)
+    for key in asked:
+        if key not in OUTPUTS:
+            raise InputError(f'outputs: no figure "{key}"; there are {", ".join(OUTPUTS)}')
+    return {key: OUTPUTS[key] for key in asked}
+
+
+def answers(
+    base: Conveyor,
+    points: Sequence[Changes],
+    outputs: Sequence[str],
+    compounds: Mapping[str, RubberCompound],
+    rtol: float = RTOL,
+) -> list[Answer]:
+    """Figures of points, calculated side by side.
+
+    Parameters
+    ----------
+    base : Conveyor
+        The spec.
+    points : sequence of mapping
+        New values of its fields, by path.
+    outputs : sequence of str
+        Keys of `OUTPUTS`.
+    compounds : mapping
+        Those that points give by name.
+    rtol : float
+        Relative tolerance of the contacts [-].
+
+    Returns
+    -------
+    list
+        In their order the figures in SI, or why a point has none.
+    """
+    known: dict[object, object] = {}
+    made: list[Conveyor | str] = []
+    for point in points:
+        try:
+            made.append(with_fields(base, point, resolve=compounds.__getitem__, known=known))
+        except ConveyorError as error:
+            made.append(str(error))
+    variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
+    found = iter(calculate_many(variants, rtol))
+    return [one if isinstance(one, str) else _answer(next(found), outputs) for one in made]
+
+
+def _answer(found: CalculatedConveyor | ConveyorError, outputs: Sequence[str]) -> Answer:
+    if not isinstance(found, CalculatedConveyor):
+        return str(found)
+    try:
+        return [OUTPUTS[key].get(found) for key in outputs]
+    except ConveyorError as error:
+        return str(error)

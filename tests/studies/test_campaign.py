@@ -1,0 +1,208 @@
+"""Studies: points of a plan, answers as a single analysis gives them, runs that stop and go on."""
+
+from __future__ import annotations
+
+import csv
+import json
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.errors import ConveyorError, InputError
+from conveyor.models.fields import with_fields
+from conveyor.models.study import StudyPlan
+from conveyor.pipeline import calculate
+from conveyor.studies.campaign import BATCH, Answers, Campaign, rows, run
+from conveyor.studies.points import OUTPUTS, RTOL
+from tests.command_line import run as command
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+PLAN = {
+    "name": "speeds",
+    "base": "shuttle.yaml",
+    "axes": {"belt.speed": "1:1.4:0.2 m/s", "ambient.temperature": ["0 degC", "68 degF"]},
+    "outputs": ["motor_power", "belt_safety", "failed"],
+}
+
+
+@pytest.fixture(scope="module")
+def line():
+    return conveyor.load(SPECS / "shuttle.yaml")
+
+
+def campaign(line, **changes):
+    return Campaign.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
+
+
+def answered(study, path, **options):
+    with Answers(path) as known:
+        run(study, known, **options)
+        return list(rows(study, known))
+
+
+def test_points_are_every_value_with_every_other_and_the_last_changes_fastest():
+    plan = StudyPlan.from_data(
+        {
+            "name": "n",
+            "base": "b.yaml",
+            "axes": {"a": [1, 2], "b": "0:10:5 degC"},
+            "together": [{"c": "x", "d": 1}, {"c": "y", "d": 2}],
+        }
+    )
+    points = list(plan.points())
+    assert len(points) == plan.count == 2 * 3 * 2
+    assert points[0] == {"c": "x", "d": 1, "a": 1, "b": "0 degC"}
+    assert points[1] == {"c": "x", "d": 1, "a": 1, "b": "5 degC"}
+    assert points[-1] == {"c": "y", "d": 2, "a": 2, "b": "10 degC"}
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin hypercube"])
+def test_samples_lie_in_their_ranges_one_in_every_stratum(method):
+    fields = {"t": {"low": "-10 degC", "high": "86 degF"}, "x": {"low": 1.0, "high": 3.0}}
+    plan = StudyPlan.from_data(
+        {"name": "n", "base": "b", "samples": {"method": method, "count": 16, "seed": 1, "fields": fields}}
+    )
+    points = list(plan.points())
+    shares = [(float(p["t"].removesuffix(" degC")) + 10.0) / 40.0 for p in points]
+    assert sorted(int(16.0 * share) for share in shares) == list(range(16))
+    assert sorted(int(16.0 * (p["x"] - 1.0) / 2.0) for p in points) == list(range(16))
+    assert points == list(plan.points())
+
+
+def test_answers_are_those_of_single_analyses(line, tmp_path):
+    study = campaign(line)
+    found = answered(study, tmp_path / "a")
+    assert [number for number, *_ in found] == list(range(1, 7))
+    for _, values, answer in found:
+        alone = calculate(with_fields(line, dict(zip(study.plan.paths, values, strict=True))))
+        assert answer[0] == pytest.approx(alone.balance.power.motor, rel=2.0 * RTOL)
+        assert answer[1] == pytest.approx(alone.belt_duty.safety, rel=2.0 * RTOL)
+
+
+def test_a_point_without_an_answer_says_why(line, tmp_path):
+    found = answered(campaign(line, axes={"belt.speed": ["0.01 m/s", "1 m/s"]}), tmp_path / "a")
+    assert "belt.speed" in found[0][2]
+    assert found[1][2][0] > 0.0
+
+
+def test_a_stopped_run_goes_on_and_calculates_nothing_twice(line, tmp_path):
+    path, study = tmp_path / "a", campaign(line)
+    whole = answered(study, path)
+    lines = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(b"".join(lines[:4]) + lines[4][:-7])  # the fifth was half written
+    done = []
+    assert answered(study, path, progress=lambda *counts: done.append(counts)) == whole
+    assert done[0] == (4, 6)
+    assert len(path.read_bytes().splitlines()) == 6
+    more = campaign(line, axes=PLAN["axes"] | {"belt.speed": "1:1.6:0.2 m/s"})
+    answered(more, path, progress=lambda *counts: done.append(counts))
+    assert (6, 8) in done  # of a longer axis just what is new
+    other = campaign(line.replace(material=line.material.replace(flow="100 t/h")))
+    assert all(other.key(point) != study.key(point) for point in study.plan.points())
+
+
+def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
+    study = campaign(line)
+    alone = answered(study, tmp_path / "alone")
+    with ThreadPoolExecutor(3) as threads:
+        assert answered(study, tmp_path / "threads", executor=threads, workers=3) == alone
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+        found = answered(study, tmp_path / "processes", executor=processes, workers=2)
+    # batches that are solved apart share their load curves otherwise: to the contacts' tolerance
+    assert [(number, values) for number, values, _ in found] == [(n, v) for n, v, _ in alone]
+    for (*_, one), (*_, other) in zip(found, alone, strict=True):
+        assert one == pytest.approx(other, rel=1e-12)
+
+
+def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
+    study = campaign(line)
+    with Answers(tmp_path / "a") as known:
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
+
+            def told(done, _):
+                if done == 2:
+                    for process in processes._processes.values():
+                        process.kill()
+
+            with pytest.raises(ConveyorError, match="run it again to go on"):
+                run(study, known, executor=processes, workers=1, progress=told)
+        kept = len(known)
+        assert 2 <= kept < 6
+        run(study, known)
+        assert list(rows(study, known)) == answered(study, tmp_path / "whole")
+
+
+def test_what_is_no_file_of_answers_is_refused(tmp_path):
+    path = tmp_path / "a"
+    path.write_text("mine\n", encoding="utf-8")
+    with pytest.raises(InputError, match="something else than answers"):
+        Answers(path)
+    assert path.read_text(encoding="utf-8") == "mine\n"
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"axes": {"belt.speed": "1:2 m/s"}}, "expected a list, or from:to:step"),
+        ({"axes": {"belt..speed": ["1 m/s"]}}, "no path of a field"),
+        ({"axes": {}}, "nothing varies"),
+        ({"together": [{"belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
+        ({"together": [{"a": 1}, {"b": 1}]}, "every row has to change the same fields"),
+        ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
+        ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),
+        ({"axes": {"belt.sped": ["1 m/s"]}}, "did you mean speed"),
+        ({"axes": {"belt.top_cover.compound": ["no-such"]}}, 'unknown compound "no-such"'),
+    ],
+)  # fmt: skip
+def test_a_plan_that_cannot_run_is_refused_before_it_begins(line, changes, said):
+    with pytest.raises(InputError, match=said):
+        campaign(line, **changes)
+
+
+def test_the_command_writes_a_table_in_the_units_of_the_plan(tmp_path):
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml"), "outputs": []}), encoding="utf-8")
+    asked = ("study", file, "-o", tmp_path / "t.csv", "--units", "us", "--set", "material.flow=100 t/h")
+    done = command(*asked)
+    assert done.returncode == 0, done.stderr
+    assert "6 points, 6 of them calculated now; 0 without an answer" in done.stdout
+    with (tmp_path / "t.csv").open(encoding="utf-8-sig", newline="") as table:
+        found = list(csv.DictReader(table))
+    assert [row["belt.speed [m/s]"] for row in found] == ["1.0", "1.0", "1.2", "1.2", "1.4", "1.4"]
+    assert [float(row["ambient.temperature [degC]"]) for row in found[:2]] == pytest.approx([0.0, 20.0])
+    assert all(float(row["motor power [hp]"]) > 0.0 for row in found)
+    again = command(
+        "study", file, "-o", tmp_path / "t.csv", "--units", "us", "--json", "--set", "material.flow=100 t/h"
+    )
+    assert json.loads(again.stdout)["calculated"] == 0
+    (tmp_path / "mine.csv").write_text("mine", encoding="utf-8")
+    refused = command("study", file, "-o", tmp_path / "mine.csv")
+    assert refused.returncode == 2
+    assert "exists and is no table that conveyor wrote" in refused.stderr
+
+
+def test_parquet_is_the_same_table(tmp_path):
+    pytest.importorskip("pyarrow")
+    import pandas as pd
+
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml")}), encoding="utf-8")
+    for name in ("t.csv", "t.parquet"):
+        assert command("study", file, "-o", tmp_path / name).returncode == 0
+    table = pd.read_csv(tmp_path / "t.csv")
+    pd.testing.assert_frame_equal(
+        pd.read_parquet(tmp_path / "t.parquet").iloc[:, :-1], table.iloc[:, :-1], check_dtype=False
+    )
+
+
+def test_every_figure_can_be_asked_for(line, tmp_path):
+    study = campaign(line, axes={"belt.speed": ["1 m/s"]}, outputs=list(OUTPUTS))
+    ((*_, answer),) = answered(study, tmp_path / "a")
+    assert len(answer) == len(OUTPUTS)
+    assert BATCH > 1
