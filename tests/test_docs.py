@@ -142,6 +142,12 @@ def test_fragment_of_a_spec(page: Path, number: int) -> None:
     studies(line, found)
 
 
+def test_the_study_on_its_page_is_the_example() -> None:
+    page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    file = (ROOT / "examples" / "studies" / "spacing.yaml").read_text(encoding="utf-8")
+    assert page.split("```yaml study\n")[1].split("```")[0] == file.partition("\n")[2]
+
+
 def test_defaults_on_the_designers_page_do_what_it_says() -> None:
     text = (ROOT / "docs" / "designer.md").read_text(encoding="utf-8")
     given = values("overland")
