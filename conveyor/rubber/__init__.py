@@ -5,6 +5,7 @@ from __future__ import annotations
 from conveyor.rubber.band import ReplicaBand, bootstrap
 from conveyor.rubber.equivalent import EquivalentLinear, equivalent_linear, softened
 from conveyor.rubber.fit import PronyFit, fit_prony
+from conveyor.rubber.interconversion import equivalent_sweep
 from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
@@ -44,6 +45,7 @@ __all__ = [
     "compare_shift_laws",
     "entropic_b_T",
     "equivalent_linear",
+    "equivalent_sweep",
     "fit_arrhenius",
     "fit_kraus",
     "fit_prony",
