@@ -342,13 +342,23 @@ def _laid(
     if request.vertical and len(parts) < 2:
         raise InputError(f"{read[0].source}: --vertical shifts isotherms; this file holds a {read[0].kind}")
     superposition = None
-    if len(parts) > 1:
-        isotherms = [part.isotherm for part in parts]
+    dynamic = [part for part in parts if read[part.file].kind != "relaxation"]
+    chain = dynamic if len(dynamic) > 1 else parts
+    if len(chain) > 1:
+        isotherms = [part.isotherm for part in chain]
         superposition = superpose(isotherms, kelvin, vertical=request.vertical, by=request.by)
         if shifts is not None:
             superposition, told = overridden(superposition, shifts)
             said += told
-        _check_order(read, parts, superposition, request.by)
+        _check_order(read, chain, superposition, request.by)
+        for part in parts:
+            low, high = superposition.temperatures[0], superposition.temperatures[-1]
+            if part not in chain and (request.vertical or not low <= part.isotherm.temperature <= high):
+                raise InputError(
+                    f"{read[part.file].source}:{part.first_row}: relaxation beside isotherms is laid by their shift "
+                    f"factors, {celsius(low):.0f} to {celsius(high):.0f} degC, without vertical shift; fit it alone, "
+                    "or leave it out"
+                )
     law = _law(superposition, shifts, kelvin, request) if superposition is not None or ramps else None
     if law is None and any(part.isotherm.temperature != kelvin for part in parts):
         raise InputError(f"{read[0].source}: one sweep; the reference is its temperature, leave out --at")

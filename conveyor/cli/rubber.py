@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from conveyor.compound_file import Fitted, Tabulated
     from conveyor.models import RubberCompound
 
 EXPORTED: Final = (".inp", ".mac", ".csv")
@@ -114,6 +115,21 @@ def fit(
             help="Insist on what is refused as hardly rubber: few-rows, modulus, contradiction; may be repeated.",
         ),
     ] = None,
+    html: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the page to sign: verdict, figures, glossary (.html)."),
+    ] = None,
+    document: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=WORDS",
+            help="On that page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
+        ),
+    ] = None,
+    spec: Annotated[
+        Path | None,
+        typer.Option(metavar="SPEC", help="Conveyor whose rolls the window has to cover, for the verdict."),
+    ] = None,
     export: Export = None,
     write_shift: Annotated[
         Path | None,
@@ -129,10 +145,12 @@ def fit(
     from conveyor import shelf as shelf_of
     from conveyor.units import in_si
 
-    to = Outputs(*data, shift, strain, force=force)
+    to = Outputs(*data, shift, strain, spec, force=force)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     to.file("--write-shift", write_shift, ".csv")
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    said = dict(_said(words) for words in document or ())
     for path in export or ():
         to.file("--export", path, *EXPORTED)
     answers = {
@@ -174,11 +192,43 @@ def fit(
     if write_shift is not None:
         to.add("shift factors", write_shift, {write_shift: fitting.shift_table(found).encode()})
     _exported(found.compound, export, to)
+    if html is not None or spec is not None:
+        lines += _judged(found, spec, said, html, to)
     lines += to.save()
     if output is not None:
         lines.append(f'specs and --compound name the compound "{output.stem}" or by its path')
     if not quiet:
         say(*lines)
+
+
+def _said(words: str) -> tuple[str, str]:
+    from conveyor.fit_page import DOCUMENT
+
+    name, separator, value = words.partition("=")
+    if not separator or name.strip() not in DOCUMENT or not value.strip():
+        raise InputError(
+            f'--document: got "{words}", expected NAME=WORDS with a name of: {", ".join(DOCUMENT)}'
+        )
+    return name.strip(), value.strip()
+
+
+def _judged(
+    found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], html: Path | None, to: Outputs
+) -> list[str]:
+    """Lines of the verdict; add the page to sign."""
+    from conveyor import fit_page, fit_verdict
+    from conveyor.compound_file import Tabulated
+    from conveyor.spec import load
+
+    if isinstance(found, Tabulated):
+        raise InputError("--html: a Prony table has no measurement to judge")
+    criteria = fit_verdict.verdict(found, None if spec is None else load(spec))
+    if html is not None:
+        to.add("page", html, fit_page.files(found, criteria, said, html))
+    return [
+        "verdict",
+        *(f"  {one.verdict:>11}  {one.name}: {one.calculated} ({one.required})" for one in criteria),
+    ]
 
 
 @contextmanager
