@@ -146,7 +146,7 @@ def _shifts(found: Fitted) -> Iterator[Criterion]:
     what = (
         "a shift left out, predicted by its neighbours"
         if law.name == "table"
-        else f"shifts about the law{worst}"
+        else f"shifts about the law{farthest}"
     )
     yield _most(
         f"smoothness of the shifts ({law.name})", missed, LEFT_OUT, _decades,

@@ -406,7 +406,7 @@ def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     lines = [*_where(comparison), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
-            lines.append(f'compound "{compound.name}" is illustrative, not measured: no choice rests on it')
+            lines.append(f'compound "{compound.name}" is illustrative, not measured: compare with it, do not design with it')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
             at = _listed([celsius(row.temperature) for row in rows])
