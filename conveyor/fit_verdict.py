@@ -169,10 +169,19 @@ def _shape(found: Fitted) -> Iterator[Criterion]:
         )  # fmt: skip
 
 
-def collapse(rows: MeasuredRows) -> float | None:
-    """Difference of the phase angle of neighbouring isotherms at one modulus, root mean square [degrees].
+def collapse(rows: MeasuredRows) -> tuple[float, float, float] | None:
+    """The neighbouring isotherms whose phase angles differ most at one modulus, |E*|.
 
-    None where no two of them have moduli in common.
+    Parameters
+    ----------
+    rows : MeasuredRows
+        As measured; temperatures of fewer than three rows do not count.
+
+    Returns
+    -------
+    tuple or None
+        Root mean square difference [degrees] and both temperatures [K]; None where no two isotherms have moduli in
+        common.
     """
     angles, moduli = (
         np.degrees(np.arctan2(rows.loss, rows.storage)),
@@ -184,22 +193,24 @@ def collapse(rows: MeasuredRows) -> float | None:
         one, other = (np.flatnonzero(rows.temperature == t) for t in (cold, hot))
         one, other = one[np.argsort(moduli[one])], other[np.argsort(moduli[other])]
         common = one[(moduli[one] >= moduli[other[0]]) & (moduli[one] <= moduli[other[-1]])]
-        found.append(angles[common] - np.interp(moduli[common], moduli[other], angles[other]))
-    every = np.concatenate(found) if found else np.array([])
-    return float(np.sqrt(np.mean(every**2))) if every.size else None
+        if common.size:
+            apart = angles[common] - np.interp(moduli[common], moduli[other], angles[other])
+            found.append((float(np.sqrt(np.mean(apart**2))), float(cold), float(hot)))
+    return max(found, default=None)
 
 
 def _collapse(found: Fitted) -> Iterator[Criterion]:
-    value, name = collapse(found.rows), "van Gurp-Palmen collapse"
-    if value is None:
+    worst, name = collapse(found.rows), "van Gurp-Palmen collapse"
+    if worst is None:
         yield _open(name, "no two isotherms with moduli in common")
         return
     scatter = np.hypot(found.fit.storage_noise or 0.0, found.fit.loss_noise or 0.0)
     angle = float(np.mean(np.arctan2(found.rows.loss, found.rows.storage)))
     rows = float(np.degrees(0.5 * np.sin(2.0 * angle) * scatter))  # d(delta) = sin(2 delta)/2 d(ln tan delta)
     most = max(COLLAPSE, OF_SCATTER * np.sqrt(2.0) * rows)
-    why = "isotherms of another state, specimen or strain; or a vertical shift"
-    yield _most(name, value, most, lambda v: f"{v:.2f}°", why)
+    pair = " and ".join(f"{celsius(t):.0f}" for t in worst[1:])
+    why = f"worst of {pair} °C; another state, specimen or strain, or a vertical shift"
+    yield _most(name, worst[0], most, lambda v: f"{v:.2f}°", why)
 
 
 def _consistent(found: Fitted) -> Iterator[Criterion]:

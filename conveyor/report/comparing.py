@@ -406,7 +406,8 @@ def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     lines = [*_where(comparison), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
-            lines.append(f'compound "{compound.name}" is illustrative, not measured: compare with it, do not design with it')
+            said = "is illustrative, not measured: compare with it, do not design with it"
+            lines.append(f'compound "{compound.name}" {said}')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
             at = _listed([celsius(row.temperature) for row in rows])
