@@ -259,7 +259,7 @@ def _not_compared(
     if not base:
         return "the base's data do not reach"
     if comparison.level_differs(name):
-        return "tests set the level of one, theory that of the other"
+        return "one level tested, one not"
     return None
 
 
@@ -353,7 +353,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         at = unit("speed", system).brief(plots.drawn_speed(comparison))
         yield Drawing(
             "power-temperature",
-            f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber.",
+            f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
             lambda: plots.power_against_temperature(comparison, system=system),
             "power",
         )
