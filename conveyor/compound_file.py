@@ -424,6 +424,8 @@ def _reference(read: Sequence[DmaData], request: Request) -> str:
         if middle:
             return f"{middle[len(middle) // 2] - ZERO_CELSIUS:.{_DIGITS}g} degC"
     one = whole or read[0]
+    if one.kind == "temperature sweep" and given is None:
+        raise InputError(f"{one.source}: a temperature sweep needs isotherms beside it, or --shift and --at")
     told_of = [*_stated(one), *([] if given is None else [("--at", given)])]
     if not told_of:
         raise InputError(

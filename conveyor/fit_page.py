@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from datetime import date
 from operator import attrgetter
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -144,10 +143,3 @@ def _files(found: Fitted) -> Html:
 def _glossary() -> Html:
     said = ((element("dt", element("strong", term)), element("dd", words)) for term, words in GLOSSARY)
     return element("dl", *(element("div", *both, class_="keep") for both in said), style="columns: 18rem")
-
-
-def files(
-    found: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], path: Path
-) -> dict[Path, bytes]:
-    """Return the page as the bytes of its file."""
-    return {path: build(found, criteria, document).encode()}

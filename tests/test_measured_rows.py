@@ -93,8 +93,8 @@ def test_a_temperature_sweep_takes_given_shifts(tmp_path: Path, together):
     found = fit_file([FILES[2], shifts], Request("ramp", AT, replicas=0))
     assert found.rows.frequency.size == 41
     assert max(errors(found.compound, low=1.5, high=5.0)) < 0.1  # 41 rows over eight decades
-    with pytest.raises(InputError, match="needs shift factors"):
-        fit_file(FILES[2], Request("ramp", AT))
+    with pytest.raises(InputError, match="needs isotherms beside it"):
+        fit_file(FILES[2], Request("ramp"))
 
 
 def test_rows_are_excluded_by_name(alone):

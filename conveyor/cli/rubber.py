@@ -224,7 +224,7 @@ def _judged(
         raise InputError("--html: a Prony table has no measurement to judge")
     criteria = fit_verdict.verdict(found, None if spec is None else load(spec))
     if html is not None:
-        to.add("page", html, fit_page.files(found, criteria, said, html))
+        to.add("page", html, {html: fit_page.build(found, criteria, said).encode()})
     return [
         "verdict",
         *(f"  {one.verdict:>11}  {one.name}: {one.calculated} ({one.required})" for one in criteria),

@@ -335,9 +335,10 @@ def master_curve(
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
-    above.plot(f, modulus(series.storage(omega)), color=colour(0), label="E'")
-    above.plot(f, modulus(series.loss(omega)), color=colour(1), label="E''")
-    below.plot(f, series.tan_delta(omega), color=colour(2), label="tan δ")
+    drawn = "-" if data is not None else ":"  # no data are stated: nothing is solid
+    above.plot(f, modulus(series.storage(omega)), drawn, color=colour(0), label="E'")
+    above.plot(f, modulus(series.loss(omega)), drawn, color=colour(1), label="E''")
+    below.plot(f, series.tan_delta(omega), drawn, color=colour(2), label="tan δ")
     replicas = compound.replicas(at)
     if replicas:
         for axis, figures, k in (
