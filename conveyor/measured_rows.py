@@ -21,7 +21,7 @@ Numbers = NDArray[np.int64]
 
 CURVES = frozenset({"master curve", "isotherms", "relaxation", "temperature sweep"})
 """Kinds of file whose rows lie on a master curve."""
-_ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d+(?:-\d+)?(?:,\d+(?:-\d+)?)*)")
+_ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*)")
 _COLUMNS = (
     "frequency", "temperature", "strain", "time", "storage", "loss", "modulus", "log10_a_T", "log10_b_T", "run",
     "group", "row_numbers",
@@ -98,11 +98,10 @@ def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaD
             names = ", ".join(Path(read.source).name for read in reads)
             raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
         (k,) = named
-        rows: set[int] = set()
+        kept = np.ones(left[k].row_numbers.size, dtype=np.bool_)
         for part in found["rows"].split(","):
             low, _, high = part.partition("-")
-            rows |= set(range(int(low), int(high or low) + 1))
-        kept = ~np.isin(left[k].row_numbers, sorted(rows))
+            kept &= (left[k].row_numbers < int(low)) | (left[k].row_numbers > int(high or low))
         gone = int(np.count_nonzero(~kept))
         if not gone or not kept.any():
             what = "has no such rows of data" if not gone else "would have no row left"

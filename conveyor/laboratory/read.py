@@ -119,8 +119,7 @@ def read_dma(
     table = find_table(_grid(Path(path), sheet))
     series, labels, notes, questions = read_columns(table, given)
     columns, derived = _quantities(table, series, questions, (poisson_ratio, letter), temperature)
-    if "tau" in columns:
-        derived += _complete(table, series, columns, instantaneous)
+    derived += _complete(table, series, columns, instantaneous)
     for dimension, unit in given.items():
         if not any(s.explicit and s.unit == unit for s in series.values()):
             notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
@@ -236,7 +235,11 @@ def _complete(
     instantaneous: float | None,
 ) -> list[str]:
     """Moduli of a Prony series from its shares, and its instantaneous modulus."""
+    if "tau" not in columns:
+        return [] if instantaneous is None else ["instantaneous was given, but the file is no Prony table"]
     if instantaneous is not None:
+        if not 0.0 < instantaneous < math.inf:
+            raise InputError(f"instantaneous = {instantaneous:g} Pa (--instantaneous) must be > 0")
         columns["instant"] = np.full(len(table.rows), instantaneous)
     if "share" not in columns:
         return []
