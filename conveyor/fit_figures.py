@@ -75,8 +75,8 @@ def _marked(
 def _beside(axis: Axes) -> None:
     """Names of the marks right of the data, in their colours."""
     for k, (mark, label) in enumerate(zip(*axis.get_legend_handles_labels(), strict=True)):
-        for words, shade in ((f"    {label}", "0.1"), ("●", mark.get_color())):  # type: ignore[attr-defined]
-            where = (1.02, 1.0 - _LINE * k)
+        for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
+            where = (x, 1.0 - _LINE * k)
             axis.annotate(words, where, xycoords="axes fraction", va="top", fontsize=8, color=shade)
 
 

@@ -225,10 +225,7 @@ def _judged(
     criteria = fit_verdict.verdict(found, None if spec is None else load(spec))
     if html is not None:
         to.add("page", html, {html: fit_page.build(found, criteria, said).encode()})
-    return [
-        "verdict",
-        *(f"  {one.verdict:>11}  {one.name}: {one.calculated} ({one.required})" for one in criteria),
-    ]
+    return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 
 @contextmanager
