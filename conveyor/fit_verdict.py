@@ -12,7 +12,7 @@ import numpy as np
 from conveyor.checks import rubber_coverage
 from conveyor.compound_file import Fitted
 from conveyor.errors import ConveyorError
-from conveyor.laboratory.findings import DOUBTED
+from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
 from conveyor.measured_rows import MeasuredRows
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
@@ -33,8 +33,10 @@ OVERLAP: Final = 0.5
 """Of neighbouring isotherms (docs/rubber.md, what to measure) [decades]."""
 SHAPE: Final = 0.5
 """Correlation of neighbouring residuals beyond which isotherms differ in shape [-]."""
-COLLAPSE: Final = 0.5
-"""Of the phase angle at one modulus: a DMA holds 0.1 to 0.3 degrees (general knowledge) [degrees]."""
+ANGLE: Final = 0.3
+"""Of the phase angle of a DMA beside the scatter of its rows (general knowledge: 0.1 to 0.3 degrees) [degrees]."""
+MODULUS: Final = 0.005
+"""Of |E*| at the least: what a DMA repeats (general knowledge) [-]."""
 OF_SCATTER: Final = 2.0
 """Differences beyond twice the scatter of the rows are none of it: 95 % of a normal distribution lie within [-]."""
 KRAMERS_KRONIG: Final = 0.1
@@ -169,48 +171,64 @@ def _shape(found: Fitted) -> Iterator[Criterion]:
         )  # fmt: skip
 
 
-def collapse(rows: MeasuredRows) -> tuple[float, float, float] | None:
-    """The neighbouring isotherms whose phase angles differ most at one modulus, |E*|.
+def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, float, float] | None:
+    """The neighbouring isotherms whose phase angles differ most at one modulus, |E*|/b_T.
 
     Parameters
     ----------
     rows : MeasuredRows
-        As measured; temperatures of fewer than three rows do not count.
+        Temperatures of fewer than three rows do not count.
+    noise : tuple of float
+        Scatter of E' and E'' from row to row [-].
 
     Returns
     -------
     tuple or None
-        Root mean square difference [degrees] and both temperatures [K]; None where no two isotherms have moduli in
-        common.
+        Root mean square of the differences over what scatter makes of them [-], and both temperatures [K]; None where
+        no two isotherms have moduli in common.
+
+    Notes
+    -----
+    The distance of each row to the other isotherm's line, in units of scatter along both axes: where the line is steep,
+    on a plateau, it is the modulus that tells. Rows beyond the ends of the line do not count.
+    d(delta) = sin(2 delta)/2 d(ln tan delta).
     """
-    angles, moduli = (
-        np.degrees(np.arctan2(rows.loss, rows.storage)),
-        np.log(np.hypot(rows.storage, rows.loss)),
-    )
+    _, storage, loss = rows.curve
+    angles, moduli = np.arctan2(loss, storage), np.log(np.hypot(storage, loss))
+    turned = np.hypot(np.radians(ANGLE), 0.5 * np.sin(2.0 * angles) * np.hypot(*noise))
     temperatures = [t for t in np.unique(rows.temperature) if np.count_nonzero(rows.temperature == t) > 2]
     found = []
     for cold, hot in pairwise(temperatures):
-        one, other = (np.flatnonzero(rows.temperature == t) for t in (cold, hot))
-        one, other = one[np.argsort(moduli[one])], other[np.argsort(moduli[other])]
-        common = one[(moduli[one] >= moduli[other[0]]) & (moduli[one] <= moduli[other[-1]])]
-        if common.size:
-            apart = angles[common] - np.interp(moduli[common], moduli[other], angles[other])
-            found.append((float(np.sqrt(np.mean(apart**2))), float(cold), float(hot)))
+        line = np.flatnonzero(rows.temperature == hot)  # rows are in the order of the frequency
+        apart = []
+        moved = (np.diff(moduli[line]) != 0.0) | (np.diff(angles[line]) != 0.0)
+        line = line[np.concatenate([[True], moved])]
+        if line.size < 2:
+            continue
+        for k in np.flatnonzero(rows.temperature == cold):
+            scale = np.array([max(noise[0], MODULUS), turned[k]])
+            at = (np.array([moduli[line], angles[line]]).T - [moduli[k], angles[k]]) / scale
+            step = np.diff(at, axis=0)
+            share = -np.sum(at[:-1] * step, axis=1) / np.sum(step**2, axis=1)
+            distance = np.linalg.norm(at[:-1] + np.clip(share, 0.0, 1.0)[:, None] * step, axis=1)
+            nearest = int(np.argmin(distance))
+            first, last = nearest == 0 and share[0] < 0.0, nearest == share.size - 1 and share[-1] > 1.0
+            if not first and not last:
+                apart.append(float(distance[nearest]))
+        if apart:
+            found.append((float(np.sqrt(np.mean(np.square(apart)) / 2.0)), float(cold), float(hot)))
     return max(found, default=None)
 
 
 def _collapse(found: Fitted) -> Iterator[Criterion]:
-    worst, name = collapse(found.rows), "van Gurp-Palmen collapse"
+    noise = (found.fit.storage_noise or 0.0, found.fit.loss_noise or 0.0)
+    worst, name = collapse(found.rows, noise), "van Gurp-Palmen collapse"
     if worst is None:
         yield _open(name, "no two isotherms with moduli in common")
         return
-    scatter = np.hypot(found.fit.storage_noise or 0.0, found.fit.loss_noise or 0.0)
-    angle = float(np.mean(np.arctan2(found.rows.loss, found.rows.storage)))
-    rows = float(np.degrees(0.5 * np.sin(2.0 * angle) * scatter))  # d(delta) = sin(2 delta)/2 d(ln tan delta)
-    most = max(COLLAPSE, OF_SCATTER * np.sqrt(2.0) * rows)
     pair = " and ".join(f"{celsius(t):.0f}" for t in worst[1:])
     why = f"worst of {pair} °C; another state, specimen or strain, or a vertical shift"
-    yield _most(name, worst[0], most, lambda v: f"{v:.2f}°", why)
+    yield _most(name, worst[0], OF_SCATTER, lambda v: f"{v:.1f} times scatter", why)
 
 
 def _consistent(found: Fitted) -> Iterator[Criterion]:
@@ -229,9 +247,11 @@ def _consistent(found: Fitted) -> Iterator[Criterion]:
 
 def _residual(found: Fitted) -> Iterator[Criterion]:
     fit = found.fit
+    scatter = float(np.hypot(fit.storage_noise or 0.0, fit.loss_noise or 0.0)) / np.sqrt(2.0)
+    most = max(fit.consistency_floor + BEYOND_BEST, OVER_SCATTER * scatter)
     yield _most(
-        "left by the series", fit.residual, fit.consistency_floor + BEYOND_BEST, _percent,
-        "of E' and E'', against the best positive spectrum",
+        "left by the series", fit.residual, most, _percent,
+        "of E' and E'', against the best positive spectrum and the scatter",
     )  # fmt: skip
 
 
