@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.report.plots import colour, stacked
+from conveyor.compound_file import Fitted, Tabulated
+from conveyor.errors import InputError
+from conveyor.report.plots import colour, master_curve, stacked
 from conveyor.units import text
 from conveyor.units.sentences import celsius
 
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from conveyor.compound_file import Fitted
     from conveyor.rubber import PronySeries
     from conveyor.rubber.arrays import FloatArray
 
@@ -24,8 +25,17 @@ _POINTS = 400
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
 
-def lines(found: Fitted) -> list[str]:
+def lines(found: Fitted | Tabulated) -> list[str]:
     """What was understood, the shift, the fit and its errors, and what to doubt."""
+    if isinstance(found, Tabulated):
+        series = found.compound.series_at_reference
+        return [
+            "read",
+            *(f"  {line}" for line in found.understood),
+            f"{found.compound.name}: {series.times.size} terms as tabulated, nothing fitted; E_e "
+            f"{series.equilibrium / 1e6:.4g} MPa, E_inf {series.glassy / 1e6:.4g} MPa",
+            "not known: " + "; ".join(found.compound.missing),
+        ]
     return [
         "read",
         *(f"  {line}" for line in found.understood),
@@ -115,10 +125,29 @@ def _consistency(found: Fitted) -> Iterator[str]:
         )
 
 
-def figure(found: Fitted) -> Figure:
+def shift_table(found: Fitted | Tabulated) -> str:
+    """Shift factors of a fit as a file that `--shift` reads, after a person's hand or without.
+
+    Raises
+    ------
+    InputError
+        The fit has no shift factors of its own.
+    """
+    shifted = None if isinstance(found, Tabulated) else found.superposition
+    if shifted is None:
+        raise InputError("--write-shift: shift factors are found from isotherms at two temperatures and more")
+    columns = zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_b_T, strict=True)
+    rows = [f"{celsius(float(t)):.6g},{a:.6f},{b:.6f}" for t, a, b in columns]
+    return "\n".join(["temperature_degC,log10_aT,log10_bT", *rows, ""])
+
+
+def figure(found: Fitted | Tabulated) -> Figure:
     """Data, fit and band: E', E'' above, tan δ below."""
+    if isinstance(found, Tabulated):
+        return master_curve(found.compound)
     made, (above, below) = stacked(2, 7.0)
-    f, low, high = found.frequency, *found.fit.window
+    f, storage, loss = found.rows.curve
+    low, high = found.fit.window
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
     at = omega / (2.0 * np.pi)
     series = found.fit.series
@@ -128,7 +157,7 @@ def figure(found: Fitted) -> Figure:
         lambda s: s.loss(omega) / 1e6,
         lambda s: s.tan_delta(omega),
     )
-    measured = (found.storage / 1e6, found.loss / 1e6, found.loss / found.storage)
+    measured = (storage / 1e6, loss / 1e6, loss / storage)
     for k, (axis, label) in enumerate(((above, "E'"), (above, "E''"), (below, "tan δ"))):
         data, model = measured[k], models[k]
         axis.plot(f, data, color=colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)

@@ -16,10 +16,11 @@ from pydantic import ValidationError
 from conveyor import shelf
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.explain import findings, message
+from conveyor.explain import findings
 from conveyor.files.document import MOST_LINES, listing, read_document
 from conveyor.models import Conveyor
-from conveyor.models.base import Location, field_path, real_errors
+from conveyor.models.base import field_path, real_errors
+from conveyor.models.wording import Location, message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
 _TABLES: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}

@@ -278,7 +278,7 @@ def illustrative_text(cover: Illustrative) -> str:
         "  loss_worst: 0",
         '  method: "none: constructed from a closed-form spectrum, not fitted to data"',
         "missing:",
-        "  - any measurement of its spectrum, shift and strain dependence (do not design with it)",
+        "  - any measurement of its spectrum, shift and strain dependence (compare with it, do not design with it)",
         "  - rolling-resistance tests at other temperatures than 20 degC",
         "  - vertical shift (none applied)",
     ]

@@ -69,6 +69,18 @@ def test_known_factors_come_back_on_another_roll(carrier, tmp_path):
     assert "standard-cover" in found.compound.description
 
 
+@pytest.mark.parametrize(("times", "refused"), [(0.4, True), (0.6, False), (4.0, False), (14.0, True)])
+def test_tests_far_from_any_published_ones_are_refused(carrier, tmp_path, times, refused):
+    path = tmp_path / "campaign.csv"
+    path.write_text(campaign(carrier, POINTS, lambda *_: times), encoding="utf-8")
+    tests = read_rolling_tests(path, "laboratory, report 7")
+    if not refused:
+        assert anchoring.anchored(carrier, tests).anchor.levels == pytest.approx(math.log(times), abs=1e-3)
+        return
+    with pytest.raises(InputError, match=rf"{times:g} times the theory at -10 degC.*0\.5 to 5 are taken"):
+        anchoring.anchored(carrier, tests)
+
+
 def test_scatter_of_the_transfer_is_the_band(carrier, tmp_path):
     """A roll that reads 10 % higher than the other one does."""
 

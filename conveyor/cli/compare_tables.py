@@ -50,7 +50,9 @@ def _columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Ca
         columns[_over("90 % band", power)] = band
     columns["change"] = lambda row: "" if row.change is None else f"{row.change:+.1%}"
     columns[_over("peak", power)] = lambda row: _number(power, row.peak)
-    columns[_over("at", warmth)] = lambda row: f"{warmth.shown(row.temperature):g}"
+    columns[_over("at", warmth)] = lambda row: (
+        "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
+    )
     saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
     if saved:
         money = unit(saved[0].kind, system)

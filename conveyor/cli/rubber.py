@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -22,6 +23,18 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from conveyor.compound_file import Fitted, Tabulated
+    from conveyor.models import RubberCompound
+
+EXPORTED: Final = (".inp", ".mac", ".csv")
+Export = Annotated[
+    list[Path] | None,
+    typer.Option(
+        metavar="FILE",
+        help="Write the series for Abaqus (.inp), Ansys (.mac) or pyvisco (.csv); may be repeated.",
+    ),
+]
+
 
 @app.command(
     short_help="Fit a compound to laboratory data.",
@@ -29,10 +42,18 @@ if TYPE_CHECKING:
         "conveyor fit s120.dma.csv --shift s120.shift.csv -o s120.yaml",
         'conveyor fit isotherms.csv --at "20 degC" --plot fit.png',
         'conveyor fit frequency_sweep.xlsx --sheet E --modulus-unit MPa --at "23 degC"',
+        "conveyor fit isotherms.csv relaxation.csv ramp.csv --exclude isotherms.csv:12-15 --law wlf",
+        "conveyor fit s120.dma.csv --export s120.inp --export s120.mac --export s120.csv",
     ),
 )
 def fit(
-    data: Annotated[Path, typer.Argument(help="Master curve or isotherms: CSV, TXT or XLSX of any layout.")],
+    data: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Files of one rubber: a master curve; or isotherms, sweeps, relaxation, temperature sweeps, "
+            "shift factors, strain sweeps; or a Prony table. CSV, TXT or XLSX of any layout."
+        ),
+    ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Write the compound file (.yaml).")
     ] = None,
@@ -56,6 +77,15 @@ def fit(
     ] = None,
     vertical: Annotated[bool, typer.Option("--vertical", help="Shift isotherms vertically, too.")] = False,
     by: Annotated[str, typer.Option(help="Modulus that places the isotherms: both, storage, loss.")] = "both",
+    law: Annotated[str, typer.Option(help="Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
+    exclude: Annotated[
+        list[str] | None,
+        typer.Option(metavar="[FILE:]ROWS", help="Rows to leave out, 12-15,20; may be repeated."),
+    ] = None,
+    storage_error: Annotated[
+        str | None, typer.Option(help='Standard error of E\', "1 %"; rows weigh by its reciprocal.')
+    ] = None,
+    loss_error: Annotated[str | None, typer.Option(help="The same of E''; both or neither.")] = None,
     plot: Annotated[
         Path | None, typer.Option(help="Draw data, fit and band to this file (.png, .svg, .pdf).")
     ] = None,
@@ -66,6 +96,13 @@ def fit(
     modulus_unit: Annotated[str | None, typer.Option(help="Pa, kPa, MPa, GPa, psi, ...")] = None,
     temperature_unit: Annotated[str | None, typer.Option(help="degC, degF, K.")] = None,
     strain_unit: Annotated[str | None, typer.Option(help="%, 1, ...")] = None,
+    moduli: Annotated[
+        str | None,
+        typer.Option(help="E or G, where a file does not say whether its moduli are tensile or shear."),
+    ] = None,
+    instantaneous: Annotated[
+        str | None, typer.Option(help='Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
+    ] = None,
     temperature: Annotated[
         str | None, typer.Option(help='Of a file without a column for it, e.g. "20 degC".')
     ] = None,
@@ -78,6 +115,28 @@ def fit(
             help="Insist on what is refused as hardly rubber: few-rows, modulus, contradiction; may be repeated.",
         ),
     ] = None,
+    html: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the page to sign: verdict, figures, glossary (.html)."),
+    ] = None,
+    document: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=WORDS",
+            help="On that page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
+        ),
+    ] = None,
+    spec: Annotated[
+        Path | None,
+        typer.Option(metavar="SPEC", help="Conveyor whose rolls the window has to cover, for the verdict."),
+    ] = None,
+    export: Export = None,
+    write_shift: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Write the shift factors (.csv), to be edited and given to --shift."
+        ),
+    ] = None,
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:
@@ -86,16 +145,22 @@ def fit(
     from conveyor import shelf as shelf_of
     from conveyor.units import in_si
 
-    to = Outputs(data, shift, strain, force=force)
+    to = Outputs(*data, shift, strain, spec, force=force)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+    to.file("--write-shift", write_shift, ".csv")
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    said = dict(_said(words) for words in document or ())
+    for path in export or ():
+        to.file("--export", path, *EXPORTED)
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
-        "strain_unit": strain_unit, "sheet": sheet, "kind": kind,
+        "strain_unit": strain_unit, "sheet": sheet, "kind": kind, "letter": moduli,
+        "instantaneous": None if instantaneous is None else in_si(instantaneous, "pressure"),
         "temperature": None if temperature is None else in_si(temperature, "temperature"),
     }  # fmt: skip
     request = compound_file.Request(
-        name=name or data.name.split(".")[0],
+        name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
         shift=shift,
         strain=strain,
@@ -105,20 +170,18 @@ def fit(
         terms_per_decade=terms_per_decade,
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
+        law=one_of("--law", law, ("table", "wlf", "arrhenius")),
+        exclude=tuple(exclude or ()),
+        storage_error=None if storage_error is None else in_si(storage_error, "fraction"),
+        loss_error=None if loss_error is None else in_si(loss_error, "fraction"),
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
-    try:
-        found = compound_file.fit_file(data, request)
-    except InputError as error:
-        said = str(error)
-        for file in (data, shift, strain):
-            if file is not None and re.match(rf"{re.escape(file.name)}[:\[]", said):
-                raise InputError(f"{file.parent / said}") from None
-        files = [str(file) for file in (data, shift, strain) if file is not None]
-        raise InputError(said if said.startswith((*files, "--")) else f"{data}: {said}") from None
     from conveyor import fitting
 
+    files = [file for file in (*data, shift, strain) if file is not None]
+    with _placed(files):
+        found = compound_file.from_files(data, request)
     lines = fitting.lines(found)
     if plot is not None:
         from conveyor.report import plots
@@ -126,11 +189,66 @@ def fit(
         to.add("figure", plot, {plot: plots.drawn(fitting.figure(found), plot)})
     if output is not None:
         to.add("compound file", output, {output: shelf_of.dump(found.compound, marks.FITTED).encode()})
+    if write_shift is not None:
+        to.add("shift factors", write_shift, {write_shift: fitting.shift_table(found).encode()})
+    _exported(found.compound, export, to)
+    if html is not None or spec is not None:
+        lines += _judged(found, spec, said, html, to)
     lines += to.save()
     if output is not None:
-        lines[-1] += f'; specs and --compound name it "{output.stem}" or by its path'
+        lines.append(f'specs and --compound name the compound "{output.stem}" or by its path')
     if not quiet:
         say(*lines)
+
+
+def _said(words: str) -> tuple[str, str]:
+    from conveyor.fit_page import DOCUMENT
+
+    name, separator, value = words.partition("=")
+    if not separator or name.strip() not in DOCUMENT or not value.strip():
+        raise InputError(
+            f'--document: got "{words}", expected NAME=WORDS with a name of: {", ".join(DOCUMENT)}'
+        )
+    return name.strip(), value.strip()
+
+
+def _judged(
+    found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], html: Path | None, to: Outputs
+) -> list[str]:
+    """Lines of the verdict; add the page to sign."""
+    from conveyor import fit_page, fit_verdict
+    from conveyor.compound_file import Tabulated
+    from conveyor.spec import load
+
+    if isinstance(found, Tabulated):
+        raise InputError("--html: a Prony table has no measurement to judge")
+    criteria = fit_verdict.verdict(found, None if spec is None else load(spec))
+    if html is not None:
+        to.add("page", html, {html: fit_page.build(found, criteria, said).encode()})
+    return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
+
+
+@contextmanager
+def _placed(files: Sequence[Path]) -> Iterator[None]:
+    """Refusals with the path of the file they are about."""
+    try:
+        yield
+    except InputError as error:
+        said = str(error)
+        for file in files:
+            if re.match(rf"{re.escape(file.name)}[:\[]", said):
+                raise InputError(f"{file.parent / said}") from None
+        known = said.startswith((*map(str, files), "--"))
+        raise InputError(said if known else f"{files[0]}: {said}") from None
+
+
+def _exported(compound: RubberCompound, paths: Sequence[Path] | None, to: Outputs) -> None:
+    """Add the input of other programs."""
+    from conveyor import finite_elements
+
+    for path in paths or ():
+        program, text = finite_elements.exported(compound, path.suffix.lower())
+        to.add(f"{program} input", path, {path: text.encode()})
 
 
 @app.command(
@@ -151,6 +269,7 @@ def shelf(
         Path | None,
         typer.Option(help="Draw the compound, or the loss tangents of all, to this file (.png, .svg, .pdf)."),
     ] = None,
+    export: Export = None,
     force: Force = False,
     shelves: Shelves = None,
 ) -> None:
@@ -159,6 +278,10 @@ def shelf(
 
     to = Outputs(name, force=force)
     to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+    for path in export or ():
+        to.file("--export", path, *EXPORTED)
+    if export and name is None:
+        raise InputError("--export: of which compound? Give its name")
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
@@ -173,6 +296,7 @@ def shelf(
     console = Console(highlight=False)
     if name is not None:
         compound = store.compound(name, extra=shelves or ())
+        _exported(compound, export, to)
         series = compound.series(kelvin)
         omega = 2.0 * math.pi * hertz
         rows = {

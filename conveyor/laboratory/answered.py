@@ -11,7 +11,7 @@ from conveyor.errors import InputError
 from conveyor.laboratory.read import read_dma
 from conveyor.laboratory.table import DmaData
 
-_UNITS: Final = frozenset({"frequency_unit", "modulus_unit", "temperature_unit", "strain_unit"})
+_UNITS: Final = frozenset({"frequency_unit", "modulus_unit", "temperature_unit", "strain_unit", "letter"})
 
 
 def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:

@@ -23,6 +23,7 @@ SWEPT = {
     "strain sweep": "strain",
     "relaxation": "time",
     "shift factors": "temperature",
+    "Prony series": "tau",
 }
 """The quantity each kind sweeps."""
 
@@ -84,7 +85,7 @@ def _group(kind: str, columns: dict[str, FloatArray], labels: IntArray | None) -
     temperature, frequency = columns.get("temperature"), columns.get("frequency")
     size = columns[SWEPT[kind]].size
     single = np.zeros(size, dtype=np.int64)
-    if kind in {"relaxation", "shift factors", "master curve"}:
+    if kind in {"relaxation", "shift factors", "master curve", "Prony series"}:
         return single
     if kind == "temperature sweep":
         return single if frequency is None else levels(frequency)

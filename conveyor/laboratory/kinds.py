@@ -19,6 +19,7 @@ NEEDS = {
     "strain sweep": ("strain", "storage", "loss"),
     "relaxation": ("time", "modulus"),
     "shift factors": ("temperature", "log10_a_T"),
+    "Prony series": ("tau", "term"),
 }
 """Columns each kind cannot do without."""
 

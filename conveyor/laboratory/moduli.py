@@ -103,7 +103,9 @@ def _agrees(table: DataTable, storage: Series, loss: Series, angle: Series, tang
     return f"{column_label(table.grid, angle.column)} agrees with E''/E' and is not needed"
 
 
-def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float) -> tuple[float, str]:
+def to_tensile(
+    table: DataTable, used: tuple[Series, ...], poisson_ratio: float, answer: str | None = None
+) -> tuple[float, str]:
     """Factor from the moduli of the file to tensile ones.
 
     Parameters
@@ -114,6 +116,8 @@ def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float)
         The modulus columns [-].
     poisson_ratio : float
         Of the rubber, 0 to 0.5 [-].
+    answer : str or None
+        "E" or "G", where the names have no letter [-].
 
     Returns
     -------
@@ -123,7 +127,8 @@ def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float)
     Raises
     ------
     InputError
-        If E and G are mixed, or a modulus without a letter comes with words of a shear test.
+        If E and G are mixed, the answer contradicts the names, or a modulus without a letter comes with words of a
+        shear test.
 
     Notes
     -----
@@ -140,6 +145,15 @@ def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float)
             "a shear modulus beside a tensile one; keep two E or two G and rename the rest",
             header=other.header,
         )
+    if answer is not None and letters and letters != {answer}:
+        raise table.grid.refusal(
+            table.header_row,
+            first.index,
+            f"the name says {''.join(letters)}, not {answer}; rename the column, or leave out letter (--moduli)",
+            header=first.header,
+        )
+    if not letters and answer is not None:
+        letters = {answer}
     if letters == {"G"}:
         factor = 2.0 * (1.0 + poisson_ratio)
         return factor, f"shear moduli: E = 2 (1 + nu) G = {factor:g} G with nu = {poisson_ratio:g}"
@@ -151,8 +165,9 @@ def to_tensile(table: DataTable, used: tuple[Series, ...], poisson_ratio: float)
             raise table.grid.refusal(
                 table.header_row,
                 first.index,
-                f"E or G? the name has no letter and row {line.number} speaks of '{word[0]}'; rename the columns to"
-                " E' and E'', or to G' and G'' (converted with poisson_ratio, --poisson)",
+                f"E or G? the name has no letter and row {line.number} speaks of '{word[0]}'; give letter"
+                ' "E" or "G" (--moduli E, --moduli G), or name the columns so (G is converted with poisson_ratio,'
+                " --poisson)",
                 header=first.header,
             )
     return 1.0, "the moduli are taken as tensile (E): a shear modulus is named G' or shear"

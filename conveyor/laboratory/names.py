@@ -19,6 +19,10 @@ DIMENSIONS = MappingProxyType(
         "loss": "modulus",
         "complex": "modulus",
         "relaxation": "modulus",
+        "tau": "time",
+        "term": "modulus",
+        "share": "number",
+        "instant": "modulus",
         "tan_delta": "number",
         "phase": "angle",
         "a_T": "number",
@@ -58,6 +62,10 @@ _NAMES = {
         복소탄성률 복소탄성율""",
     "relaxation": """erelax e(t) et relaxation relaxationmodulus relaxationsmodul grelax g(t) gt
         shearrelaxationmodulus modulus e g 완화탄성률 이완탄성률""",
+    "tau": "tau taui τ τi",
+    "term": "ei",
+    "share": "alphai alpha αi α gi relativemodulus",
+    "instant": "e0 g0 instantaneousmodulus",
     "tan_delta": """tandelta tan(delta) tand tanδ tan(δ) tan(d) tandel lossfactor lossfaktor verlustfaktor
         dampingfactor losstangent 손실계수 손실탄젠트""",
     "phase": "phase phaseangle phaselag lossangle phasenwinkel verlustwinkel delta δ 위상각 위상",
@@ -174,8 +182,7 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
         return Meaning(_time_or_temperature(text.strip(), unit))
     found = _word(text)
     if found is not None:
-        force = text.strip() == "F" and not (unit is not None and find_unit("frequency", unit))
-        return None if force or text.strip() in _OTHER_LETTERS else found
+        return _by_unit(text.strip(), found, unit)
     parts = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", text) or re.fullmatch(r"(.+)[\s,]+(\S+)", text)
     if parts is None:
         return None
@@ -189,6 +196,14 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
         angular=first.angular or second.angular,
         peak_to_peak=first.peak_to_peak or second.peak_to_peak,
     )
+
+
+def _by_unit(name: str, found: Meaning, unit: str | None) -> Meaning | None:
+    """What a known name means beside its unit: F is a force without Hz, g_i in MPa a modulus and no share."""
+    if found.quantity == "share" and unit is not None and find_unit("modulus", unit):
+        return Meaning("term", letter="G" if name[0] in "gG" else "")
+    force = name == "F" and not (unit is not None and find_unit("frequency", unit))
+    return None if force or name in _OTHER_LETTERS else found
 
 
 def _time_or_temperature(letter: str, unit: str | None) -> str:

@@ -42,6 +42,8 @@ def read_dma(
     sheet: str | None = None,
     poisson_ratio: float = 0.5,
     kind: str | None = None,
+    letter: str | None = None,
+    instantaneous: float | None = None,
 ) -> DmaData:
     r"""Read a measurement from CSV, TXT, TSV or XLSX.
 
@@ -65,6 +67,10 @@ def read_dma(
         To convert shear moduli, 0 to 0.5 [-].
     kind : str or None
         One of `KINDS`, if the columns leave it open [-].
+    letter : str or None
+        "E" or "G", if the file does not say whether its moduli are tensile or shear ones [-].
+    instantaneous : float or None
+        Tensile modulus at time 0 of a Prony series of shares, if the file does not say [Pa].
 
     Returns
     -------
@@ -100,6 +106,8 @@ def read_dma(
         )
     if kind is not None and kind not in KINDS:
         raise InputError(f'kind = "{kind}" (--kind) is not known; allowed: {", ".join(KINDS)}')
+    if letter not in {None, "E", "G"}:
+        raise InputError(f'letter = "{letter}" (--moduli) must be E or G')
     given = check_units(
         {
             "frequency": frequency_unit,
@@ -110,7 +118,8 @@ def read_dma(
     )
     table = find_table(_grid(Path(path), sheet))
     series, labels, notes, questions = read_columns(table, given)
-    columns, derived = _quantities(table, series, questions, poisson_ratio, temperature)
+    columns, derived = _quantities(table, series, questions, (poisson_ratio, letter), temperature)
+    derived += _complete(table, series, columns, instantaneous)
     for dimension, unit in given.items():
         if not any(s.explicit and s.unit == unit for s in series.values()):
             notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
@@ -164,7 +173,7 @@ def _quantities(
     table: DataTable,
     series: Mapping[str, Series],
     questions: list[Question],
-    poisson_ratio: float,
+    tensile_by: tuple[float, str | None],
     temperature: float | None,
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """SI arrays by their names in `DmaData`, and how they were derived; open questions are raised here."""
@@ -174,10 +183,14 @@ def _quantities(
     moduli = dynamic_moduli(table, clear)
     _ask(table, [*questions, *doubts(table, clear, moduli)])
     columns = {q: series[q].values for q in ("frequency", "temperature", "strain", "time") if q in series}
-    tensile, notes = _tensile(table, series, moduli, poisson_ratio)
+    if {"term", "share"} & series.keys():
+        columns |= _terms(table, series)
+        columns.pop("time", None)
+    tensile, notes = _tensile(table, series, moduli, tensile_by)
     columns |= tensile
-    if "strain" in columns and moduli is not None and moduli.storage_from.meaning.letter == "G":
-        columns["strain"], note = equivalent_strain(columns["strain"], poisson_ratio)
+    given = tensile_by[1] if moduli is None else moduli.storage_from.meaning.letter or tensile_by[1]
+    if "strain" in columns and moduli is not None and given == "G":
+        columns["strain"], note = equivalent_strain(columns["strain"], tensile_by[0])
         notes.append(note)
     for quantity in ("a_T", "b_T"):
         if quantity in series:
@@ -195,6 +208,54 @@ def _quantities(
         columns["temperature"] = np.full(len(table.rows), temperature)
         notes.append(f"temperature of every row {temperature:g} K as given")
     return columns, notes
+
+
+def _terms(table: DataTable, series: Mapping[str, Series]) -> dict[str, FloatArray]:
+    """Relaxation times of a Prony series, and its shares."""
+    times = series.get("tau") or series.get("time")
+    found = {} if times is None else {"tau": times.values}
+    if "share" in series:
+        found["share"] = series["share"].values
+        total = float(np.sum(found["share"]))
+        if total >= 1.0:
+            column = series["share"].column
+            raise table.grid.refusal(
+                table.rows[-1].number,
+                column.index,
+                f"the shares add up to {total:.6g}; less than 1 is needed, the rest is the equilibrium modulus",
+                header=column.header,
+            )
+    return found
+
+
+def _complete(
+    table: DataTable,
+    series: Mapping[str, Series],
+    columns: dict[str, FloatArray],
+    instantaneous: float | None,
+) -> list[str]:
+    """Moduli of a Prony series from its shares, and its instantaneous modulus."""
+    if "tau" not in columns:
+        return [] if instantaneous is None else ["instantaneous was given, but the file is no Prony table"]
+    if instantaneous is not None:
+        if not 0.0 < instantaneous < math.inf:
+            raise InputError(f"instantaneous = {instantaneous:g} Pa (--instantaneous) must be > 0")
+        columns["instant"] = np.full(len(table.rows), instantaneous)
+    if "share" not in columns:
+        return []
+    shares = columns.pop("share")
+    if "term" in columns:
+        return ["E_i of each row; the shares are not needed"]
+    if "instant" not in columns:
+        column = series["share"].column
+        raise table.grid.refusal(
+            table.header_row,
+            column.index,
+            "shares of which modulus? add a column 'E_0 [MPa]', or give instantaneous (--instantaneous)",
+            header=column.header,
+        )
+    columns["term"] = shares * columns["instant"]
+    return ["E_i = share times E_0"]
 
 
 def _ask(table: DataTable, questions: list[Question]) -> None:
@@ -216,7 +277,7 @@ def _dimension(question: Question) -> str:
 
 
 def _tensile(
-    table: DataTable, series: Mapping[str, Series], moduli: Moduli | None, poisson_ratio: float
+    table: DataTable, series: Mapping[str, Series], moduli: Moduli | None, by: tuple[float, str | None]
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """Tensile moduli by their names in `DmaData`, and how they were derived."""
     used: list[Series] = []
@@ -229,10 +290,14 @@ def _tensile(
     if "relaxation" in series:
         used.append(series["relaxation"])
         arrays["modulus"] = series["relaxation"].values
+    for quantity in ("term", "instant"):
+        if quantity in series:
+            used.append(series[quantity])
+            arrays[quantity] = series[quantity].values
     stated = tuple(s for s in used if s.meaning.quantity not in {"tan_delta", "phase"})
     if not stated:
         return {}, notes
-    factor, note = to_tensile(table, stated, poisson_ratio)
+    factor, note = to_tensile(table, stated, *by)
     return {name: factor * values for name, values in arrays.items()}, [*notes, note]
 
 
@@ -252,6 +317,8 @@ def _decision(
     if not possible_kinds(present):
         raise _missing(table, present, "these columns make no measurement read here")
     frequency = series.get("frequency")
+    if {"tau", "term"} <= present:
+        return Decision("Prony series", "relaxation times with their moduli or shares")
     decision = decide(columns, labels, reduced=frequency is not None and frequency.meaning.reduced)
     if not decision.kind:
         choices = possible_kinds(present)
@@ -305,6 +372,8 @@ def _assembled(
     """Sorted, frozen, without the notes."""
     order = found.order
     rows = _rows(table)
+    instant = columns.get("instant")
+    columns = columns | ({"time": columns["tau"], "modulus": columns["term"]} if "tau" in columns else {})
 
     def sorted_rows(values: FloatArray | None) -> FloatArray | None:
         return None if values is None else _frozen(values[order])
@@ -328,6 +397,7 @@ def _assembled(
         run=None if found.run is None else _frozen_labels(found.run[order]),
         group=None if found.group is None else _frozen_labels(found.group[order]),
         row_numbers=_frozen_labels(rows[order]),
+        instantaneous=None if instant is None else float(instant[0]),
         metadata=MappingProxyType(table.metadata),
         metadata_rows=MappingProxyType(table.metadata_rows),
         understood=(),

@@ -22,6 +22,7 @@ KINDS = (
     "strain sweep",
     "relaxation",
     "shift factors",
+    "Prony series",
 )
 """What a file can hold."""
 
@@ -103,13 +104,15 @@ class DmaData:
     strain : numpy.ndarray or None
         Amplitude, shape `(n,)` [-].
     time : numpy.ndarray or None
-        Shape `(n,)` [s].
+        Of a Prony series its relaxation times, shape `(n,)` [s].
     storage : numpy.ndarray or None
         E', shape `(n,)` [Pa].
     loss : numpy.ndarray or None
         E'', shape `(n,)` [Pa].
     modulus : numpy.ndarray or None
-        Relaxation modulus E(t), shape `(n,)` [Pa].
+        Relaxation modulus E(t), of a Prony series its E_i, shape `(n,)` [Pa].
+    instantaneous : float or None
+        E_e + sum of E_i of a Prony series, where the file states it [Pa].
     log10_a_T : numpy.ndarray or None
         Horizontal shift, shape `(n,)` [-].
     log10_b_T : numpy.ndarray or None
@@ -147,6 +150,7 @@ class DmaData:
     metadata_rows: Mapping[str, int]
     understood: tuple[str, ...]
     source: str
+    instantaneous: float | None = None
 
     def isotherms(self) -> tuple[IsothermRows, ...]:
         """Frequency sweeps by ascending temperature, duplicate runs apart.

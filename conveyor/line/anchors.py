@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
@@ -9,13 +10,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.indentation import RollContact, indentation_curves
 from conveyor.laws.softening import COARSE, WorkedCover, softened_many
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
 from conveyor.rubber import PronySeries
-from conveyor.rubber.anchor import Anchor, fit_anchor
+from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
+from conveyor.units.sentences import celsius
 
 Array = NDArray[np.float64]
 
@@ -80,13 +82,29 @@ def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
 
 
 def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
-    """The level of a compound from its tests beside the theory."""
-    return fit_anchor(
+    """The level of a compound from its tests beside the theory.
+
+    Raises
+    ------
+    InputError
+        The tests are farther from the theory than tests of rubber are.
+    """
+    found = fit_anchor(
         [row.line_load for row in rows],
         [row.temperature for row in rows],
         [row.measured / row.calculated for row in rows],
         uncertainty=max(test.relative_uncertainty for test in compound.tests),
     )
+    low, high = PLAUSIBLE
+    for t in found.temperatures.tolist():
+        factor = max(found.factor(found.loads, t).tolist(), key=lambda value: abs(math.log(value)))
+        if not low <= factor <= high:
+            raise InputError(
+                f'tests: those of "{compound.name}" are {factor:.3g} times the theory at {celsius(t):.0f} degC, where '
+                f"published ones lie at 1 to {UNANCHORED:g} times ({low:g} to {high:g} are taken); are roll diameter, "
+                "cover and units those of the tests? To calculate without them: calculation: {anchor: off}"
+            )
+    return found
 
 
 def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) -> Array:

@@ -15,6 +15,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from pydantic_core.core_schema import ModelSchema
 
 from conveyor.errors import InputError
+from conveyor.models.wording import Location, message
 from conveyor.units import is_quantity, written
 
 _SMALLEST, _LARGEST = 1e-30, 1e30
@@ -36,8 +37,6 @@ Number = Annotated[float, Strict(), AfterValidator(_sized)]
 Count = Annotated[int, Strict()]
 Switch = Annotated[bool, Strict()]
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]
-
-Location = tuple[int | str, ...]
 
 
 class Problem(NamedTuple):
@@ -168,7 +167,7 @@ class Model(BaseModel):
         try:
             return cls.model_validate(data)
         except ValidationError as error:
-            lines = [f"{field_path(item['loc'])}: {item['msg']}" for item in real_errors(error)]
+            lines = [f"{field_path(item['loc'])}: {message(item, cls)}" for item in real_errors(error)]
             raise InputError("\n".join(lines)) from None
 
     @classmethod

@@ -8,12 +8,13 @@ from collections.abc import Iterator
 from conveyor.errors import RangeError
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
-from conveyor.models.base import Location, Problem
+from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.drive import DrivePulley
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
+from conveyor.models.wording import Location
 from conveyor.units import Quantity, display, from_si, si, text
 
 

@@ -17,9 +17,10 @@ from conveyor.laws.resistance import (
     CLEANER_PRESSURE,
 )
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
-from conveyor.models.base import Location, Model, Name, Number, Problem, Switch, refuse
+from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.idlers import Spacing
 from conveyor.models.ploughs import Plough
+from conveyor.models.wording import Location
 from conveyor.units import (
     Angle,
     Bounds,

@@ -97,7 +97,8 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
     chart.x_axis.tickLblPos = "low"
     chart.y_axis.crosses = "min"
-    least = min(value for column in shown.columns[1:] for value in shown.cells(column, system))
+    cells = (value for column in shown.columns[1:] for value in shown.cells(column, system))
+    least = min(value for value in cells if value is not None)
     if least > 0.0:
         step = 10.0 ** math.floor(math.log10(least))
         chart.y_axis.scaling.min = step * math.floor(0.95 * least / step * 10.0) / 10.0

@@ -72,7 +72,12 @@ def _money(comparison: CalculatedComparison) -> str:
 
 
 def scenes(comparison: CalculatedComparison) -> Table:
-    """One row a scene, in the order compound, speed, temperature."""
+    """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
+    covered = {_key(scene) for scene in comparison.covered}
+
+    def priced(row: ComparedScene, figure: float | None) -> float | None:
+        return figure if _key(row) in covered else None
+
     columns = (
         _COMPOUND,
         _TEMPERATURE,
@@ -85,12 +90,18 @@ def scenes(comparison: CalculatedComparison) -> Table:
         Column("motor power, high", "power", attrgetter("motor_high"), sparse=True),
         Column("largest tension", "force", attrgetter("largest_tension")),
         Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(row.energy_per_year), None, sparse=True),
-        Column("cost per year", _money(comparison), attrgetter("cost_per_year"), None, sparse=True),
+        Column("energy per year", "energy", lambda row: _joule(priced(row, row.energy_per_year)), None, sparse=True),
+        Column("cost per year", _money(comparison), lambda row: priced(row, row.cost_per_year), None, sparse=True),
         Column("error estimate", "error", attrgetter("error")),
+        Column("covered", "verdict", lambda row: "yes" if _key(row) in covered else "NO"),
     )  # fmt: skip
     page = (OnPage("scenes", "One row a compound, speed and temperature"),)
     return Table("scenes", "Scenes", "Every scene that has an answer", columns, comparison.scenes, page)
+
+
+def _key(scene: ComparedScene) -> tuple[str, float, float]:
+    """What a scene is told by."""
+    return scene.compound, scene.speed, scene.temperature
 
 
 def _joule(kwh: float | None) -> float | None:
@@ -105,32 +116,37 @@ class Ranked:
     ----------
     compound : str
         Name.
-    speed, temperature : float
-        Of the belt [m/s]; that of the peak [K].
+    speed : float
+        Of the belt [m/s].
+    temperature : float or None
+        Of the peak [K].
     averaged : int
-        Temperatures that means are over: those that every compound has an answer for.
+        Temperatures that means are over: those that the data of every compound reach.
     indentation, motor, low, high, peak : float or None
-        Means [N, W], ends of the band [W], largest power [W].
+        Means [N, W], ends of the band [W], largest power [W]; None of one whose data do not reach.
     base : float or None
-        Mean power of the base [W].
+        Mean power of the base [W]; None where the two do not compare.
     energy, cost, before, extra : float or None
         Of a year [kWh, currency]; the base's cost; what its belt costs more [currency].
+    why : str or None
+        Why it is not compared with the base.
     """
 
     compound: str
     speed: float
-    temperature: float
+    temperature: float | None
     averaged: int
     indentation: float | None
     motor: float | None
     low: float | None
     high: float | None
-    peak: float
+    peak: float | None
     base: float | None
     energy: float | None
     cost: float | None
     before: float | None
     extra: float | None
+    why: str | None
 
     @property
     def change(self) -> float | None:
@@ -152,8 +168,8 @@ class Ranked:
 def ranking(comparison: CalculatedComparison) -> Table:
     """One row a compound and speed, the least mean power of each speed first.
 
-    Means are over the temperatures that every compound has an answer for at that speed, each of the same weight; the
-    peak is the largest over all answered ones: the cold start of the rubber.
+    Means are over the temperatures that the data of every compound reach at that speed, each of the same weight; the
+    peak is the largest where its own data reach: the cold start of the rubber. What does not compare stands last.
     """
     money, speeds = _money(comparison), dict.fromkeys(scene.speed for scene in comparison.scenes)
     rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
@@ -166,13 +182,14 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("mean motor power, low", "power", attrgetter("low"), sparse=True),
         Column("mean motor power, high", "power", attrgetter("high"), sparse=True),
         Column("motor power against base", "share", attrgetter("change"), sparse=True),
-        Column("peak motor power", "power", attrgetter("peak")),
-        Column("at temperature", "temperature", attrgetter("temperature")),
+        Column("peak motor power", "power", attrgetter("peak"), sparse=True),
+        Column("at temperature", "temperature", attrgetter("temperature"), sparse=True),
         Column("energy per year", "energy", lambda row: _joule(row.energy), sparse=True),
         Column("cost per year", money, attrgetter("cost"), sparse=True),
         Column("saving per year", money, attrgetter("saving"), sparse=True),
         Column("extra cost of the belt", money, attrgetter("extra"), sparse=True),
         Column("payback", "years", attrgetter("payback"), sparse=True),
+        Column("not compared", "text", attrgetter("why"), sparse=True),
     )
     heading, page = (
         "Ranking, the least mean power of each speed first",
@@ -190,15 +207,17 @@ def costs(ranked: Table) -> Table:
 
 
 def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
-    by_compound: dict[str, dict[float, ComparedScene]] = {}
-    for scene in comparison.scenes:
+    common = comparison.common(speed)
+    known: dict[str, dict[float, ComparedScene]] = {
+        scene.compound: {} for scene in comparison.scenes if scene.speed == speed
+    }
+    for scene in comparison.covered:
         if scene.speed == speed:
-            by_compound.setdefault(scene.compound, {})[scene.temperature] = scene
-    common = set.intersection(*(set(found) for found in by_compound.values()))
-    means = {name: [found[t] for t in sorted(common)] for name, found in by_compound.items()}
+            known[scene.compound][scene.temperature] = scene
+    means = {name: [found[t] for t in common] if found else [] for name, found in known.items()}
     base = means.get(comparison.base, [])
-    order = sorted(by_compound, key=lambda name: _mean([s.motor for s in means[name]]) or 0.0)
-    return [_row(comparison, (name, speed), by_compound[name], means[name], base) for name in order]
+    rows = [_row(comparison, (name, speed), known[name], means[name], base) for name in known]
+    return sorted(rows, key=lambda row: (row.motor is None, row.why is not None, row.motor or 0.0))
 
 
 def _row(
@@ -209,24 +228,39 @@ def _row(
     base: list[ComparedScene],
 ) -> Ranked:
     name, speed = key
-    energy, cost = _year(comparison, name, speed, at)
-    peak = max(found.values(), key=lambda scene: scene.motor)
+    why = _not_compared(comparison, name, at, base)
+    energy, cost = (None, None) if why else _year(comparison, name, speed, at)
+    peak = max(found.values(), key=lambda scene: scene.motor) if found else None
     return Ranked(
         compound=name,
         speed=speed,
-        temperature=peak.temperature,
+        temperature=None if peak is None else peak.temperature,
         averaged=len(at),
         indentation=_mean([s.indentation for s in at]),
         motor=_mean([s.motor for s in at]),
         low=_mean([s.motor_low for s in at]),
         high=_mean([s.motor_high for s in at]),
-        peak=peak.motor,
-        base=_mean([s.motor for s in base]),
+        peak=None if peak is None else peak.motor,
+        base=None if why else _mean([s.motor for s in base]),
         energy=energy,
         cost=cost,
-        before=_year(comparison, comparison.base, speed, base)[1],
+        before=None if why else _year(comparison, comparison.base, speed, base)[1],
         extra=comparison.extra_costs.get(name),
+        why=why,
     )
+
+
+def _not_compared(
+    comparison: CalculatedComparison, name: str, at: list[ComparedScene], base: list[ComparedScene]
+) -> str | None:
+    """Why nothing is saved against the base; None where the two compare."""
+    if not at:
+        return "its data do not reach"
+    if not base:
+        return "the base's data do not reach"
+    if comparison.level_differs(name):
+        return "one level tested, one not"
+    return None
 
 
 def _year(
@@ -269,17 +303,13 @@ def refused(comparison: CalculatedComparison) -> Table:
 def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
     """Motor power over temperature, one column a compound, a table a speed in rising order.
 
-    Only temperatures that every compound has an answer for: a gap in one column would break its line.
+    Empty cells are where a compound has no answer, or its data do not reach: lines of charts break there.
     """
     for number, speed in enumerate(sorted({scene.speed for scene in comparison.scenes}), start=1):
-        at = [scene for scene in comparison.scenes if scene.speed == speed]
+        at = [scene for scene in comparison.covered if scene.speed == speed]
         names = [c.name for c in comparison.compounds if any(scene.compound == c.name for scene in at)]
         power = {(scene.compound, scene.temperature): scene.motor for scene in at}
-        rows = tuple(
-            t
-            for t in sorted({scene.temperature for scene in at})
-            if all((name, t) in power for name in names)
-        )
+        rows = tuple(sorted({scene.temperature for scene in at}))
         columns = (
             Column("temperature", "temperature", lambda t: t),
             *(Column(name, "power", _power(name, power)) for name in names),
@@ -291,7 +321,7 @@ def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
 
 
 def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
-    return lambda temperature: powers[name, temperature]
+    return lambda temperature: powers.get((name, temperature))
 
 
 def compounds(comparison: CalculatedComparison) -> Table:
@@ -323,7 +353,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         at = unit("speed", system).brief(plots.drawn_speed(comparison))
         yield Drawing(
             "power-temperature",
-            f"Motor power over the belt's temperature at {at}; shaded: replicas of measured rubber.",
+            f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
             lambda: plots.power_against_temperature(comparison, system=system),
             "power",
         )
@@ -347,28 +377,47 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
 
 def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
     """Compounds with tests beside compounds without: their levels do not compare."""
-    compounds, anchored = comparison.compounds, comparison.conveyor.calculation.anchor == "tests"
-    bare = [compound.name for compound in compounds if not compound.tests]
-    if anchored and bare and len(bare) < len(compounds):
-        names = ", ".join(f'"{name}"' for name in bare)
+    bare = [compound.name for compound in comparison.compounds if not compound.tests]
+    if any(comparison.level_differs(compound.name) for compound in comparison.compounds):
+        told = ", ".join(f'"{name}"' for name in bare)
         yield (
-            f"{names}: no rolling-resistance tests, which the others have: the indentation may be up to {UNANCHORED:g} "
-            "times as much; what is saved beside tested compounds is not known (compare by theory alone: "
+            f"{told}: no rolling-resistance tests, which the others have: the indentation may be up to {UNANCHORED:g} "
+            "times as much; no saving, price or rank beside tested compounds (compare by theory alone: "
             "calculation.anchor: off)"
         )
 
 
+def _where(comparison: CalculatedComparison) -> Iterator[str]:
+    """At which temperatures the comparison stands."""
+    asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
+    for speed in sorted({scene.speed for scene in comparison.scenes}):
+        common, known = comparison.common(speed), {s.compound for s in comparison.covered if s.speed == speed}
+        if comparison.base not in known or (len(known) < 2 < 1 + len(comparison.compounds)):
+            yield f"at {speed:g} m/s nothing is compared: the data of the base, or of all others, do not reach"
+        elif not common:
+            yield f"at {speed:g} m/s nothing is compared: no temperature that the data of all compounds reach"
+        elif len(common) < len(asked):
+            at = _listed([celsius(t) for t in common])
+            yield f"at {speed:g} m/s the comparison stands at {at} degC, which the data of all compounds in it reach"
+
+
 def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     """What to know of a comparison before believing it."""
-    lines = list(_unequal_levels(comparison))
+    lines = [*_where(comparison), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
-            lines.append(f'compound "{compound.name}" is illustrative, not measured: no choice rests on it')
+            said = "is illustrative, not measured: compare with it, do not design with it"
+            lines.append(f'compound "{compound.name}" {said}')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
             at = _listed([celsius(row.temperature) for row in rows])
+            lacking = (
+                "do not cover what the rolls excite"
+                if compound.range
+                else "state no range, it counts for none"
+            )
             lines.append(
-                f'compound "{compound.name}": its data do not cover what the rolls excite at {at} degC'
+                f'compound "{compound.name}": its data {lacking} at {at} degC: not averaged, ranked, priced'
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
@@ -388,7 +437,8 @@ def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     if comparison.conveyor.duty:
         lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
         lines += [
-            f'compound "{compound.name}": a bar of operation.duty has no answer with it, so it has no year'
+            f'compound "{compound.name}": a bar of operation.duty has no answer with it, or its data do not reach, '
+            "so it has no year"
             for compound in comparison.compounds
             if compound.name not in comparison.years
         ]
@@ -402,11 +452,12 @@ def turned(comparison: CalculatedComparison) -> list[str]:
     """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
-        at: dict[float, list[ComparedScene]] = {}
-        for scene in sorted(comparison.scenes, key=lambda s: (s.temperature, s.motor)):
-            if scene.speed == speed:
-                at.setdefault(scene.temperature, []).append(scene)
-        shared = {warmth: row for warmth, row in at.items() if len(row) == len(comparison.compounds)}
+        shared: dict[float, list[ComparedScene]] = {t: [] for t in comparison.common(speed)}
+        for scene in sorted(comparison.covered, key=lambda s: s.motor):
+            if scene.speed != speed or comparison.level_differs(scene.compound):
+                continue
+            if scene.temperature in shared:
+                shared[scene.temperature].append(scene)
         before = {
             (one.compound, other.compound)
             for row in shared.values()
@@ -435,6 +486,10 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
         "conveyor": comparison.conveyor.name,
         "base": comparison.base,
         "cover": comparison.cover,
+        "compared": [
+            {"speed_m_per_s": speed, "temperatures_degC": [celsius(t) for t in comparison.common(speed)]}
+            for speed in sorted({scene.speed for scene in comparison.scenes})
+        ],
         "ranking": ranking(comparison).records(),
         "scenes": scenes(comparison).records(),
         "coverage": coverage(comparison).records(),

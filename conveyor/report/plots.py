@@ -178,7 +178,7 @@ def power_against_temperature(
 ) -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without.
 
-    Bands of the fit's replicas are shaded; rings are where the rolls ask for frequencies beyond the rubber's data.
+    Bands of the fit's replicas are shaded; dotted is where the rolls ask for frequencies beyond the rubber's data.
 
     Raises
     ------
@@ -200,7 +200,7 @@ def power_against_speed(
 ) -> Figure:
     """Motor power of every compound over belt speed at one temperature [K], that next to the spec's without.
 
-    Rings are where the rolls ask for frequencies beyond the rubber's data at any of the speeds.
+    Dotted is where the rolls ask for frequencies beyond the rubber's data at any of the speeds.
 
     Raises
     ------
@@ -224,32 +224,28 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
     figure, (axis,) = stacked(1, 4.0)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
     beyond = {(row.compound, row.temperature) for row in comparison.coverage if not row.covered}
-    ringed: list[tuple[float, float]] = []
+    dotted = False
     for k, compound in enumerate(comparison.compounds):
         mine = sorted(
             (scene for scene in found if scene.compound == compound.name),
             key=lambda scene: float(getattr(scene, over)),
         )
+        outside = [(compound.name, scene.temperature) in beyond for scene in mine]
         at, motor = along([getattr(scene, over) for scene in mine]), power([scene.motor for scene in mine])
-        axis.plot(at, motor, color=colour(k), marker=".", label=compound.name)
+        inside = np.ma.masked_array(motor, outside)
+        if any(outside):
+            axis.plot(at, motor, color=colour(k), linestyle=":", linewidth=1)
+            dotted = True
+        axis.plot(at, inside, color=colour(k), marker=".", label=compound.name)
         low = [s.motor_low for s in mine if s.motor_low is not None]
         high = [s.motor_high for s in mine if s.motor_high is not None]
         if mine and len(low) == len(mine):
-            axis.fill_between(at, power(low), power(high), color=colour(k), alpha=0.15, linewidth=0)
-        ringed += [
-            (float(x), float(y))
-            for scene, x, y in zip(mine, at, motor, strict=True)
-            if (compound.name, scene.temperature) in beyond
-        ]
-    if ringed:
-        axis.plot(
-            *zip(*ringed, strict=True),
-            "o",
-            color="0.3",
-            markersize=9,
-            fillstyle="none",
-            label="beyond the data",
-        )
+            where = ~np.array(outside)
+            axis.fill_between(
+                at, power(low), power(high), where=where, color=colour(k), alpha=0.15, linewidth=0
+            )
+    if dotted:
+        axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
     grouped(axis.yaxis)
@@ -283,9 +279,10 @@ def loss_tangents(
         data = compound.frequencies(temperature)
         low, high = _WIDEST if data is None else data
         wide = np.geomspace(low / 10.0**_DECADES_BEYOND, high * 10.0**_DECADES_BEYOND, _POINTS)
-        inside = np.geomspace(low, high, _POINTS)
-        axis.plot(wide, series.tan_delta(2.0 * np.pi * wide), color=colour(k), linestyle=":", linewidth=1)
-        axis.plot(inside, series.tan_delta(2.0 * np.pi * inside), color=colour(k), label=compound.name)
+        inside = np.ma.masked_array(wide, (wide < low) | (wide > high) | (data is None))
+        tangent = series.tan_delta(2.0 * np.pi * wide)
+        axis.plot(wide, tangent, color=colour(k), linestyle=":", linewidth=1)
+        axis.plot(inside, tangent, color=colour(k), label=compound.name)
     for k, (name, (low, high)) in enumerate((excited or {}).items()):
         axis.axvspan(low, high, color="0.55", alpha=0.18 if k == 0 else 0.10, linewidth=0, label=name)
     axis.set(
@@ -338,9 +335,10 @@ def master_curve(
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
-    above.plot(f, modulus(series.storage(omega)), color=colour(0), label="E'")
-    above.plot(f, modulus(series.loss(omega)), color=colour(1), label="E''")
-    below.plot(f, series.tan_delta(omega), color=colour(2), label="tan δ")
+    drawn = "-" if data is not None else ":"  # no data are stated: nothing is solid
+    above.plot(f, modulus(series.storage(omega)), drawn, color=colour(0), label="E'")
+    above.plot(f, modulus(series.loss(omega)), drawn, color=colour(1), label="E''")
+    below.plot(f, series.tan_delta(omega), drawn, color=colour(2), label="tan δ")
     replicas = compound.replicas(at)
     if replicas:
         for axis, figures, k in (

@@ -201,6 +201,7 @@ _COMPARISON: Final = _of(
         "conveyor": _TEXT,
         "base": _is("string", of="compound of the savings"),
         "cover": _TEXT,
+        "compared": _ROWS,
         "ranking": _ROWS,
         "scenes": _ROWS,
         "coverage": _ROWS,

@@ -11,6 +11,7 @@ from conveyor.rubber.equivalent import (
     softened,
 )
 from conveyor.rubber.fit import PronyFit, fit_prony
+from conveyor.rubber.interconversion import equivalent_sweep
 from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
@@ -52,6 +53,7 @@ __all__ = [
     "entropic_b_T",
     "equivalent_linear",
     "equivalent_linear_many",
+    "equivalent_sweep",
     "fit_arrhenius",
     "fit_kraus",
     "fit_prony",

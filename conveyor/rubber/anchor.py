@@ -23,6 +23,9 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 UNANCHORED: Final = 2.5
 """Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
 data of tyre-type rubber [-]: how far indentation without tests may be below what is measured."""
+PLAUSIBLE: Final = (0.5, 2.0 * UNANCHORED)
+"""Twice beyond the theory itself (1) and the highest published tests (2.5): what lies outside is a slip of unit, roll
+or cover (derived; that twice is enough is general knowledge) [-]."""
 NINE_TENTHS: Final = 1.6448536269514722
 """Standard deviations from the middle of a normal distribution within which nine tenths lie [-]."""
 ONE_TEMPERATURE: Final = 2.0

@@ -146,7 +146,7 @@ def of_compound(
         The belt's mass does not fit the compound's density.
     """
     changed = with_compound(conveyor, compound, cover)
-    strands = _strands(changed, cover)
+    strands = strands_of(changed, cover)
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
     answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
@@ -170,7 +170,7 @@ def of_compound(
     )
 
 
-def _strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
+def strands_of(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
     """Strands whose rolls run on a changed cover."""
     if cover == "both":
         return frozenset(("carry", "return"))

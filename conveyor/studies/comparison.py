@@ -21,7 +21,7 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct, with_compound
 from conveyor.pipeline import Progress
-from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound
+from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound, strands_of
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.units import Quantity, quantity
 
@@ -62,7 +62,7 @@ class CalculatedComparison:
     extra_costs : mapping
         Price of a belt of each compound above the base's [currency of the spec].
     years : mapping
-        The year of `operation.duty` with each compound that has an answer for all its bars; empty without a duty.
+        The year of `operation.duty` with each compound whose data reach all its bars; empty without a duty.
     """
 
     conveyor: Conveyor
@@ -79,6 +79,27 @@ class CalculatedComparison:
         name, count = self.conveyor.name, len(self.compounds)
         scenes = f"{len(self.scenes)} scenes, {len(self.refused)} without an answer"
         return f'Comparison("{name}": {count} compounds, {scenes})'
+
+    @property
+    def covered(self) -> tuple[ComparedScene, ...]:
+        """Scenes that the data of their compound reach: only these are averaged, ranked and priced."""
+        beyond = {(row.compound, row.temperature) for row in self.coverage if not row.covered}
+        return tuple(scene for scene in self.scenes if (scene.compound, scene.temperature) not in beyond)
+
+    def common(self, speed: float) -> tuple[float, ...]:
+        """Temperatures [K] that the data of every compound reach at a speed [m/s]; those that reach none left out."""
+        known: dict[str, set[float]] = {}
+        for scene in self.covered:
+            if scene.speed == speed:
+                known.setdefault(scene.compound, set()).add(scene.temperature)
+        return tuple(sorted(set.intersection(*known.values()))) if known else ()
+
+    def level_differs(self, name: str) -> bool:
+        """Whether tests set the indentation of one of a compound and the base, and theory that of the other."""
+        if self.conveyor.calculation.anchor != "tests":
+            return False
+        tested = {compound.name: bool(compound.tests) for compound in self.compounds}
+        return tested[name] != tested[self.base]
 
 
 @checked
@@ -158,14 +179,20 @@ def compare_compounds(
 def _years(
     conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: CoverChoice, rtol: float
 ) -> dict[str, CalculatedYear]:
-    """The year of a duty with each compound; none of one that a bar of it has no answer for."""
+    """The year of a duty with each compound; none of one that a bar of it has no answer for, or no data."""
     found: dict[str, CalculatedYear] = {}
     if conveyor.duty:
         for compound in compounds:
+            changed = with_compound(conveyor, compound, cover)
             try:
-                found[compound.name] = analyse_duty(with_compound(conveyor, compound, cover), rtol=rtol)
+                year = analyse_duty(changed, rtol=rtol)
             except ConveyorError:
                 continue  # its scenes say why; the report's remarks says that it has no year
+            strands = strands_of(changed, cover)
+            bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
+            asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
+            if all(one.covered for one in asked):
+                found[compound.name] = year
     return found
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.models.variants import with_case, with_temperature
@@ -33,6 +35,8 @@ class DutyRow:
         Drive force F_U [N].
     shaft, mains : float
         Power at the motors' shafts and from the mains [W], negative when fed back.
+    excited : mapping of str to tuple or None
+        Frequencies that hold nine tenths of the loss of each strand's cover [Hz]; None without loss.
     """
 
     hours: float
@@ -43,6 +47,7 @@ class DutyRow:
     effective: float
     shaft: float
     mains: float
+    excited: Mapping[Strand, tuple[float, float] | None]
 
     @property
     def step(self) -> DutyStep:
@@ -184,4 +189,5 @@ def _row(entry: DutyEntry, found: CalculatedConveyor) -> DutyRow:
         effective=found.balance.forces.total,
         shaft=power.motor,
         mains=power.mains,
+        excited={strand: found.contacts.excited_band(strand) for strand in STRANDS},
     )

@@ -12,7 +12,8 @@ from pydantic import BaseModel
 
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
-from conveyor.models.base import Location, field_path
+from conveyor.models.base import field_path
+from conveyor.models.wording import Location
 from conveyor.template.entries import NAMED, Content, FieldEntry, Item, SheetReader
 from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Path
 from conveyor.template.plan import Plan, references, whole, written_out

@@ -66,7 +66,7 @@ CASES = [
     ("thousands_separator.csv", 2, "2", "'5,600.0' has a thousands separator", "without it"),
     ("two_storage_columns.csv", 1, "4", "a second column for storage", "keep one"),
     ("e_and_g.csv", 1, "3", "a shear modulus beside a tensile one", "rename the rest"),
-    ("e_or_g.csv", 2, "2", "E or G?", "rename the columns to E' and E'', or to G'"),
+    ("e_or_g.csv", 2, "2", "E or G?", 'give letter "E" or "G" (--moduli E'),
     ("tan_delta_contradicts.csv", 3, "4", "tan delta is 0.21, but E''/E' = 0.11", "correct them"),
     ("hertz_contradicts.csv", 3, "2", "1.59155 Hz by this column, 10 Hz", "(--frequency-unit)"),
     ("below_absolute_zero.csv", 2, "1", "below absolute zero", "(--temperature-unit degC)"),

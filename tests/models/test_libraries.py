@@ -149,7 +149,7 @@ def test_another_name_replaces_what_the_old_one_gave(compound_data):
         "14.73 kg/m^2",
         "11.4 mm",
     )
-    with pytest.raises(InputError, match=r"top_cover\.thickness: Field required"):
+    with pytest.raises(InputError, match=r"top_cover\.thickness: missing; expected a length"):
         belt.replace(listed="ST2500")
 
 

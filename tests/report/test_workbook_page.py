@@ -103,8 +103,12 @@ def written(studied):
         for result, asked in found
     ]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
-    options = {"temperatures": ["-60 degC", "20 degC"], "rtol": 1e-3, "extra_costs": {"S100": 1}}
-    compared = compare_compounds(line, ["standard-cover", "S100"], **options)
+    options = {
+        "temperatures": ["-60 degC", "20 degC"],
+        "rtol": 1e-3,
+        "extra_costs": {"low-rolling-resistance-cover": 1},
+    }
+    compared = compare_compounds(line, ["standard-cover", "low-rolling-resistance-cover", "S100"], **options)
     return pairs, compared, [tuple(of_comparison(compared, system) for system in ("SI", "US"))]
 
 

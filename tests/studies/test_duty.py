@@ -197,10 +197,10 @@ def test_emission_factors_in_their_units(text, amount):
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        ({}, "hours_per_year: Field required"),
+        ({}, "hours_per_year: missing"),
         ({"hours_per_year": "9 h", "duty": [HOURS]}, "got 9 h, the hours of duty add up to 1000 h; leave"),
         ({"duty": [{"hours": "5000 h", "share": 1.0}] * 2}, "got 10000 h in all, a year has at most 8784 h"),
-        ({"duty": [{"hours": "5 h"}]}, r"^duty\[0\].share: Field required$"),
+        ({"duty": [{"hours": "5 h"}]}, r"^duty\[0\].share: missing"),
         ({"duty": [{"hours": "5 h", "share": "300 %"}]}, "got 300 %, allowed: >= 0 % and <= 200 %"),
         (
             {"hours_per_year": "9 h", "emission": "0.3 kg/kWh"},

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 
 import numpy as np
@@ -203,8 +202,10 @@ def test_ranking_is_the_mean_of_the_scenes(compared):
     ranking = compared.ranking
     for speed in (4.5, 5.0):
         rows = ranking[ranking["belt speed [m/s]"] == speed]
-        means = rows["mean motor power [kW]"].tolist()
+        means = rows.loc[rows["not compared"].isna(), "mean motor power [kW]"].tolist()
         assert means == sorted(means)
+        assert rows["compound"].tolist()[-1] == "S100"  # no tests beside two with tests: its power, no rank
+        assert rows["motor power against base [-]"].isna().tolist() == [False, False, True]
         for _, row in rows.iterrows():
             group = [s for s in compared.scenes if s.compound == row["compound"] and s.speed == speed]
             assert row["mean motor power [kW]"] == pytest.approx(np.mean([s.motor for s in group]) / 1e3)
@@ -212,18 +213,79 @@ def test_ranking_is_the_mean_of_the_scenes(compared):
             assert row["temperatures averaged"] == 3
 
 
-def test_savings_and_payback(compared):
-    rows = compared.ranking.set_index(["compound", "belt speed [m/s]"])
-    base = rows.loc[("standard-cover", 5.0)]
-    for name, extra in COSTS.items():
-        row = rows.loc[(name, 5.0)]
-        saved = base["cost per year [EUR]"] - row["cost per year [EUR]"]
-        assert row["saving per year [EUR]"] == pytest.approx(saved)
-        if saved > 0.0:
-            assert row["payback [a]"] == pytest.approx(extra / saved)
-        else:
-            assert math.isnan(row["payback [a]"])
+def test_savings_and_payback(line):
+    found = conveyor.compare_compounds(line, NAMES, temperatures=["20 degC"], extra_costs=COSTS)
+    rows = found.ranking.set_index("compound")
+    base, better = rows.loc["standard-cover"], rows.loc["low-rolling-resistance-cover"]
+    saved = base["cost per year [EUR]"] - better["cost per year [EUR]"]
+    assert saved > 0.0
+    assert better["saving per year [EUR]"] == pytest.approx(saved)
+    assert better["payback [a]"] == pytest.approx(COSTS["low-rolling-resistance-cover"] / saved)
     assert base["motor power against base [-]"] == 0.0
+
+
+def test_untested_beside_tested_compounds_have_their_power_and_no_saving(line, tmp_path):
+    names = ["standard-cover", "s100"]
+    found = conveyor.compare_compounds(line, names, temperatures=["20 degC"])
+    untested = found.ranking.set_index("compound").loc["S100"]
+    assert untested["mean motor power [kW]"] > 0.0
+    for column in ("motor power against base [-]", "saving per year [EUR]", "cost per year [EUR]"):
+        assert pd.isna(untested[column])
+    assert any("no saving, price or rank beside tested" in line for line in remarks(found, tmp_path))
+    off = line.replace(calculation=line.calculation.replace(anchor="off"))
+    by_theory = conveyor.compare_compounds(off, names, temperatures=["20 degC"]).ranking.set_index("compound")
+    assert not pd.isna(by_theory.loc["S100", "saving per year [EUR]"])
+
+
+@pytest.fixture(scope="module")
+def short(line):
+    """The same rubber twice: all of it, and as a fit whose data ended at 1e8 Hz at 20 degC."""
+    whole = shelf.compound("standard-cover").replace(tests=(), strain_dependence=None)
+    data = whole.as_data()
+    data["name"], data["range"]["frequency"] = "ended", ["1e-3 Hz", "1e8 Hz"]
+    data["prony"]["terms"] = [
+        term for term in data["prony"]["terms"] if float(term["time"].split()[0]) > 5e-10
+    ]
+    return conveyor.compare_compounds(
+        line, [whole, RubberCompound.from_data(data)], temperatures=["-30 degC", "10 degC", "20 degC"]
+    )
+
+
+def test_rubber_saves_nothing_against_itself_where_its_data_end(short, tmp_path):
+    cold = {s.compound: s for s in short.scenes if s.temperature < 250.0}
+    saved = cold["standard-cover"].cost_per_year - cold["ended"].cost_per_year
+    rows = short.ranking.set_index("compound")
+    assert rows["temperatures averaged"].tolist() == [2, 2]  # 10 and 20 degC
+    # what is left out has E τ of 0.08 Pa s: 1.2 kPa of some 2 MPa of E'' at 2.5 kHz, 20 degC
+    assert abs(rows.loc["ended", "saving per year [EUR]"]) < 0.01 * abs(saved)
+    told = remarks(short, tmp_path)
+    assert (
+        "at 5 m/s the comparison stands at 10, 20 degC, which the data of all compounds in it reach" in told
+    )
+    assert [s.temperature < 250.0 for s in short.covered].count(True) == 1
+    tables = written_tables(short, tmp_path)
+    assert tables["scenes"].set_index(["compound", "temperature [degC]"])["covered"]["ended"].tolist() == [
+        "NO", "yes", "yes",
+    ]  # fmt: skip
+    assert tables["power_1"]["ended [kW]"].isna().tolist() == [True, False, False]
+
+
+def test_nothing_is_drawn_solid_beyond_the_data(short):
+    lines = {curve.get_label(): curve for curve in short.plots.power_against_temperature().axes[0].lines}
+    assert np.ma.getmaskarray(lines["ended"].get_ydata(orig=True)).tolist() == [True, False, False]
+    assert not np.ma.getmaskarray(lines["standard-cover"].get_ydata(orig=True)).any()
+
+
+def test_without_a_base_whose_data_reach_nothing_is_saved(line, tmp_path):
+    unstated = shelf.compound("s100").replace(range=None)
+    found = conveyor.compare_compounds(line, [unstated, "s120"], temperatures=["20 degC"])
+    rows = found.ranking.set_index("compound")
+    assert "saving per year [EUR]" not in rows
+    assert rows.loc["S120", "not compared"] == "the base's data do not reach"
+    assert pd.isna(rows.loc["S100", "mean motor power [kW]"])
+    told = remarks(found, tmp_path)
+    assert any("nothing is compared" in line for line in told)
+    assert any("its data state no range" in line for line in told)
 
 
 def test_data_that_do_not_reach_are_said(line, tmp_path):
@@ -311,7 +373,7 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
             )
             power = [scene(compared, name, celsius + 273.15, speed).motor for name in order]
             assert power == sorted(power)
-            assert len(power) == len(NAMES)
+            assert len(power) == 2  # S100 has no tests: it is not ranked
     steady = conveyor.compare_compounds(line, NAMES, temperatures=["20 degC"], speeds=SPEEDS)
     assert not [remark for remark in remarks(steady, tmp_path) if "the ranking turns" in remark]
 

@@ -1,0 +1,186 @@
+"""Figures that a laboratory judges a master curve by, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from conveyor.compound_file import Fitted
+from conveyor.fitting import figure as band
+from conveyor.measured_rows import MeasuredRows
+from conveyor.report.plots import colour, stacked
+from conveyor.units.sentences import ZERO_CELSIUS, celsius
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_HEIGHT: Final = 6.6  # of two plots on each other [in]
+_POINTS: Final = 200
+_LINE: Final = 0.13  # of a plot's height, between names beside it
+_NAMED: Final = 6  # isotherms in a legend; of more every few are named
+
+
+def figures(found: Fitted) -> Iterator[tuple[str, str, Figure]]:
+    """Name, caption and figure of everything that the data allow to draw."""
+    sweeps = np.unique(found.rows.temperature).size > 1
+    if sweeps:
+        yield "isotherms", "Isotherms before and after shifting; E' filled, E'' open.", isotherms(found)
+    if found.laws:
+        yield (
+            "shifts",
+            "Shift factors with their standard errors, and the laws; below: law less shift.",
+            shifts(found),
+        )
+    caption = (
+        "Free of frequency: van Gurp-Palmen above, Cole-Cole below. Rows of one material lie on one curve."
+    )
+    yield "collapse", caption, frequency_free(found)
+    caption = "Series less data, over data, row by row; shaded: scatter of the rows themselves."
+    yield "residuals", caption, residuals(found)
+    yield "band", "Master curve, series and its 90 % band.", band(found)
+
+
+def _shades(values: np.ndarray) -> list[Any]:
+    """One colour a temperature, blue to red, and none too pale to print."""
+    from matplotlib import colormaps
+
+    return [colormaps["turbo"](0.08 + 0.84 * k / max(1, values.size - 1)) for k in range(values.size)]
+
+
+def _by_temperature(rows: MeasuredRows, draw: Callable[[np.ndarray, Any, str | None], None]) -> None:
+    """Draw the rows of each temperature in its colour; rows of temperature sweeps are grey."""
+    temperatures, counts = np.unique(rows.temperature, return_counts=True)
+    swept = temperatures[counts > 2]
+    every = max(1, round(swept.size / _NAMED))
+    for k, (t, shade) in enumerate(zip(swept.tolist(), _shades(swept), strict=True)):
+        named = k % every == 0 or k == swept.size - 1
+        draw(rows.temperature == t, shade, f"{celsius(t):.0f} °C" if named else None)
+    single = ~np.isin(rows.temperature, swept)
+    if single.any():
+        draw(single, "0.45", "temperature sweep")
+
+
+def _marked(
+    axis: Axes, x: np.ndarray, y: np.ndarray, shade: Any, label: str | None, *, filled: bool = True
+) -> None:
+    axis.plot(
+        x, y, "o", color=shade, markersize=3.2, markerfacecolor=shade if filled else "none", markeredgewidth=0.8,
+        label=label,
+    )  # fmt: skip
+
+
+def _beside(axis: Axes) -> None:
+    """Names of the marks right of the data, in their colours."""
+    for k, (mark, label) in enumerate(zip(*axis.get_legend_handles_labels(), strict=True)):
+        for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
+            where = (x, 1.0 - _LINE * k)
+            axis.annotate(words, where, xycoords="axes fraction", va="top", fontsize=8, color=shade)
+
+
+def _reduced(found: Fitted) -> str:
+    return f"frequency at {celsius(found.compound.reference):.4g} °C [Hz]"
+
+
+def isotherms(found: Fitted) -> Figure:
+    """E' and E'' over frequency, as measured above, shifted below."""
+    rows = found.rows
+    made, (above, below) = stacked(2, _HEIGHT)
+    reduced, storage, loss = rows.curve
+
+    def draw(here: np.ndarray, shade: Any, label: str | None) -> None:
+        _marked(above, rows.frequency[here], rows.storage[here] / 1e6, shade, label)
+        _marked(above, rows.frequency[here], rows.loss[here] / 1e6, shade, None, filled=False)
+        _marked(below, reduced[here], storage[here] / 1e6, shade, None)
+        _marked(below, reduced[here], loss[here] / 1e6, shade, None, filled=False)
+
+    _by_temperature(rows, draw)
+    above.set(
+        xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="E', E'' [MPa]", title="as measured"
+    )
+    below.set(xscale="log", yscale="log", xlabel=_reduced(found), ylabel="E', E'' [MPa]")
+    _beside(above)
+    return made
+
+
+def shifts(found: Fitted) -> Figure:
+    """log10 a_T over temperature with the laws; below, what the laws miss."""
+    made, (above, below) = stacked(2, _HEIGHT)
+    shifted = found.superposition
+    table = next(law.law for law in found.laws if law.name == "table")
+    kelvin = shifted.temperatures if shifted is not None else table.temperatures  # type: ignore[union-attr]
+    decades = shifted.log10_a_T if shifted is not None else table.log10_factors  # type: ignore[union-attr]
+    nearest = table.reference  # type: ignore[union-attr]  # where the laws are 0
+    zero = float(decades[np.argmin(np.abs(kelvin - nearest))])
+    error = shifted.log10_a_T_error if shifted is not None else np.zeros(kelvin.size)
+    at = np.linspace(kelvin[0], kelvin[-1], _POINTS)
+    above.errorbar(
+        kelvin - ZERO_CELSIUS, decades, error, fmt="o", color="0.1", markersize=3.5, capsize=2, label="shifts"
+    )
+    for k, law in enumerate(law for law in found.laws if law.law is not None):
+        drawn = zero + law.law.log10_a_T(np.clip(at, law.low, law.high))  # type: ignore[union-attr]
+        above.plot(at - ZERO_CELSIUS, drawn, color=colour(k), label=f"{law.name}, rms {law.rms:.2f}")
+        if law.name != "table":
+            missed = zero + law.law.log10_a_T(kelvin) - decades  # type: ignore[union-attr]
+            below.plot(kelvin - ZERO_CELSIUS, missed, "o-", color=colour(k), markersize=3.5, label=law.name)
+    below.fill_between(
+        kelvin - ZERO_CELSIUS, -error, error, color="0.5", alpha=0.25, linewidth=0, label="standard error"
+    )
+    above.set(ylabel="log10 a_T [decades]")
+    below.set(xlabel="temperature [°C]", ylabel="law less shift [decades]")
+    for axis in (above, below):
+        axis.legend(fontsize=8)
+    return made
+
+
+def frequency_free(found: Fitted) -> Figure:
+    """Phase angle over |E*| above, E'' over E' below: without frequency, so without shift."""
+    rows = found.rows
+    made, (above, below) = stacked(2, _HEIGHT)
+    angle, modulus = np.degrees(np.arctan2(rows.loss, rows.storage)), np.hypot(rows.storage, rows.loss) / 1e6
+
+    def draw(here: np.ndarray, shade: Any, label: str | None) -> None:
+        _marked(above, modulus[here], angle[here], shade, label)
+        _marked(below, rows.storage[here] / 1e6, rows.loss[here] / 1e6, shade, None)
+
+    _by_temperature(rows, draw)
+    low, high = found.fit.window
+    series = found.fit.series
+    omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
+    storage, loss = series.storage(omega), series.loss(omega)
+    above.plot(
+        np.hypot(storage, loss) / 1e6, np.degrees(np.arctan2(loss, storage)), color="0.1", label="series"
+    )
+    below.plot(storage / 1e6, loss / 1e6, color="0.1")
+    above.set(xscale="log", xlabel="|E*| [MPa]", ylabel="δ [°]")
+    above.set_ylim(bottom=0.0)
+    below.set(xscale="log", yscale="log", xlabel="E' [MPa]", ylabel="E'' [MPa]")
+    _beside(above)
+    return made
+
+
+def residuals(found: Fitted) -> Figure:
+    """Series over data less one: E' above, E'' below."""
+    from matplotlib.ticker import MaxNLocator
+
+    made, axes = stacked(2, _HEIGHT)
+    f, storage, loss = found.rows.curve
+    omega, series = 2.0 * np.pi * f, found.fit.series
+    both = (
+        (series.storage(omega), storage, found.fit.storage_noise),
+        (series.loss(omega), loss, found.fit.loss_noise),
+    )
+    for axis, (model, data, noise), label in zip(axes, both, ("E'", "E''"), strict=True):
+        for k, name in enumerate(found.files):
+            mine = found.rows.file == k
+            _marked(axis, f[mine], 100.0 * (model / data - 1.0)[mine], colour(k), name)
+        if noise is not None:
+            axis.axhspan(-100.0 * noise, 100.0 * noise, color="0.5", alpha=0.2, linewidth=0)
+        axis.axhline(0.0, color="0.3", linewidth=0.8)
+        axis.yaxis.set_major_locator(MaxNLocator(4))
+        axis.set(xscale="log", ylabel=f"error of {label} [%]")
+    axes[1].set(xlabel=_reduced(found))
+    _beside(axes[0])
+    return made

@@ -1,0 +1,270 @@
+"""What a laboratory head asks of a master curve before signing it: criteria, calculated and required, pass or fail."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final, Literal
+
+import numpy as np
+
+from conveyor.checks import rubber_coverage
+from conveyor.compound_file import Fitted
+from conveyor.errors import ConveyorError
+from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
+from conveyor.measured_rows import MeasuredRows
+from conveyor.models import Conveyor
+from conveyor.models.variants import with_compound
+from conveyor.pipeline import calculate
+from conveyor.rubber import ShiftComparison
+from conveyor.units import text
+from conveyor.units.sentences import celsius
+
+Word = Literal["pass", "FAIL", "not checked"]
+
+NOISE: Final = (0.03, 0.06)
+"""Scatter of E' and E'' from row to row (general knowledge: a DMA on rubber holds 1 and 3 %) [-]."""
+SHIFT: Final = 0.1
+"""Of log10 a_T: what 1 K is near the glass transition (`conveyor.rubber.superpose`) [decades]."""
+LEFT_OUT: Final = 0.2
+"""Of a shift predicted by its neighbours: E' of a rubber goes as f^0.15, 0.2 decades are 7 % (general knowledge)."""
+OVERLAP: Final = 0.5
+"""Of neighbouring isotherms (docs/rubber.md, what to measure) [decades]."""
+SHAPE: Final = 0.5
+"""Correlation of neighbouring residuals beyond which isotherms differ in shape [-]."""
+ANGLE: Final = 0.3
+"""Of the phase angle of a DMA beside the scatter of its rows (general knowledge: 0.1 to 0.3 degrees) [degrees]."""
+MODULUS: Final = 0.005
+"""Of |E*| at the least: what a DMA repeats (general knowledge) [-]."""
+OF_SCATTER: Final = 2.0
+"""Differences beyond twice the scatter of the rows are none of it: 95 % of a normal distribution lie within [-]."""
+KRAMERS_KRONIG: Final = 0.1
+"""Of one modulus predicted from the other (general knowledge) [-]."""
+BEYOND_BEST: Final = 0.01
+"""Left by the fit beyond what the best positive spectrum leaves: as much as a good instrument scatters [-]."""
+
+GLOSSARY: Final = (
+    ("E', E''", "storage and loss modulus, in tension: stress in phase and out of phase over strain"),
+    ("tan δ", "E''/E', loss over storage; δ is the phase angle"),
+    ("isotherm", "E' and E'' over frequency at one temperature"),
+    ("a_T", "shift factor: what frequencies at T are multiplied by to lie on the curve of the reference temperature"),
+    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless it was asked for"),
+    ("master curve", "all isotherms at their shifted frequencies"),
+    ("WLF, Arrhenius", "formulas of a_T over temperature: near the glass transition, far above it"),
+    ("van Gurp-Palmen", "phase angle over |E*|: free of frequency: isotherms of one material lie on one curve"),
+    ("Cole-Cole", "E'' over E', likewise free of frequency"),
+    ("Kramers-Kronig", "each modulus follows from the other over all frequencies; else it was not one material state"),
+    ("Prony series", "E(t) = E_e + sum of E_i exp(-t/τ_i): springs and dashpots that E' and E'' follow from"),
+    ("E_e, E_inf", "modulus at rest, and at infinite frequency"),
+    ("best positive spectrum", "the closest curve that any Prony series could give; what it leaves is in the data"),
+    ("90 % band", "what nine tenths of the replicas of the fit keep to, data resampled by their own residuals"),
+    ("window", "lowest to highest reduced frequency measured; beyond it nothing is known"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """One criterion: what was calculated, what is required, the verdict, and what it means."""
+
+    name: str
+    calculated: str
+    required: str
+    verdict: Word
+    why: str
+
+    @property
+    def line(self) -> str:
+        """In one line."""
+        return f"{self.name}: " + (f"{self.calculated} ({self.required})" if self.calculated else self.why)
+
+
+def verdict(found: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
+    """Return every criterion of a fit; those of a conveyor's rolls where one is given.
+
+    Parameters
+    ----------
+    found : Fitted
+        The fit.
+    conveyor : Conveyor, optional
+        Its rolls, speed and temperature tell which frequencies the rubber has to be known at.
+    """
+    made = (_noise, _shifts, _shape, _collapse, _consistent, _residual)
+    return (
+        *(one for of in made for one in of(found)),
+        *(() if conveyor is None else _covered(found, conveyor)),
+    )
+
+
+def passed(criteria: tuple[Criterion, ...]) -> bool:
+    """Whether no criterion fails."""
+    return all(one.verdict != "FAIL" for one in criteria)
+
+
+def _most(name: str, value: float, most: float, write: Callable[[float], str], why: str) -> Criterion:
+    return Criterion(name, write(value), f"at most {write(most)}", "pass" if value <= most else "FAIL", why)
+
+
+def _percent(value: float) -> str:
+    return f"{value:.1%}"
+
+
+def _decades(value: float) -> str:
+    return f"{value:.2f} decades"
+
+
+def _open(name: str, why: str) -> Criterion:
+    return Criterion(name, "", "", "not checked", why)
+
+
+def _noise(found: Fitted) -> Iterator[Criterion]:
+    for label, value, most in zip(
+        ("E'", "E''"), (found.fit.storage_noise, found.fit.loss_noise), NOISE, strict=True
+    ):
+        name, why = f"scatter of {label} from row to row", "instrument, clamping, range of its force"
+        yield (
+            _open(name, "fewer than three rows") if value is None else _most(name, value, most, _percent, why)
+        )
+
+
+def _shifts(found: Fitted) -> Iterator[Criterion]:
+    shifted = found.superposition
+    if shifted is not None:
+        worst = float(np.max(shifted.log10_a_T_error))
+        yield _most(
+            "uncertainty of the shifts", worst, SHIFT, _decades, "too little overlap or too much scatter"
+        )
+        least = min(one.decades for one in shifted.overlaps)
+        yield Criterion(
+            "least overlap of neighbours", _decades(least), f"at least {_decades(OVERLAP)}",
+            "pass" if round(least, 2) >= OVERLAP else "FAIL", "measure a temperature between, or more frequencies",
+        )  # fmt: skip
+    if not found.laws:
+        yield _open("smoothness of the shifts", "fewer than five temperatures")
+        return
+    law = kept(found)
+    missed = law.left_out if law.name == "table" else law.rms
+    farthest = f"; worst {law.worst:+.2f} at {celsius(law.worst_temperature):.0f} °C"
+    what = (
+        "a shift left out, predicted by its neighbours"
+        if law.name == "table"
+        else f"shifts about the law{farthest}"
+    )
+    yield _most(
+        f"smoothness of the shifts ({law.name})", missed, LEFT_OUT, _decades,
+        what,
+    )  # fmt: skip
+
+
+def kept(found: Fitted) -> ShiftComparison:
+    """The comparison of the shift law that the compound keeps."""
+    shift = found.compound.shift
+    name = "table" if shift is None else shift.law
+    return next(law for law in found.laws if law.name.lower() == name)
+
+
+def _shape(found: Fitted) -> Iterator[Criterion]:
+    if found.superposition is not None:
+        yield _most(
+            "correlation of neighbouring residuals", found.superposition.correlation, SHAPE, lambda v: f"{v:.2f}",
+            "isotherms that differ in shape superpose at no shift",
+        )  # fmt: skip
+
+
+def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, float, float] | None:
+    """The neighbouring isotherms whose phase angles differ most at one modulus, |E*|/b_T.
+
+    Parameters
+    ----------
+    rows : MeasuredRows
+        Temperatures of fewer than three rows do not count.
+    noise : tuple of float
+        Scatter of E' and E'' from row to row [-].
+
+    Returns
+    -------
+    tuple or None
+        Root mean square of the differences over what scatter makes of them [-], and both temperatures [K]; None where
+        no two isotherms have moduli in common.
+
+    Notes
+    -----
+    The distance of each row to the other isotherm's line, in units of scatter along both axes: where the line is steep,
+    on a plateau, it is the modulus that tells. Rows beyond the ends of the line do not count.
+    d(delta) = sin(2 delta)/2 d(ln tan delta).
+    """
+    _, storage, loss = rows.curve
+    angles, moduli = np.arctan2(loss, storage), np.log(np.hypot(storage, loss))
+    turned = np.hypot(np.radians(ANGLE), 0.5 * np.sin(2.0 * angles) * np.hypot(*noise))
+    temperatures = [t for t in np.unique(rows.temperature) if np.count_nonzero(rows.temperature == t) > 2]
+    found = []
+    for cold, hot in pairwise(temperatures):
+        line = np.flatnonzero(rows.temperature == hot)  # rows are in the order of the frequency
+        apart = []
+        moved = (np.diff(moduli[line]) != 0.0) | (np.diff(angles[line]) != 0.0)
+        line = line[np.concatenate([[True], moved])]
+        if line.size < 2:
+            continue
+        for k in np.flatnonzero(rows.temperature == cold):
+            scale = np.array([max(noise[0], MODULUS), turned[k]])
+            at = (np.array([moduli[line], angles[line]]).T - [moduli[k], angles[k]]) / scale
+            step = np.diff(at, axis=0)
+            share = -np.sum(at[:-1] * step, axis=1) / np.sum(step**2, axis=1)
+            distance = np.linalg.norm(at[:-1] + np.clip(share, 0.0, 1.0)[:, None] * step, axis=1)
+            nearest = int(np.argmin(distance))
+            first, last = nearest == 0 and share[0] < 0.0, nearest == share.size - 1 and share[-1] > 1.0
+            if not first and not last:
+                apart.append(float(distance[nearest]))
+        if apart:
+            found.append((float(np.sqrt(np.mean(np.square(apart)) / 2.0)), float(cold), float(hot)))
+    return max(found, default=None)
+
+
+def _collapse(found: Fitted) -> Iterator[Criterion]:
+    noise = (found.fit.storage_noise or 0.0, found.fit.loss_noise or 0.0)
+    worst, name = collapse(found.rows, noise), "van Gurp-Palmen collapse"
+    if worst is None:
+        yield _open(name, "no two isotherms with moduli in common")
+        return
+    pair = " and ".join(f"{celsius(t):.0f}" for t in worst[1:])
+    why = f"worst of {pair} °C; another state, specimen or strain, or a vertical shift"
+    yield _most(name, worst[0], OF_SCATTER, lambda v: f"{v:.1f} times scatter", why)
+
+
+def _consistent(found: Fitted) -> Iterator[Criterion]:
+    yield _most(
+        "best positive spectrum of E' and E''", found.fit.consistency_floor, DOUBTED, _percent,
+        "more is in the data: two strains, two set-ups, an outlier",
+    )  # fmt: skip
+    known = found.consistency
+    if known is None:
+        yield _open("Kramers-Kronig", "too few rows beyond a decade from the ends of the window")
+        return
+    for label, misfit in (("E'' from E'", known.loss), ("E' from E''", known.storage)):
+        where = f"worst {misfit.worst:+.0%} at {misfit.worst_frequency:.2g} Hz"
+        yield _most(f"Kramers-Kronig, {label}", misfit.rms, KRAMERS_KRONIG, _percent, where)
+
+
+def _residual(found: Fitted) -> Iterator[Criterion]:
+    fit = found.fit
+    scatter = float(np.hypot(fit.storage_noise or 0.0, fit.loss_noise or 0.0)) / np.sqrt(2.0)
+    most = max(fit.consistency_floor + BEYOND_BEST, OVER_SCATTER * scatter)
+    yield _most(
+        "left by the series", fit.residual, most, _percent,
+        "of E' and E'', against the best positive spectrum and the scatter",
+    )  # fmt: skip
+
+
+def _covered(found: Fitted, conveyor: Conveyor) -> Iterator[Criterion]:
+    where = f"window covers {conveyor.name}"
+    try:
+        result = calculate(with_compound(conveyor, found.compound, "bottom"))
+    except ConveyorError as error:
+        yield Criterion(where, "no answer", f"data at {text(conveyor.ambient.belt)}", "FAIL", str(error))
+        return
+    for check in rubber_coverage(result):
+        if "carry" in check.subject.text():
+            yield Criterion(
+                f"{where}, carry rolls", check.found.text(), check.asked.text(),
+                "pass" if check.verdict == "pass" else "FAIL", "frequencies that hold nine tenths of their loss",
+            )  # fmt: skip

@@ -1,0 +1,291 @@
+"""Rows of laboratory files of several kinds, and where temperature shifts lay them on one master curve."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import InputError
+from conveyor.laboratory import DmaData
+from conveyor.laboratory.groups import ISOTHERM_GAP, temperature_groups
+from conveyor.rubber import Isotherm, ShiftLaw, Superposition, equivalent_sweep
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+CURVES = frozenset({"master curve", "isotherms", "relaxation", "temperature sweep"})
+"""Kinds of file whose rows lie on a master curve."""
+_ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*)")
+_COLUMNS = (
+    "frequency", "temperature", "strain", "time", "storage", "loss", "modulus", "log10_a_T", "log10_b_T", "run",
+    "group", "row_numbers",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """One frequency sweep at one temperature [K]: rows [Hz, Pa] with their numbers in a file."""
+
+    file: int
+    isotherm: Isotherm
+    first_row: int
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredRows:
+    """Rows as measured, and their shift: E(f, T) = b_T E(f a_T, reference).
+
+    Attributes
+    ----------
+    file : ndarray of int
+        Number of the file of each row.
+    temperature, frequency, storage, loss : ndarray, shape (n,)
+        As measured, of relaxation as converted [K, Hz, Pa, Pa].
+    log10_a_T, log10_b_T : ndarray, shape (n,)
+        Of each row [decades].
+    """
+
+    file: Numbers
+    temperature: Array
+    frequency: Array
+    storage: Array
+    loss: Array
+    log10_a_T: Array  # noqa: N815
+    log10_b_T: Array  # noqa: N815
+
+    @property
+    def curve(self) -> tuple[Array, Array, Array]:
+        """Reduced frequency [Hz], E'/b_T and E''/b_T [Pa]."""
+        b = 10.0**self.log10_b_T
+        return self.frequency * 10.0**self.log10_a_T, self.storage / b, self.loss / b
+
+    def ordered(self) -> MeasuredRows:
+        """By ascending reduced frequency."""
+        order = np.argsort(self.curve[0], kind="stable")
+        return MeasuredRows(**{name: getattr(self, name)[order] for name in self.__dataclass_fields__})
+
+
+def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaData], tuple[str, ...]]:
+    """Leave out rows that a person names: "12-15,20", with several files "isotherms.csv:12-15,20".
+
+    Returns
+    -------
+    tuple
+        The files without them, and a sentence a file.
+
+    Raises
+    ------
+    InputError
+        No such rows, no such file, or of which file is not said.
+    """
+    left, said = list(reads), []
+    for given in exclude:
+        found = _ROWS.fullmatch(given.strip())
+        if found is None:
+            raise InputError(
+                f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
+            )
+        named = [
+            k for k, read in enumerate(reads) if found["file"] in {None, read.source, Path(read.source).name}
+        ]
+        if len(named) != 1:
+            names = ", ".join(Path(read.source).name for read in reads)
+            raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
+        (k,) = named
+        kept = np.ones(left[k].row_numbers.size, dtype=np.bool_)
+        for part in found["rows"].split(","):
+            low, _, high = part.partition("-")
+            kept &= (left[k].row_numbers < int(low)) | (left[k].row_numbers > int(high or low))
+        gone = int(np.count_nonzero(~kept))
+        if not gone or not kept.any():
+            what = "has no such rows of data" if not gone else "would have no row left"
+            raise InputError(f'--exclude: "{given}": {left[k].source} {what}')
+        columns = {name: getattr(left[k], name) for name in _COLUMNS}
+        left[k] = replace(left[k], **{name: c[kept] for name, c in columns.items() if c is not None})
+        said.append(f"{Path(left[k].source).name}: {gone} row(s) excluded by hand: {found['rows']}")
+    return left, tuple(said)
+
+
+def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:
+    """Frequency sweeps of all files, those of relaxation converted; `stated` temperatures of files [K].
+
+    Raises
+    ------
+    InputError
+        The temperature of a file is not known, or a sweep is refused.
+    """
+    found: list[Sweep] = []
+    said = []
+    for number, read in enumerate(reads):
+        if read.kind == "isotherms":
+            rows = read.isotherms()
+            found += [
+                Sweep(
+                    number, Isotherm(s.temperature, s.frequency, s.storage, s.loss), int(s.row_numbers.min())
+                )
+                for s in rows
+            ]
+        elif read.kind == "master curve":
+            at = _temperature(read, number, stated)
+            if read.frequency is None or read.storage is None or read.loss is None:
+                raise InputError(f"{read.source}: holds no E' and E'' over frequency")
+            one = Isotherm(at, read.frequency, read.storage, read.loss)
+            found.append(Sweep(number, one, int(read.row_numbers.min())))
+        elif read.kind == "relaxation":
+            converted = list(_relaxed(read, number, stated))
+            found += converted
+            said.append(
+                f"{Path(read.source).name}: {len(converted)} relaxation curve(s), each as the frequency sweep that "
+                "says the same, a decade inside its window"
+            )
+    return found, tuple(said)
+
+
+def _temperature(read: DmaData, number: int, stated: Mapping[int, float]) -> float:
+    if read.temperature is not None:
+        return float(np.mean(read.temperature))
+    if number in stated:
+        return stated[number]
+    raise InputError(
+        f'{read.source}: at which temperature? Give the file a line "# reference_temperature: 20 degC", a column '
+        "temperature_degC, or --temperature"
+    )
+
+
+def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterator[Sweep]:
+    if read.time is None or read.modulus is None:
+        raise InputError(f"{read.source}: holds no E(t) over time")
+    groups: Numbers | None = np.zeros(read.time.size, dtype=np.int64)
+    if read.temperature is not None:
+        groups = temperature_groups(read.temperature, read.run)
+    if groups is None:
+        raise InputError(
+            f"{read.source}: the temperature is a ramp; relaxation is taken at one temperature at a time"
+        )
+    for group in np.unique(groups):
+        rows = groups == group
+        at = (
+            _temperature(read, number, stated)
+            if read.temperature is None
+            else float(np.mean(read.temperature[rows]))
+        )
+        try:
+            converted = equivalent_sweep(read.time[rows], read.modulus[rows])
+        except InputError as error:
+            raise InputError(f"{read.source}:{read.row_numbers[rows].min()}: {error}") from None
+        yield Sweep(number, Isotherm(at, *converted), int(read.row_numbers[rows].min()))
+
+
+def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
+    """Put shift factors of a file in place of those found, each at the isotherm of its temperature.
+
+    Raises
+    ------
+    InputError
+        There is no isotherm at one of its temperatures.
+    """
+    shift, vertical = found.log10_a_T.copy(), found.log10_b_T.copy()
+    error, said = found.log10_a_T_error.copy(), []
+    if given.temperature is None or given.log10_a_T is None:
+        raise InputError(f"{given.source}: holds no shift factors")
+    for k, (t, a) in enumerate(zip(given.temperature.tolist(), given.log10_a_T.tolist(), strict=True)):
+        at = int(np.argmin(np.abs(found.temperatures - t)))
+        if abs(found.temperatures[at] - t) > ISOTHERM_GAP:
+            raise InputError(
+                f"{given.source}:{given.row_numbers[k]}: no isotherm at {t - 273.15:.2f} degC; those measured are at "
+                + ", ".join(f"{kelvin - 273.15:.2f}" for kelvin in found.temperatures.tolist())
+            )
+        said.append(
+            f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades"
+        )
+        shift[at], error[at] = a, 0.0
+        if given.log10_b_T is not None:
+            vertical[at] = given.log10_b_T[k]
+    return replace(found, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical), tuple(said)
+
+
+def laid(
+    parts: Sequence[Sweep],
+    ramps: Sequence[tuple[int, DmaData]],
+    law: ShiftLaw | None,
+    found: Superposition | None,
+    whole: tuple[int, float, DmaData] | None,
+) -> tuple[MeasuredRows, tuple[str, ...]]:
+    """Lay sweeps and temperature sweeps on the master curve of a shift law.
+
+    Parameters
+    ----------
+    parts : sequence of Sweep
+        At temperatures of the law.
+    ramps : sequence of (int, DmaData)
+        Temperature sweeps, each with the number of its file; taken where the law has measured shifts.
+    law : ShiftLaw or None
+        a_T; None where every row is at the reference.
+    found : Superposition or None
+        Of the sweeps, with their vertical shifts.
+    whole : tuple or None
+        A master curve as it stands: number of its file, reference temperature [K], the file.
+    """
+    columns: list[tuple[Any, ...]] = []
+    vertical: dict[float, float] = {}
+    if found is not None:
+        vertical = dict(zip(found.temperatures.tolist(), found.log10_b_T.tolist(), strict=True))
+    for part in parts:
+        one = part.isotherm
+        a = 0.0 if law is None else float(law.log10_a_T(one.temperature))
+        shift = (a, vertical.get(one.temperature, 0.0))
+        columns.append(_column(part.file, one.temperature, (one.frequency, one.storage, one.loss), shift))
+    if whole is not None:
+        number, reference, read = whole
+        columns.append(_column(number, reference, _moduli(read, read.frequency), (0.0, 0.0)))
+    said = []
+    for number, read in ramps:
+        frequency, storage, loss = _moduli(read, read.frequency)
+        if read.temperature is None or law is None:
+            raise InputError(
+                f"{read.source}: a temperature sweep needs shift factors: isotherms beside it, or --shift"
+            )
+        if any(vertical.values()):
+            raise InputError(
+                f"{read.source}: a temperature sweep has no vertical shift of its own; leave out --vertical"
+            )
+        known = getattr(law, "temperatures", None) if found is None else found.temperatures
+        low, high = (
+            (read.temperature.min(), read.temperature.max()) if known is None else (known[0], known[-1])
+        )
+        inside = (read.temperature >= low) & (read.temperature <= high)
+        t = read.temperature[inside]
+        a_T = law.log10_a_T(t) if t.size else t
+        columns.append(_column(number, t, (frequency[inside], storage[inside], loss[inside]), (a_T, 0.0)))
+        said.append(
+            f"{Path(read.source).name}: {t.size} of {inside.size} rows laid on the master curve"
+            + ("" if inside.all() else "; the others are beyond the shift factors")
+        )
+    return MeasuredRows(*(np.concatenate(column) for column in zip(*columns, strict=True))).ordered(), tuple(
+        said
+    )
+
+
+def _moduli(read: DmaData, frequency: Array | None) -> tuple[Array, Array, Array]:
+    if frequency is None or read.storage is None or read.loss is None:
+        raise InputError(
+            f"{read.source}: E' and E'' with their frequency are needed; give it a column frequency_Hz"
+        )
+    return frequency, read.storage, read.loss
+
+
+def _column(
+    file: int,
+    temperature: float | Array,
+    moduli: tuple[Array, Array, Array],
+    shift: tuple[float | Array, float],
+) -> tuple[Any, ...]:
+    """Rows of one sweep, as the fields of `MeasuredRows`."""
+    one = np.ones(moduli[0].size)
+    return (np.full(one.size, file), temperature * one, *moduli, shift[0] * one, shift[1] * one)

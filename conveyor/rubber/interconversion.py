@@ -1,0 +1,84 @@
+"""A relaxation curve as the frequency sweep that says the same, so that both lie on one master curve."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from conveyor.errors import InputError
+from conveyor.rubber.arrays import FloatArray, positive_vector
+from conveyor.rubber.non_negative import non_negative
+
+LINES_PER_DECADE = 2.0
+"""Lines so far apart give E'' a ripple of 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
+REACH = 0.5
+"""Beyond both ends of the times, so that what has begun before and ends after has lines of its own [decades]."""
+MARGIN = 1.0
+"""Left out at both ends: a line a decade beyond an end adds a tenth of its modulus to E'' there [decades]."""
+ROWS_PER_DECADE = 6.0
+"""As instruments measure (general knowledge) [1/decade]."""
+LEAST_DECADES = 2.5
+"""Of time: half a decade of frequency is left, four rows [decades]."""
+
+
+def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """E' and E'' that a relaxation modulus implies, a decade inside its window.
+
+    Parameters
+    ----------
+    time : array_like
+        Since the step of strain, shape `(n,)`, any order [s].
+    modulus : array_like
+        E(t) at them, shape `(n,)` [Pa].
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        Cyclic frequency, ascending [Hz], E' and E'' [Pa], each of shape `(m,)`.
+
+    Raises
+    ------
+    InputError
+        A value is not finite and > 0, lengths differ, or the times span less than 2.5 decades.
+
+    Notes
+    -----
+    A series of times two to the decade is fitted to E(t), relative errors, moduli >= 0, and evaluated at
+    omega = 1/t (Park and Schapery 1999, by a Prony series). One per cent of E(t) is many per cent of a small E''. The
+    rows are no independent measurements: they carry the smoothness of the series.
+
+    References
+    ----------
+    S. W. Park, R. A. Schapery, Int. J. Solids Struct. 36 (1999) 1653-1675.
+
+    Examples
+    --------
+    >>> from conveyor.rubber import PronySeries
+    >>> truth = PronySeries(1e6, np.full(25, 1e5), np.logspace(-6, 6, 25))
+    >>> t = np.logspace(-2, 3, 51)
+    >>> f, storage, loss = equivalent_sweep(t, truth.relaxation(t))
+    >>> bool(np.max(np.abs(loss / truth.loss(2 * np.pi * f) - 1)) < 0.1)
+    True
+    """
+    t, e = positive_vector("time", time, "s"), positive_vector("modulus", modulus, "Pa")
+    if t.size != e.size:
+        raise InputError(f"relaxation: one modulus a time is needed; got {t.size} times, {e.size} moduli")
+    low, high = np.log10(t.min()), np.log10(t.max())
+    if high - low < LEAST_DECADES:
+        raise InputError(
+            f"relaxation over {high - low:.2g} decades of time; {LEAST_DECADES:g} are needed, as a decade at either "
+            "end says nothing certain of E' and E''"
+        )
+    reach = high - low + 2.0 * REACH
+    tau = np.logspace(low - REACH, high + REACH, round(LINES_PER_DECADE * reach) + 1)
+    unit = float(e.min())
+    matrix = np.column_stack([np.ones_like(t), np.exp(-t[:, None] / tau)]) * (unit / e[:, None])
+    found = unit * non_negative(matrix, np.ones_like(t))
+    inside = high - low - 2.0 * MARGIN
+    omega = np.logspace(MARGIN - high, -low - MARGIN, round(ROWS_PER_DECADE * inside) + 1)
+    x = omega[:, None] * tau
+    loss = (x / (1.0 + x * x)) @ found[1:]
+    storage = found[0] + (x * x / (1.0 + x * x)) @ found[1:]
+    if not np.all(loss > 0.0):
+        raise InputError("relaxation: E(t) does not fall, no loss modulus follows from it")
+    return omega / (2.0 * np.pi), storage, loss

@@ -1,0 +1,232 @@
+"""Files of one rubber fitted together: constructed, so that the truth is known."""
+
+from __future__ import annotations
+
+import re
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conveyor import fit_page, fit_verdict, fitting, shelf
+from conveyor.compound_file import Request, fit_file
+from conveyor.errors import InputError
+from conveyor.rubber import PronySeries, equivalent_sweep
+from conveyor.spec import load
+
+ROOT = Path(__file__).parent.parent
+FOLDER = ROOT / "examples" / "laboratory"
+FILES = [FOLDER / name for name in ("isotherms.csv", "relaxation.txt", "ramp.csv")]
+AT = "20 degC"
+TRUTH = shelf.compound("standard-cover")
+
+
+@pytest.fixture(scope="module")
+def together():
+    return fit_file(FILES, Request("acme", AT))
+
+
+@pytest.fixture(scope="module")
+def alone():
+    return fit_file(FILES[0], Request("acme", AT, replicas=0))
+
+
+def errors(compound, kelvin=293.15, low=1.0, high=6.0):
+    """Largest relative errors of E' and E'' against the truth over a band [decades of Hz]."""
+    omega = 2.0 * np.pi * np.logspace(low, high, 40)
+    series, truth = compound.series(kelvin), TRUTH.series(kelvin)
+    return (
+        float(np.max(np.abs(series.storage(omega) / truth.storage(omega) - 1.0))),
+        float(np.max(np.abs(series.loss(omega) / truth.loss(omega) - 1.0))),
+    )
+
+
+def test_the_example_files_are_what_the_script_writes():
+    texts = runpy.run_path(str(ROOT / "examples" / "07_laboratory.py"))["texts"]()
+    number = re.compile(r"[-+]?\d+(?:[.,]\d+)?")
+    for name, text in texts.items():
+        written = (FOLDER / name).read_text(encoding="utf-8")
+        got, told = ([float(x.replace(",", ".")) for x in number.findall(t)] for t in (written, text))
+        assert got == pytest.approx(told, rel=2e-3)  # four digits printed, the last may round either way
+
+
+def test_three_files_meet_the_truth(together, alone):
+    """1 % and 2 % of noise: smoothed over some five rows a decade, E' within 2 %, E'' within 5 % over five decades."""
+    storage, loss = errors(together.compound)
+    assert storage < 0.02
+    assert loss < 0.05
+    assert together.files == ("isotherms.csv", "relaxation.txt", "ramp.csv")
+    assert [int(np.count_nonzero(together.rows.file == k)) for k in range(3)] == [165, 32, 41]
+    # relaxation reaches times that 0.5 Hz does not
+    assert together.fit.window[0] < 0.01 * alone.fit.window[0]
+    assert together.fit.series.equilibrium == pytest.approx(TRUTH.series(293.15).equilibrium, rel=0.03)
+    shifts = TRUTH.shift_law().log10_a_T(together.superposition.temperatures)
+    assert np.max(np.abs(together.superposition.log10_a_T - shifts)) < 0.05
+
+
+def test_relaxation_alone_is_fitted_as_the_sweep_that_says_the_same():
+    found = fit_file(FILES[1], Request("relaxed", "20 degC", replicas=0))
+    assert found.superposition is not None
+    assert found.superposition.temperatures.tolist() == pytest.approx([293.15, 317.15])
+    storage, loss = errors(found.compound, low=-2.5, high=-1.0)
+    assert storage < 0.02  # 1 % noise of E(t)
+    assert loss < 0.2  # a small E'' from E(t): about E'/E'' as uncertain
+
+
+def test_an_equivalent_sweep_of_a_dense_series():
+    truth = PronySeries(1e6, np.full(49, 1e5), np.logspace(-8.0, 8.0, 49))
+    t = np.logspace(-2.0, 3.0, 51)
+    f, storage, loss = equivalent_sweep(t, truth.relaxation(t))
+    omega = 2.0 * np.pi * f
+    assert (omega.min(), omega.max()) == pytest.approx((1e-2, 10.0))
+    assert storage == pytest.approx(truth.storage(omega), rel=0.02)
+    # a line n decades beyond an end adds 10^-n of its modulus: three lines a decade, one decade away and more
+    assert loss == pytest.approx(truth.loss(omega), rel=0.1)
+    with pytest.raises(InputError, match=r"2\.5 are needed"):
+        equivalent_sweep(t[:20], truth.relaxation(t[:20]))
+
+
+def test_a_temperature_sweep_takes_given_shifts(tmp_path: Path, together):
+    shifts = tmp_path / "shifts.csv"
+    shifts.write_text(fitting.shift_table(together), encoding="utf-8")
+    found = fit_file([FILES[2], shifts], Request("ramp", AT, replicas=0))
+    assert found.rows.frequency.size == 41
+    assert max(errors(found.compound, low=1.5, high=5.0)) < 0.1  # 41 rows over eight decades
+    with pytest.raises(InputError, match="needs isotherms beside it"):
+        fit_file(FILES[2], Request("ramp"))
+
+
+def test_rows_are_excluded_by_name(alone):
+    found = fit_file(FILES[0], Request("x", AT, replicas=0, exclude=("8-18",)))
+    assert found.rows.frequency.size == alone.rows.frequency.size - 11
+    assert found.superposition.temperatures.size == alone.superposition.temperatures.size - 1
+    assert "11 row(s) excluded by hand: 8-18" in found.compound.fit.method
+    for given, message in (
+        ("8-x", "expected rows such as"), ("1-999999999999", "expected rows such as"), ("1-999999999", "no row left"),
+        ("900", "no such rows"), ("1-999", "no row left"),
+        ("other.csv:8", "rows of which file"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=message):
+            fit_file(FILES[0], Request("x", AT, exclude=(given,)))
+    with pytest.raises(InputError, match="rows of which file"):
+        fit_file(FILES, Request("x", AT, exclude=("8",)))
+
+
+def test_given_shifts_override_those_found(tmp_path: Path, alone):
+    path = tmp_path / "one.csv"
+    path.write_text("temperature_degC,log10_aT\n0.03,1.5\n48,-1.4\n", encoding="utf-8")
+    found = fit_file(FILES[0], Request("x", AT, shift=path, replicas=0))
+    changed = np.flatnonzero(found.superposition.log10_a_T != alone.superposition.log10_a_T)
+    assert found.superposition.log10_a_T[changed] == pytest.approx([1.5, -1.4])
+    assert found.compound.shift.log10_a_t[int(changed[0])] == 1.5
+    assert any(
+        "shift at 0.03 degC given, +1.5000; the isotherms give +1.4" in line for line in found.understood
+    )
+    path.write_text("temperature_degC,log10_aT\n3,1.5\n48,-1.4\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"one\.csv:2: no isotherm at 3\.00 degC"):
+        fit_file(FILES[0], Request("x", AT, shift=path))
+
+
+def test_the_law_that_is_asked_for_is_kept_and_lays_the_rows(alone):
+    found = fit_file(FILES[0], Request("x", AT, law="wlf", replicas=0))
+    shift = found.compound.shift
+    assert shift.law == "wlf"
+    truth = TRUTH.shift_law()
+    law = found.compound.shift_law()
+    assert law.log10_a_T(253.15) == pytest.approx(float(truth.log10_a_T(253.15)), abs=0.05)
+    assert found.rows.log10_a_T == pytest.approx(law.log10_a_T(found.rows.temperature), abs=1e-9)
+    assert max(errors(found.compound)) < 0.05
+    arrhenius = fit_file(FILES[0], Request("x", AT, law="arrhenius", replicas=0))
+    # one energy for 84 K above the glass transition: the master curve itself shows that it does not hold
+    assert arrhenius.compound.shift.law == "arrhenius"
+    assert arrhenius.fit.residual > 3.0 * alone.fit.residual
+    with pytest.raises(InputError, match="no vertical shift"):
+        fit_file(FILES[0], Request("x", AT, law="wlf", vertical=True))
+
+
+def test_errors_weigh_the_moduli(tmp_path: Path):
+    """Of E' and E'' that disagree the fit follows the one that is stated to be known better."""
+    f = np.logspace(-2.0, 4.0, 40)
+    omega = 2.0 * np.pi * f
+    series = TRUTH.series(293.15)
+    rows = zip(f, series.storage(omega), 1.2 * series.loss(omega), strict=True)
+    path = tmp_path / "m.csv"
+    path.write_text(
+        "frequency_Hz,storage_Pa,loss_Pa\n" + "".join(f"{a:.8g},{b:.8g},{c:.8g}\n" for a, b, c in rows),
+        encoding="utf-8",
+    )
+    left = {}
+    for which, (first, second) in {"storage": (0.01, 0.1), "loss": (0.1, 0.01)}.items():
+        fit = fit_file(path, Request("x", AT, replicas=0, storage_error=first, loss_error=second)).fit
+        left[which] = fit.storage.rms, fit.loss.rms
+    assert left["storage"][0] < 0.3 * left["loss"][0]
+    assert left["loss"][1] < 0.3 * left["storage"][1]
+    with pytest.raises(InputError, match="both"):
+        fit_file(path, Request("x", AT, storage_error=0.01))
+
+
+def test_e_or_g_is_answered(tmp_path: Path):
+    path = tmp_path / "m.csv"
+    rows = "".join(f"{f:.6g},{1e6 * f**0.1:.8g},{1.5e5 * f**0.1:.8g}\n" for f in np.logspace(-2, 4, 30))
+    path.write_text("torsion test\nfrequency_Hz,storage_Pa,loss_Pa\n" + rows, encoding="utf-8")
+    with pytest.raises(InputError, match="--moduli"):
+        fit_file(path, Request("x", AT, replicas=0))
+    tensile, shear = (
+        fit_file(path, Request("x", AT, replicas=0, reading={"letter": letter})).fit.series for letter in "EG"
+    )
+    assert shear.storage(1.0) == pytest.approx(3.0 * float(tensile.storage(1.0)), rel=1e-9)
+    path.write_text("frequency_Hz,E'_Pa,E''_Pa\n" + rows, encoding="utf-8")
+    with pytest.raises(InputError, match="the name says E, not G"):
+        fit_file(path, Request("x", AT, reading={"letter": "G"}))
+
+
+def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
+    criteria = fit_verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
+    assert fit_verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
+    assert any(one.name.startswith("window covers") for one in criteria)
+    page = fit_page.build(together, criteria, {"by": "A. Tester <b>", "number": "2026-17"})
+    for words in (
+        "A. Tester &lt;b&gt;",
+        "2026-17",
+        "DMA, tension 15 x 5 x 2 mm",
+        "approved by, date",
+        "Glossary",
+    ):
+        assert words in page
+    assert page.count("<svg") == 5
+    assert all(one.name in page for one in criteria if "'" not in one.name)
+
+
+def failing(found, conveyor=None) -> set[str]:
+    return {one.name for one in fit_verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
+
+
+def test_each_fault_fails_its_own_criterion(tmp_path: Path):
+    head, *rows = [
+        line for line in FILES[0].read_text(encoding="utf-8").splitlines() if not line.startswith("#")
+    ]
+
+    def fitted(change) -> set[str]:
+        path = tmp_path / "changed.csv"
+        path.write_text(
+            "\n".join([head, *(",".join(change(*row.split(","))) for row in rows)]), encoding="utf-8"
+        )
+        return failing(fit_file(path, Request("x", AT, replicas=0, accept=frozenset({"contradiction"}))))
+
+    assert not fitted(lambda t, f, a, b: (t, f, a, b))
+    raised = fitted(lambda t, f, a, b: (t, f, a, str(1.25 * float(b))))
+    assert {"Kramers-Kronig, E'' from E'", "best positive spectrum of E' and E''"} <= raised
+    stiff = fitted(lambda t, f, a, b: (t, f, a if float(t) > 5.0 else str(1.4 * float(a)), b))
+    assert "van Gurp-Palmen collapse" in stiff
+    noise = np.random.default_rng(1)
+    assert "scatter of E' from row to row" in fitted(
+        lambda t, f, a, b: (t, f, str(float(a) * (1.0 + 0.06 * noise.standard_normal())), b)
+    )
+
+
+def test_a_window_that_the_rolls_leave_fails():
+    narrow = fit_file(FILES[0], Request("x", "46 degC", replicas=0, exclude=("8-150",)))
+    line = load(ROOT / "examples" / "specs" / "overland.yaml")
+    cold = line.replace(ambient={"temperature": "-30 degC"})
+    assert any(name.startswith("window covers") for name in failing(narrow, cold))
