@@ -173,7 +173,7 @@ def fit_file(data: Path, request: Request) -> Fitted:
     fit = fit_prony(f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium)
     shifts = None if request.shift is None else _of_kind(request.shift, "shift factors", request)
     sweeps = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
-    described = _described(data, read, request, (reference, fit))
+    described = _described(data, read, request, (reference, fit), superposition)
     described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted])
     _add_shift(described, superposition, shifts)
     if sweeps is not None:
@@ -319,7 +319,13 @@ def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
     return read
 
 
-def _described(data: Path, read: DmaData, request: Request, found: tuple[str, PronyFit]) -> dict[str, Any]:
+def _described(
+    data: Path,
+    read: DmaData,
+    request: Request,
+    found: tuple[str, PronyFit],
+    superposition: Superposition | None,
+) -> dict[str, Any]:
     reference, fit = found
     series = fit.series
     prony: dict[str, Any] = {
@@ -330,7 +336,7 @@ def _described(data: Path, read: DmaData, request: Request, found: tuple[str, Pr
         ],
     }
     if request.replicas:
-        prony["band"] = _band(fit, request.replicas)
+        prony["band"] = _band(fit, superposition, request.replicas)
     return {
         "name": request.name,
         "kind": "measured",
@@ -366,14 +372,19 @@ def _six(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def _band(fit: PronyFit, replicas: int) -> dict[str, Any]:
-    band = bootstrap(fit, replicas=replicas)
-    return {
+def _band(fit: PronyFit, superposition: Superposition | None, replicas: int) -> dict[str, Any]:
+    band = bootstrap(fit, superposition, replicas=replicas)
+    described = {
         "method": METHOD,
         "equilibrium": [_mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
         "unit": "MPa",
         "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
     }
+    if superposition is not None:
+        described["log10_aT"] = [[_six(y) for y in superposition.log10_a_T + a] for a, _ in band.shifts]
+        if np.any(superposition.log10_b_T_error):
+            described["log10_bT"] = [[_six(y) for y in superposition.log10_b_T + b] for _, b in band.shifts]
+    return described
 
 
 def _method(fit: PronyFit, request: Request) -> str:

@@ -192,7 +192,21 @@ class RubberCompound(Model):
         RangeError
             As `series`.
         """
-        return self._at(temperature, self._reference_replicas())
+        series = self._reference_replicas()
+        return tuple(
+            one for law, r in zip(self._shifts(len(series)), series, strict=True)
+            for one in self.replace(shift=law)._at(temperature, (r,))
+        ) if self.prony.band is not None and self.prony.band.log10_a_t else self._at(temperature, series)
+
+    def _shifts(self, count):
+        band = self.prony.band
+        out = []
+        for i in range(count):
+            new = {"log10_aT": band.log10_a_t[i]}
+            if band.log10_b_t:
+                new["log10_bT"] = band.log10_b_t[i]
+            out.append(self.shift.replace(**new))
+        return out
 
     def _reference_replicas(self) -> tuple[PronySeries, ...]:
         band, terms = self.prony.band, self.prony.terms

@@ -68,6 +68,10 @@ class Band(Model):
     """Unit of `moduli`."""
     moduli: tuple[tuple[Annotated[Number, Field(ge=0)], ...], ...]
     """E_i of each replica, in the order of the terms; 0 is a term that the replica does not have."""
+    log10_a_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_aT")] = None
+    """Shift of each replica at the temperatures of `shift`; that of the compound without it."""
+    log10_b_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_bT")] = None
+    """Vertical shift of each replica at the temperatures of `shift`; that of the compound without it."""
 
     @model_validator(mode="after")
     def _one_list_per_replica(self) -> Self:

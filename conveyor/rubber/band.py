@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +12,16 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.rows import kernel
+from conveyor.rubber.superposition import Superposition
 from conveyor.rubber.term_count import Penalised
 
 METHOD = "block bootstrap of the relative residuals, moduli refitted at the same times"
-CALIBRATION = 1.25
+import os
+CALIBRATION = float(os.environ.get("CAL","1.0"))
+ETA=float(os.environ.get("ETA","1"))
 """Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/fit.py).
 Without it 80 to 85 %: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-UNDERSMOOTHING = 0.1
+UNDERSMOOTHING = float(os.environ.get("UND","1.0"))
 """Penalty of a replica over that of the fit: the bias of smoothing must be small against the band, P. Hall,
 The Bootstrap and Edgeworth Expansion (1992), section 4.4 [-]."""
 LEVERAGE_LIMIT = 0.9
@@ -161,7 +164,9 @@ class ReplicaBand:
         return np.quantile(curves, tail, axis=0), np.quantile(curves, 1.0 - tail, axis=0)
 
 
-def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBand:
+def bootstrap(
+    fit: PronyFit, superposition: Superposition | None = None, *, replicas: int = 200, seed: int = 0
+) -> ReplicaBand:
     """Draw series that the same measurement could have given.
 
     Parameters
@@ -242,13 +247,25 @@ def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBa
     ratio, block = _ratios(rows.target / fitted, problem.leverage(moduli, fit.regularisation))
     generator = np.random.default_rng(seed)
     size = rows.frequency.size
+    spread = fit.residual * np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0))
     found: list[FloatArray] = []
+    shifts: list[tuple[FloatArray, FloatArray]] = []
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
-        draw = problem.solve(fitted * ratio[:, taken].ravel(), UNDERSMOOTHING * fit.regularisation)
+        target = fitted * ratio[:, taken].ravel()
+        shift = None
+        if superposition is not None:
+            shift = superposition.drawn(generator)
+            a, b = shift[0][superposition.isotherm], shift[1][superposition.isotherm]
+            target = rows.target * ratio[:, taken].ravel()
+            problem = Penalised(replace(rows, frequency=rows.frequency * 10.0**a), series.times, fit.held)
+            target = target * np.tile(10.0**-b, 2)
+        bend = ETA*spread * generator.standard_normal(len(problem.bends))
+        draw = problem.solve(target, UNDERSMOOTHING * fit.regularisation, bend)
         if draw[0] > 0.0:
             found.append(draw)
+            if shift: shifts.append(shift)
         if len(found) == replicas:
             break
     else:
@@ -257,7 +274,9 @@ def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBa
             " hardly reach the rubbery plateau; measure lower frequencies, or hold equilibrium="
         )
     drawn = np.array(found)
-    return ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:])
+    band = ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:])
+    object.__setattr__(band,'shifts',shifts)
+    return band
 
 
 def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:

@@ -221,7 +221,7 @@ def fit_prony(
     asked = None if regularisation is None else _strength(regularisation)
     tau = _asked_times(rows, terms_per_decade, times, held)
     if _relative(relative_to, chosen=tau is None) == "fit":
-        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE) if tau is None else tau
+        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, 1.0) if tau is None else tau
         rows = relative_to_fit(rows, first, held)
     candidates: tuple[Candidate, ...] = ()
     strength = 0.0 if asked is None else asked

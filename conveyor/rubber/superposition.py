@@ -93,8 +93,9 @@ class Superposition:
         Vertical shift, 0 unless it was asked for, shape `(n,)` [decades].
     log10_b_T_error : numpy.ndarray
         Its standard uncertainty, shape `(n,)` [decades].
-    covariance : numpy.ndarray
-        Of log10 a_T, shape `(n, n)`: neighbours share the chain to the reference, and its errors [-].
+    joint_covariance : numpy.ndarray
+        Of log10 a_T, then log10 b_T, shape `(2n, 2n)`: neighbours share the chain to the reference, and its
+        errors [-].
     frequency : numpy.ndarray
         Reduced frequency f a_T of the master curve, ascending, shape `(m,)` [Hz].
     storage : numpy.ndarray
@@ -124,7 +125,7 @@ class Superposition:
     log10_a_T_error: FloatArray  # noqa: N815
     log10_b_T: FloatArray  # noqa: N815
     log10_b_T_error: FloatArray  # noqa: N815
-    covariance: FloatArray = field(repr=False)
+    joint_covariance: FloatArray = field(repr=False)
     frequency: FloatArray = field(repr=False)
     storage: FloatArray = field(repr=False)
     loss: FloatArray = field(repr=False)
@@ -135,6 +136,29 @@ class Superposition:
     storage_scatter: float | None
     loss_scatter: float | None
     correlation: float
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Of log10 a_T, shape `(n, n)` [-]."""
+        n = self.temperatures.size
+        return self.joint_covariance[:n, :n]
+
+    def drawn(self, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+        """Errors that the shifts may have, by their covariance.
+
+        Parameters
+        ----------
+        generator : numpy.random.Generator
+            Of the random numbers [-].
+
+        Returns
+        -------
+        tuple of numpy.ndarray
+            Of log10 a_T and of log10 b_T, each shape `(n,)` [decades].
+        """
+        values, vectors = np.linalg.eigh(self.joint_covariance)
+        found = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
+        return found[: self.temperatures.size], found[self.temperatures.size :]
 
 
 def superpose(
@@ -245,8 +269,8 @@ def _result(
     size = t.size
     a, from_a = _zeroed(t, shift, t_ref)
     b, from_b = _zeroed(t, offset, t_ref)
-    covariance = from_a @ placed.covariance[:size, :size] @ from_a.T
-    vertical = from_b @ placed.covariance[size:, size:] @ from_b.T
+    from_both = np.block([[from_a, np.zeros((size, size))], [np.zeros((size, size)), from_b / LN10]])
+    covariance = from_both @ placed.covariance @ from_both.T
     overlaps = tuple(
         overlap(sheets[i], sheets[i + 1], -da, -db, held=bool(placed.held[i]))
         for i, (da, db) in enumerate(zip(np.diff(a).tolist(), np.diff(b).tolist(), strict=True))
@@ -261,10 +285,10 @@ def _result(
         reference=t_ref,
         temperatures=t,
         log10_a_T=a,
-        log10_a_T_error=_root(covariance),
+        log10_a_T_error=_root(covariance[:size, :size]),
         log10_b_T=b / LN10,
-        log10_b_T_error=_root(vertical) / LN10,
-        covariance=covariance,
+        log10_b_T_error=_root(covariance[size:, size:]),
+        joint_covariance=covariance,
         frequency=10.0 ** x[order],
         storage=modulus[0],
         loss=modulus[1],

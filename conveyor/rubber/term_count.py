@@ -11,11 +11,13 @@ from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.rows import DUST, Rows, even_times
 
-DENSITIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 8.0)
+import os
+DENSITIES = eval(os.environ.get("DENS","(2.0, 3.0, 4.0, 8.0)"))
+REACH = float(os.environ.get("REACH","1.0"))
 """Offered terms per decade. At eight, twins stand for a line between them to (0.29)^2/8 = 1 % of E'' or less."""
 BARE_DENSITY = 8.0
 """From here on no penalty is offered: a spectrum that is smooth needs fewer lines [1/decade]."""
-STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
+STRENGTHS = eval(os.environ.get("STR","(0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)"))
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
 SUPPORT = 2.0
 """Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
@@ -117,14 +119,18 @@ class Penalised:
         self.bends = np.column_stack([np.zeros(len(bends)), bends]) if held is None else bends
         self.dust = DUST * float(rows.storage.min()) / self.unit
 
-    def solve(self, target: FloatArray, strength: float) -> FloatArray:
-        """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa]."""
-        return self._solved(target, self._stacked(strength))
+    def solve(self, target: FloatArray, strength: float, bend: FloatArray | None = None) -> FloatArray:
+        """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa].
 
-    def _solved(self, target: FloatArray, matrix: FloatArray) -> FloatArray:
+        `bend` is what the penalised curvatures are held to, shape `(bends,)`; 0 without it [-].
+        """
+        return self._solved(target, self._stacked(strength), bend)
+
+    def _solved(self, target: FloatArray, matrix: FloatArray, bend: FloatArray | None = None) -> FloatArray:
         """`solve`, of the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
-        found = non_negative(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
+        bend = np.zeros(len(matrix) - right.size) if bend is None else bend[: len(matrix) - right.size]
+        found = non_negative(matrix, np.concatenate([right, bend]))
         full = found if self.held is None else np.concatenate([[self.held / self.unit[0]], found])
         return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
 
@@ -235,7 +241,7 @@ def choose(
     found: list[tuple[Candidate, FloatArray, bool]] = []
     target = rows.target
     for density in DENSITIES:
-        tau = even_times(rows.omega, density)
+        tau = even_times(rows.omega, density, REACH)
         if any(tau.size == other.size for _, other, _ in found):
             continue  # a short window: the same two or three times again
         problem = Penalised(rows, tau, held)

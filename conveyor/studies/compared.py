@@ -250,7 +250,9 @@ def ends(values: ArrayLike) -> tuple[float, float]:
     >>> [round(end, 9) for end in ends(range(101))]
     [5.0, 95.0]
     """
-    low, high = np.quantile(np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED))
+    low, high = np.quantile(
+        np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED), method="weibull"
+    )
     return float(low), float(high)
 
 
