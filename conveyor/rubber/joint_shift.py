@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.common_curve import KNOT_SPACING, MAX_KNOTS, ORDER, Basis, Curve, Smoother, basis
+from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, reach
 
 Curves = tuple[Curve, ...]
@@ -31,10 +32,6 @@ ARRIVED = 1.0e-2
 """A step this small against the standard error is the minimum [-]."""
 ROUNDING = 1.0e-9
 """A step this small is rounding [decades]."""
-HUBER = 2.5
-"""Residuals beyond this many robust standard deviations pull no harder: P. J. Huber, Robust Statistics (1981)."""
-MAD_TO_SIGMA = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation [-]."""
 SINGULAR = 1.0e-11
 """Smallest eigenvalue, over the largest, of normal equations that can be solved [-]."""
 FLOOR = 1.0e-9
@@ -59,6 +56,8 @@ class Placed:
         Standard deviation of each modulus, ln E, about its curve [-].
     correlation : float
         Of residuals of neighbouring rows, the largest [-].
+    residual : numpy.ndarray
+        ln E about its curve, shape `(moduli, m)` [-].
     """
 
     shift: FloatArray
@@ -67,6 +66,7 @@ class Placed:
     held: NDArray[np.bool_]
     scatter: tuple[float, ...]
     correlation: float
+    residual: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +140,7 @@ class JointShift:
             if not far.any():
                 return self._placed(place, covariance, state, curves)
             if turn < CHOICES:
-                weight = np.array([_huber(c.residual) for c in curves])
+                weight = np.array([trust(c.residual) for c in curves])
                 state = self._choose(place, weight, share)
         raise NoSolutionError(
             f"the shifts do not settle in {ROUNDS} rounds: the isotherms do not determine them; look for one"
@@ -230,18 +230,12 @@ class JointShift:
             held=at_limit[: n - 1],
             scatter=tuple(np.sqrt(state.variance).tolist()),
             correlation=max(_together(c.residual, self.of) for c in curves),
+            residual=np.array([c.residual for c in curves]),
         )
 
 
 def _total(curves: Curves, state: _State) -> float:
     return float(sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True)))
-
-
-def _huber(residual: FloatArray) -> FloatArray:
-    """Weights that bound the pull of a residual, from the median absolute one [-]."""
-    sigma = MAD_TO_SIGMA * float(np.median(np.abs(residual)))
-    size = np.abs(residual)
-    return np.divide(HUBER * sigma, size, out=np.ones_like(size), where=size > HUBER * sigma)
 
 
 def _together(residual: FloatArray, of: NDArray[np.intp]) -> float:

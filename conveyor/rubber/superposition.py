@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
 from conveyor.rubber.joint_shift import JointShift, Placed
+from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
 
@@ -22,6 +23,12 @@ DIFFERENCE = 1.0e-4
 """Step of a central difference: a hundredth of the smallest shift that matters [decades]."""
 MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
 """Rows of a `Sheet` that count."""
+LEAST_ISOTHERMS = 3
+"""Isotherms in which a frequency must be measured to be told from one bad row [-]."""
+STRAY = 0.5
+"""Trust below which a row stands off its curve: more than five robust standard deviations, see `trust` [-]."""
+SAME_FREQUENCY = 1.0e-4
+"""Frequencies closer than this are one setting of the instrument [decades]."""
 LN10 = float(np.log(10.0))
 
 
@@ -75,6 +82,28 @@ class Isotherm:
         object.__setattr__(self, "temperature", t)
 
 
+@dataclass(frozen=True)
+class Resonance:
+    """A frequency of the instrument whose rows stand off the common curve in most isotherms.
+
+    Parameters
+    ----------
+    frequency : float
+        As measured [Hz].
+    isotherms : int
+        In how many it stands off [-].
+    storage : float
+        Median of E' over the common curve, less one; 0 if E' did not count [-].
+    loss : float
+        The same of E'' [-].
+    """
+
+    frequency: float
+    isotherms: int
+    storage: float
+    loss: float
+
+
 @dataclass(frozen=True, eq=False)
 class Superposition:
     """A master curve and everything needed to judge it; `n` isotherms, `m` rows.
@@ -117,6 +146,8 @@ class Superposition:
     correlation : float
         Correlation of residuals of neighbouring rows, the larger of E' and E''; far above 0 where the
         isotherms differ in shape: then they do not superpose, whatever the shift [-].
+    resonances : tuple of Resonance
+        Frequencies that were left out of every isotherm; their rows are in nothing above.
     """
 
     reference: float
@@ -136,6 +167,7 @@ class Superposition:
     storage_scatter: float | None
     loss_scatter: float | None
     correlation: float
+    resonances: tuple[Resonance, ...] = ()
 
     @property
     def covariance(self) -> FloatArray:
@@ -235,9 +267,43 @@ def superpose(
     if by not in MODULI:
         raise InputError(f'by = {by!r} must be "both", "storage" or "loss"')
     moduli = MODULI[by]
+    placed = _placed(sheets, moduli, vertical=vertical)
+    resonances = _resonances(sheets, moduli, placed)
+    if resonances:
+        sheets = [_without(sheet, [one.frequency for one in resonances]) for sheet in sheets]
+        placed = _placed(sheets, moduli, vertical=vertical)
+    return replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
+
+
+def _placed(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool) -> Placed:
     joint = JointShift(sheets, moduli=moduli, vertical=vertical)
     start = [first_guess(cold, hot, moduli=moduli, vertical=vertical) for cold, hot in pairwise(sheets)]
-    return _result(sheets, t_ref, moduli, joint.minimum(np.array(start).T))
+    return joint.minimum(np.array(start).T)
+
+
+def _resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed) -> tuple[Resonance, ...]:
+    """Frequencies that the common curves do not trust in more than half of the isotherms that hold them."""
+    x = np.concatenate([sheet.x for sheet in sheets])
+    stray = np.min([trust(one) for one in placed.residual], axis=0) < STRAY
+    found = []
+    for at in np.unique(x[stray]):
+        same = np.abs(x - at) < SAME_FREQUENCY
+        if np.count_nonzero(same) < LEAST_ISOTHERMS or np.mean(stray[same]) <= 0.5:
+            continue
+        off = dict(zip(moduli, np.expm1(np.median(placed.residual[:, same & stray], axis=1)), strict=True))
+        count = int(np.count_nonzero(stray[same]))
+        found.append(Resonance(float(10.0**at), count, float(off.get(0, 0.0)), float(off.get(1, 0.0))))
+    return tuple(found)
+
+
+def _without(sheet: LogIsotherm, frequencies: list[float]) -> LogIsotherm:
+    kept = np.all(np.abs(sheet.x - np.log10(frequencies)[:, None]) >= SAME_FREQUENCY, axis=0)
+    if np.count_nonzero(kept) < LEAST_ROWS:
+        raise NoSolutionError(
+            f"the rows at {', '.join(f'{f:g} Hz' for f in frequencies)} stand off the common curve in most isotherms"
+            f" (a resonance?), and without them the one at {celsius(sheet.temperature)} has < {LEAST_ROWS} rows"
+        )
+    return LogIsotherm(sheet.temperature, sheet.x[kept], sheet.y[:, kept])
 
 
 def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[LogIsotherm], float]:
