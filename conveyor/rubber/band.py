@@ -257,6 +257,7 @@ def bootstrap(
         shift = None
         if superposition is not None:
             shift = superposition.drawn(generator)
+            if np.any(np.diff(superposition.log10_a_T + shift[0]) >= 0.0): continue
             a, b = shift[0][superposition.isotherm], shift[1][superposition.isotherm]
             target = rows.target * ratio[:, taken].ravel()
             problem = Penalised(replace(rows, frequency=rows.frequency * 10.0**a), series.times, fit.held)

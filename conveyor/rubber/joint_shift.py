@@ -30,6 +30,12 @@ LONGEST_STEP = 0.5
 """Longest move of an isotherm in one step: the slope of the curve holds about so far [decades]."""
 ARRIVED = 1.0e-2
 """A step this small against the standard error is the minimum [-]."""
+UNEVEN = 0.5
+"""Standard deviation, over their mean, of the change of the decades per kelvin from one pair of neighbours to the
+next. The law of Williams, Landel and Ferry changes them by a tenth to a fifth in 7 K; a measured slope outweighs this
+at once, a curve without slope leaves nothing else [-]."""
+LEAST_RATE = 0.005
+"""Smallest mean shift for this: an activation energy of 8 kJ/mol, below any rubber's [decades/K]."""
 ROUNDING = 1.0e-9
 """A step this small is rounding [decades]."""
 SINGULAR = 1.0e-11
@@ -77,6 +83,7 @@ class _State:
     stiffness: tuple[float, ...]
     variance: FloatArray
     weight: FloatArray
+    evenness: FloatArray
 
 
 class JointShift:
@@ -108,6 +115,8 @@ class JointShift:
         self.sums = summed if not vertical else np.kron(np.eye(2), summed)
         self.to_rows = summed[self.of]
         self.vertical = vertical
+        kelvin = np.diff([s.temperature for s in sheets])
+        self.rates = np.pad(np.diag(1.0 / kelvin), ((0, 0), (0, len(kelvin) if vertical else 0)))
         limits = np.array([reach(cold, hot) for cold, hot in pairwise(sheets)])
         free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
         self.lower, self.upper = np.vstack([limits, free]).T
@@ -155,14 +164,17 @@ class JointShift:
         best = tuple(s.best_stiffness() for s in smoothers)
         cost = np.array([s.curve(b).cost for s, b in zip(smoothers, best, strict=True)])
         freedom = np.maximum(weight.sum(axis=1) - ORDER - share, 1.0)
-        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight)
+        rates = self.rates @ place
+        uneven = np.diff(self.rates, axis=0) / (UNEVEN * max(float(np.mean(np.abs(rates))), LEAST_RATE))
+        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight, uneven.T @ uneven)
 
     def _descend(self, place: FloatArray, state: _State) -> tuple[FloatArray, FloatArray, FloatArray, Curves]:
         """Projected Gauss-Newton steps; place, covariance, parameters that each modulus pays for, curves."""
         splines, curves = self._fit(place, state)
         for _ in range(STEPS):
             parts, gradient = self._normal(splines, curves, state)
-            whole = parts.sum(axis=0)
+            whole = parts.sum(axis=0) + state.evenness
+            gradient -= state.evenness @ place
             held = ((place <= self.lower) & (gradient < 0.0)) | ((place >= self.upper) & (gradient > 0.0))
             move = np.zeros_like(place)
             free = ~held
@@ -172,11 +184,11 @@ class JointShift:
             small = np.maximum(ARRIVED * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING)
             if np.all(np.abs(move[free]) <= small):
                 break
-            before = _total(curves, state)
+            before = _total(curves, state) + place @ state.evenness @ place
             for halving in range(HALVINGS):
                 trial = np.clip(place + move / 2.0**halving, self.lower, self.upper)
                 splines, curves = self._fit(trial, state)
-                if _total(curves, state) < before:
+                if _total(curves, state) + trial @ state.evenness @ trial < before:
                     place = trial
                     break
             else:
@@ -186,7 +198,8 @@ class JointShift:
         wide = [
             _widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)
         ]
-        covariance = inverse @ np.einsum("k,kij->ij", np.array(wide), parts) @ inverse
+        told = np.einsum("k,kij->ij", np.array(wide), parts) + state.evenness
+        covariance = inverse @ told @ inverse
         share = np.array([float(np.sum(inverse * part)) for part in parts])
         return place, covariance, share, curves
 

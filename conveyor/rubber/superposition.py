@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
-from conveyor.rubber.joint_shift import JointShift, Placed
+from conveyor.rubber.joint_shift import SINGULAR, JointShift, Placed
 from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
@@ -29,6 +29,10 @@ STRAY = 0.5
 """Trust below which a row stands off its curve: more than five robust standard deviations, see `trust` [-]."""
 SAME_FREQUENCY = 1.0e-4
 """Frequencies closer than this are one setting of the instrument [decades]."""
+LEAST_VERTICAL = 0.004
+"""Range of log10 b_T below which a vertical shift changes no modulus by 1 % [decades]."""
+ONE_IN_A_THOUSAND = 3.09
+"""Quantile of the normal distribution [-]."""
 LN10 = float(np.log(10.0))
 
 
@@ -148,6 +152,9 @@ class Superposition:
         isotherms differ in shape: then they do not superpose, whatever the shift [-].
     resonances : tuple of Resonance
         Frequencies that were left out of every isotherm; their rows are in nothing above.
+    with_vertical : Superposition or None
+        With vertical shifts, where none were asked for and the isotherms need them: beyond chance, and
+        by one per cent and more. The errors above then hold the difference to it.
     """
 
     reference: float
@@ -168,6 +175,7 @@ class Superposition:
     loss_scatter: float | None
     correlation: float
     resonances: tuple[Resonance, ...] = ()
+    with_vertical: Superposition | None = field(default=None, repr=False)
 
     @property
     def covariance(self) -> FloatArray:
@@ -272,7 +280,36 @@ def superpose(
     if resonances:
         sheets = [_without(sheet, [one.frequency for one in resonances]) for sheet in sheets]
         placed = _placed(sheets, moduli, vertical=vertical)
-    return replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
+    found = replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
+    return found if vertical else _doubted(found, sheets, moduli)
+
+
+def _doubted(found: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...]) -> Superposition:
+    """With the vertical shift in the uncertainty where the isotherms ask for one: as an error of that size."""
+    try:
+        other = _result(sheets, found.reference, moduli, _placed(sheets, moduli, vertical=True))
+    except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
+        return found
+    n = found.temperatures.size
+    inverse = np.linalg.pinv(other.joint_covariance[n:, n:], rcond=SINGULAR, hermitian=True)
+    chi2 = float(other.log10_b_T @ inverse @ other.log10_b_T)
+    if np.ptp(other.log10_b_T) < LEAST_VERTICAL or chi2 < _chi2_limit(n - 1):
+        return found
+    apart = np.concatenate([other.log10_a_T - found.log10_a_T, other.log10_b_T])
+    covariance = found.joint_covariance + np.outer(apart, apart)
+    return replace(
+        found,
+        joint_covariance=covariance,
+        log10_a_T_error=_root(covariance[:n, :n]),
+        log10_b_T_error=_root(covariance[n:, n:]),
+        with_vertical=other,
+    )
+
+
+def _chi2_limit(freedom: int) -> float:
+    """Chi squared that chance passes once in a thousand: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
+    step = 2.0 / (9.0 * freedom)
+    return float(freedom * (1.0 - step + ONE_IN_A_THOUSAND * np.sqrt(step)) ** 3)
 
 
 def _placed(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool) -> Placed:

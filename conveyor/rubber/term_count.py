@@ -12,7 +12,7 @@ from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.rows import DUST, Rows, even_times
 
 import os
-DENSITIES = eval(os.environ.get("DENS","(2.0, 3.0, 4.0, 8.0)"))
+DENSITIES = eval(os.environ.get("DENS","(2.0, 3.0, 4.0, 8.0, 16.0)"))
 REACH = float(os.environ.get("REACH","1.0"))
 """Offered terms per decade. At eight, twins stand for a line between them to (0.29)^2/8 = 1 % of E'' or less."""
 BARE_DENSITY = 8.0
