@@ -161,11 +161,20 @@ class Penalised:
 
 
 def _smoothed_loss(rows: Rows, tau: FloatArray) -> FloatArray:
-    """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa]."""
-    distance = (np.log(rows.omega) + np.log(tau)[:, None]) / SMOOTHING
-    nearest = np.min(np.abs(distance), axis=1, keepdims=True)
-    weights = np.exp(0.5 * (nearest**2 - distance**2))
-    return np.asarray(np.exp(weights @ np.log(rows.loss) / weights.sum(axis=1)))
+    """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa].
+
+    Beyond the window a power law goes on, of the slope at its end: between 0 and 1 on the slow side, where a loss that
+    grew would eat the equilibrium modulus, between -1 and 1 on the fast one.
+    """
+    x, y = np.log(rows.omega), np.log(rows.loss)
+    at = -np.log(tau)
+    inside = np.clip(at, x[0], x[-1])
+    weights = np.exp(-0.5 * ((x - inside[:, None]) / SMOOTHING) ** 2) * rows.trust[x.size :]
+    weights /= weights.sum(axis=1, keepdims=True)
+    away = x - (weights @ x)[:, None]
+    slope = np.sum(weights * away * y, axis=1) / np.sum(weights * away**2, axis=1)
+    slope = np.clip(slope, np.where(at < inside, 0.0, -1.0), 1.0)
+    return np.asarray(np.exp(weights @ y + slope * (at - inside)))
 
 
 def _second_derivative(u: FloatArray) -> FloatArray:
