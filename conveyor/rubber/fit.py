@@ -22,12 +22,13 @@ from conveyor.rubber.rows import (
     plain,
     relative_to_fit,
 )
-from conveyor.rubber.term_count import Candidate, Penalised, choose
+from conveyor.rubber.term_count import REACH, Candidate, Penalised, choose
 
 __all__ = ["Misfit", "PronyFit", "fit_prony"]
 
 REFERENCE_TERMS_PER_DECADE = 2.0
-"""Times of the fit that errors are relative to: dense enough for any spectrum to a few per cent."""
+"""Times of the fit that errors are relative to: dense enough for any spectrum to a few per cent, less than what makes
+an outlier of a row, `misfit.LEAST_SCATTER` times eight."""
 FLOOR_TERMS_PER_DECADE = 10.0
 """Spectrum lines of the consistency test. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-18."""
 FLOOR_EXTRA_DECADES = 3.0
@@ -221,7 +222,7 @@ def fit_prony(
     asked = None if regularisation is None else _strength(regularisation)
     tau = _asked_times(rows, terms_per_decade, times, held)
     if _relative(relative_to, chosen=tau is None) == "fit":
-        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, 1.0) if tau is None else tau
+        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH) if tau is None else tau
         rows = relative_to_fit(rows, first, held)
     candidates: tuple[Candidate, ...] = ()
     strength = 0.0 if asked is None else asked
@@ -321,7 +322,7 @@ def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike)
         If no term is active.
     """
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
-    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE), None))
+    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None))
 
 
 def _floor(rows: Rows) -> float:

@@ -11,13 +11,17 @@ from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.rows import DUST, Rows, even_times
 
-import os
-DENSITIES = eval(os.environ.get("DENS","(2.0, 3.0, 4.0, 8.0, 16.0)"))
-REACH = float(os.environ.get("REACH","1.0"))
-"""Offered terms per decade. At eight, twins stand for a line between them to (0.29)^2/8 = 1 % of E'' or less."""
+DENSITIES = (2.0, 3.0, 4.0, 8.0)
+"""Offered terms per decade. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d), 0.08 % at two; twins stand for a line
+between them to d^2/8, 1 % of E'' at eight, and are set closer where that shows."""
+REACH = 1.0
+"""Reach of the times beyond both ends of the window. A line a decade outside stands for all farther ones: they are
+a constant and a loss ~ 1/omega on the slow side, a loss ~ omega on the fast one, to 1 % [decades]."""
+HALVINGS = 4
+"""Halvings of the spacing about the lines of a spectrum of few: 0.018 in ln(time), (0.018)^2/8 = 4e-5."""
 BARE_DENSITY = 8.0
 """From here on no penalty is offered: a spectrum that is smooth needs fewer lines [1/decade]."""
-STRENGTHS = eval(os.environ.get("STR","(0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)"))
+STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
 SUPPORT = 2.0
 """Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
@@ -247,29 +251,57 @@ def choose(
     among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
     (fluids) count only if no other has that support.
     """
-    found: list[tuple[Candidate, FloatArray, bool]] = []
-    target = rows.target
+    found: list[_Offer] = []
     for density in DENSITIES:
         tau = even_times(rows.omega, density, REACH)
-        if any(tau.size == other.size for _, other, _ in found):
-            continue  # a short window: the same two or three times again
         problem = Penalised(rows, tau, held)
-        for strength in strengths if tau.size > 2 and density < BARE_DENSITY else strengths[:1]:
-            one = problem.judged(target, strength)
-            terms = int(np.count_nonzero(one.moduli[1:]))
-            if target.size - one.freedom - 2.0 <= 0.0 or terms == 0:
-                continue
-            score = aicc(target.size, one.freedom, one.residual)
-            line = Candidate(density, strength, terms, one.freedom, one.residual, score)
-            found.append((line, tau, bool(one.moduli[0] > 0.0)))
+        for strength in strengths if density < BARE_DENSITY else strengths[:1]:
+            found += _offer(rows, problem, density, strength)
+    if found and found[-1][0].regularisation == 0.0:
+        found += _closer(rows, held, found[-1])
     if not found:
         raise InputError(
             f"{target.size // 2} rows are too few to choose the number of terms: measure more frequencies,"
             " or give terms_per_decade= or times="
         )
-    best = min(line.score for line, _, _ in found)
+    best = min(one[0].score for one in found)
     supported = [c for c in found if c[0].score <= best + SUPPORT]
-    solid = [c for c in supported if c[2]]
+    solid = [c for c in supported if c[2][0] > 0.0]
     chosen = min(solid or supported, key=lambda c: (c[0].terms, c[0].freedom))
     others = sorted((c[0] for c in found if c is not chosen), key=lambda line: line.score)
     return chosen[1], chosen[0].regularisation, (chosen[0], *others)
+
+
+_Offer = tuple[Candidate, FloatArray, FloatArray]
+"""A candidate, its times [s], and its moduli, equilibrium first [Pa]."""
+
+
+def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> list[_Offer]:
+    """One candidate, or none where the criterion does not exist."""
+    target = rows.target
+    one = problem.judged(target, strength)
+    terms = int(np.count_nonzero(one.moduli[1:]))
+    if target.size - one.freedom - 2.0 <= 0.0 or terms == 0:
+        return []
+    score = aicc(target.size, one.freedom, one.residual)
+    return [(Candidate(density, strength, terms, one.freedom, one.residual, score), problem.tau, one.moduli)]
+
+
+def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
+    """Candidates of halved spacing about the lines of a spectrum of few, as long as each is better."""
+    found: list[_Offer] = []
+    for _ in range(HALVINGS):
+        line, tau, moduli = last
+        if 2 * line.terms > tau.size:
+            break  # no lines, a spectrum
+        near = np.convolve(moduli[1:] > 0.0, np.ones(3), "same") > 0.0
+        u = np.log(tau[near])
+        step = np.log(10.0) / line.terms_per_decade
+        between = 0.5 * (u[1:] + u[:-1])[np.diff(u) < 1.5 * step]
+        problem = Penalised(rows, np.exp(np.sort(np.concatenate([u, between]))), held)
+        closer = _offer(rows, problem, 2.0 * line.terms_per_decade, 0.0)
+        if not closer or closer[0][0].score > line.score - SUPPORT:
+            break
+        last = closer[0]
+        found.append(last)
+    return found
