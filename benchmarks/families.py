@@ -195,7 +195,9 @@ def main() -> None:
     parser.add_argument("--vertical", action="store_true")
     parser.add_argument("--replicas", type=int, default=20)
     asked = parser.parse_args()
-    print(f"{'family':22s}  noise  E'%   E''%  worst  shift   z_a  z_b  fric%  | cover E'  E''  fric  half  terms s fail")
+    print(
+        f"{'family':22s}  noise  E'%   E''%  worst  shift   z_a  z_b  fric%  | cover E'  E''  fric  half  terms s fail"
+    )
     for name in asked.family:
         for noise in asked.noise:
             found, failures = [], []

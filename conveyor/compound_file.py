@@ -41,7 +41,7 @@ from conveyor.units.sentences import ZERO_CELSIUS, celsius
 Array = NDArray[np.float64]
 
 REPLICAS = 20
-"""Of the bootstrap in a compound file: quantiles at a twentieth are its outermost ones."""
+"""Of the bootstrap in a compound file: nineteen of twenty leave nine tenths between the outermost ones."""
 _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
 _UNKNOWN = "not stated"
@@ -374,16 +374,16 @@ def _six(value: float) -> float:
 
 def _band(fit: PronyFit, superposition: Superposition | None, replicas: int) -> dict[str, Any]:
     band = bootstrap(fit, superposition, replicas=replicas)
-    described = {
+    described: dict[str, Any] = {
         "method": METHOD,
         "equilibrium": [_mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
         "unit": "MPa",
         "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
     }
-    if superposition is not None:
-        described["log10_aT"] = [[_six(y) for y in superposition.log10_a_T + a] for a, _ in band.shifts]
-        if np.any(superposition.log10_b_T_error):
-            described["log10_bT"] = [[_six(y) for y in superposition.log10_b_T + b] for _, b in band.shifts]
+    shifts = {"log10_aT": band.log10_a_T, "log10_bT": band.log10_b_T}
+    described |= {
+        key: [[_six(y) for y in row] for row in rows] for key, rows in shifts.items() if rows is not None
+    }
     return described
 
 

@@ -75,9 +75,19 @@ class Band(Model):
 
     @model_validator(mode="after")
     def _one_list_per_replica(self) -> Self:
-        if len(self.moduli) != len(self.equilibrium):
-            message = f"got {len(self.moduli)} lists for {len(self.equilibrium)} values of equilibrium"
-            refuse("Band", [Problem(("moduli",), f"{message}, one list per replica is needed")])
+        lists = {"moduli": self.moduli, "log10_aT": self.log10_a_t, "log10_bT": self.log10_b_t}
+        refuse(
+            "Band",
+            [
+                Problem(
+                    (name,),
+                    f"got {len(rows)} lists for {len(self.equilibrium)} values of equilibrium, one list per replica is"
+                    " needed",
+                )
+                for name, rows in lists.items()
+                if rows is not None and len(rows) != len(self.equilibrium)
+            ],
+        )
         return self
 
     def series(self, times: Sequence[float]) -> tuple[PronySeries, ...]:

@@ -15,15 +15,10 @@ from conveyor.rubber.rows import kernel
 from conveyor.rubber.superposition import Superposition
 from conveyor.rubber.term_count import Penalised
 
-METHOD = "block bootstrap of the relative residuals, moduli refitted at the same times"
-import os
-CALIBRATION = float(os.environ.get("CAL","1.15"))
-ETA=float(os.environ.get("ETA","1"))
-"""Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/fit.py).
-Without it 80 to 85 %: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-UNDERSMOOTHING = float(os.environ.get("UND","1.0"))
-"""Penalty of a replica over that of the fit: the bias of smoothing must be small against the band, P. Hall,
-The Bootstrap and Edgeworth Expansion (1992), section 4.4 [-]."""
+METHOD = "block bootstrap of the relative residuals, penalty and shifts drawn too, moduli refitted at the same times"
+CALIBRATION = 1.2
+"""Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/families.py).
+Without it 77 to 93 %: times, penalty and weights, chosen from the same data, stay fixed in the replicas [-]."""
 LEVERAGE_LIMIT = 0.9
 """Largest leverage a residual is freed of: beyond, it is rounding divided by rounding [-]."""
 DRAWS_PER_REPLICA = 20
@@ -42,8 +37,10 @@ class ReplicaBand:
         Equilibrium modulus of each replica, shape `(replicas,)`, > 0 [Pa].
     moduli : numpy.ndarray
         Moduli of each replica, shape `(replicas, n)`, >= 0 [Pa].
-    method : str
-        How they were drawn [-].
+    log10_a_T : numpy.ndarray, optional
+        Shift of each replica at the temperatures of the isotherms, shape `(replicas, t)` [decades].
+    log10_b_T : numpy.ndarray, optional
+        Its vertical shift, likewise [decades].
 
     Raises
     ------
@@ -60,7 +57,8 @@ class ReplicaBand:
     times: FloatArray
     equilibrium: FloatArray
     moduli: FloatArray
-    method: str = METHOD
+    log10_a_T: FloatArray | None = None  # noqa: N815
+    log10_b_T: FloatArray | None = None  # noqa: N815
 
     def __post_init__(self) -> None:
         """Check, copy, freeze."""
@@ -174,6 +172,8 @@ def bootstrap(
     ----------
     fit : PronyFit
         The fit; its times, penalty and weights are kept.
+    superposition : Superposition, optional
+        What the fitted rows were shifted by; without it the rows count as measured at one temperature.
     replicas : int
         Number of series, >= 1 [-].
     seed : int
@@ -182,50 +182,48 @@ def bootstrap(
     Returns
     -------
     ReplicaBand
-        The replicas at the times of `fit.series`.
+        The replicas at the times of `fit.series`, with the shifts that each of them goes with.
 
     Raises
     ------
     InputError
-        If `replicas` is below 1.
+        If `replicas` is below 1, or the superposition has other rows than the fit.
     NoSolutionError
-        If the data hardly ever give an equilibrium modulus.
+        If the data hardly ever give an equilibrium modulus, or shifts that fall with temperature.
 
     Notes
     -----
-    The data of a replica are the fit times ratios data/fit, drawn with their neighbours in circular blocks,
+    The data of a replica are the rows times ratios data/fit, drawn with their neighbours in circular blocks,
     E' and E'' of one frequency together. In logarithms the ratios are freed of their leverage h, by
     1/sqrt(1 - L h), and widened by `CALIBRATION`; their mean is brought to 1. A block has
     L = (1 + c)/(1 - c) rows, the time constant of a first-order process whose neighbours correlate by c;
-    L = 1 where c cannot be told from noise.
+    L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
-    Coverage of the truth by the 90 % band, mean over the window of 13 decades and 84 rows, 40 data sets each
-    of four kinds of spectrum (benchmarks/fit.py), E' / E'':
+    The penalty on the curvature is a prior, and each curvature is held to a draw of it: what the data do not
+    tell, within gaps and beyond the window, scatters as much as the spectrum does where they tell it. Such bands of
+    a penalised curve hold the truth, its bias included, as often as they say on the mean over the window.
 
-    ======================================================  ============  ============
-    noise                                                   E'            E''
-    ======================================================  ============  ============
-    1 % and 1 %                                             92 to 95 %    88 to 96 %
-    2 % and 5 %                                             91 to 93 %    89 to 93 %
-    5 % and 28 %                                            86 to 91 %    85 to 86 %
-    3 % and 3 %, neighbours correlated by 0.7               82 to 86 %    86 to 90 %
-    ======================================================  ============  ============
+    Of isotherms, each replica first draws the shifts from their covariance, vertical ones too where they were
+    fitted or are missing, and lays the rows out anew. It keeps these shifts: at another temperature most of
+    an error of the shift takes back what it did to the curve.
 
-    At its worst frequency it is 57 to 83 %: at the ends of the window, and in valleys of E'' between
-    lines of a spectrum that IS discrete.
+    Coverage of the truth by the 90 % band: see docs/rubber.md, and benchmarks/families.py. At its worst frequency
+    it is 50 to 75 %: at the ends of the window, and in valleys of E'' between lines of a spectrum that IS discrete.
 
-    Draws whose best equilibrium modulus is 0 are drawn again: a cover is a solid.
+    Draws whose best equilibrium modulus is 0 are drawn again: a cover is a solid. So are shifts that rise with
+    temperature.
 
-    The band holds errors of the data as they scatter about THIS kind of fit. It does not hold what every
-    row has in common (a wrong strain, temperature or vertical shift), errors of the time-temperature shift, or the
-    curve outside the measured window. Where E' and E'' contradict each other the residuals are no
-    noise: the band then says how far the compromise could move, not where the truth is.
+    The band does not hold what every row has in common (a wrong strain or thermometer). Where E' and E''
+    contradict each other the residuals are no noise: the band then says how far the compromise could move, not
+    where the truth is.
 
     References
     ----------
     D. N. Politis, J. P. Romano, A circular block-resampling procedure for stationary data, in: Exploring the
     Limits of Bootstrap (1992) 263-270.
     J. G. MacKinnon, H. White, J. Econometrics 29 (1985) 305-325 (leverage, HC2).
+    G. Wahba, J. R. Stat. Soc. B 45 (1983) 133-150; D. Nychka, J. Am. Stat. Assoc. 83 (1988) 1134-1143 (bands of
+    a penalised curve, from its prior).
 
     Examples
     --------
@@ -242,42 +240,53 @@ def bootstrap(
     if replicas < 1:
         raise InputError(f"replicas = {replicas} must be >= 1")
     series, rows = fit.series, fit.rows
+    if superposition is not None and superposition.frequency.size != rows.frequency.size:
+        raise InputError(
+            f"the superposition has {superposition.frequency.size} rows, the fit {rows.frequency.size}: fit its"
+            " master curve"
+        )
     problem = Penalised(rows, series.times, fit.held)
     moduli = np.concatenate([[series.equilibrium], series.moduli])
     fitted = rows.matrix(series.times) @ moduli
-    ratio, block = _ratios(rows.target / fitted, problem.leverage(moduli, fit.regularisation))
-    generator = np.random.default_rng(seed)
+    ratio, block = _ratios(
+        1.0 + (rows.target / fitted - 1.0) * rows.trust, problem.leverage(moduli, fit.regularisation)
+    )
     size = rows.frequency.size
-    spread = fit.residual * np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0))
+    spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
+    generator = np.random.default_rng(seed)
     found: list[FloatArray] = []
-    shifts: list[tuple[FloatArray, FloatArray]] = []
+    shifts: list[FloatArray] = []
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
         target = rows.target * ratio[:, taken].ravel()
-        shift = None
         if superposition is not None:
             shift = superposition.drawn(generator)
-            if np.any(np.diff(superposition.log10_a_T + shift[0]) >= 0.0): continue
-            a, b = shift[0][superposition.isotherm], shift[1][superposition.isotherm]
-            problem = Penalised(replace(rows, frequency=rows.frequency * 10.0**a), series.times, fit.held)
-            target = target * np.tile(10.0**-b, 2)
-        bend = CALIBRATION*spread * generator.standard_normal(len(problem.bends))
-        draw = problem.solve(target, UNDERSMOOTHING * fit.regularisation, bend)
+            if np.any(np.diff(shift[0]) >= 0.0):
+                continue
+            moved = (shift - superposition.shifts)[:, superposition.isotherm]
+            problem = Penalised(
+                replace(rows, frequency=rows.frequency * 10.0 ** moved[0]), series.times, fit.held
+            )
+            target = target * np.tile(10.0 ** -moved[1], 2)
+        bends = spread * generator.standard_normal(len(problem.bends))
+        draw = problem.solve(target, fit.regularisation, bends)
         if draw[0] > 0.0:
             found.append(draw)
-            if shift: shifts.append(shift)
+            shifts += [] if superposition is None else [shift]
         if len(found) == replicas:
             break
     else:
         raise NoSolutionError(
-            f"only {len(found)} of {DRAWS_PER_REPLICA * replicas} draws have an equilibrium modulus: the data"
-            " hardly reach the rubbery plateau; measure lower frequencies, or hold equilibrium="
+            f"only {len(found)} of {DRAWS_PER_REPLICA * replicas} draws are a solid whose shifts fall with temperature:"
+            " the data hardly reach the rubbery plateau, or hardly tell the shifts; measure lower frequencies, or hold"
+            " equilibrium="
         )
-    drawn = np.array(found)
-    band = ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:])
-    object.__setattr__(band,'shifts',shifts)
-    return band
+    drawn, law = np.array(found), np.array(shifts)
+    if superposition is None:
+        return ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:])
+    vertical = law[:, 1] if np.any(superposition.log10_b_T_error) else None
+    return ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:], law[:, 0], vertical)
 
 
 def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:

@@ -103,6 +103,14 @@ class PronyFit:
         """Number of terms the fit kept [-]."""
         return int(self.series.times.size)
 
+    @property
+    def errors(self) -> FloatArray:
+        """Relative errors of E', then of E'', series over data minus one, shape `(2, n)` [-]."""
+        rows, omega = self.rows, self.rows.omega
+        return (
+            np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0
+        )
+
     def _repr_html_(self) -> str:
         """For notebooks: the series, and how far it is from the data."""
         from conveyor.markup import Html, joined, listing

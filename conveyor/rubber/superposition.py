@@ -183,8 +183,13 @@ class Superposition:
         n = self.temperatures.size
         return self.joint_covariance[:n, :n]
 
-    def drawn(self, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
-        """Errors that the shifts may have, by their covariance.
+    @property
+    def shifts(self) -> FloatArray:
+        """log10 a_T, then log10 b_T, shape `(2, n)` [decades]."""
+        return np.array([self.log10_a_T, self.log10_b_T])
+
+    def drawn(self, generator: np.random.Generator) -> FloatArray:
+        """Shifts that the isotherms allow as well, by their covariance.
 
         Parameters
         ----------
@@ -193,12 +198,15 @@ class Superposition:
 
         Returns
         -------
-        tuple of numpy.ndarray
-            Of log10 a_T and of log10 b_T, each shape `(n,)` [decades].
+        numpy.ndarray
+            log10 a_T, then log10 b_T, shape `(2, n)` [decades].
         """
+        from scipy.interpolate import PchipInterpolator
+
         values, vectors = np.linalg.eigh(self.joint_covariance)
-        found = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
-        return found[: self.temperatures.size], found[self.temperatures.size :]
+        error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
+        found = self.shifts + error.reshape(2, -1)
+        return found - PchipInterpolator(self.temperatures, found, axis=1)(self.reference)[:, None]
 
 
 def superpose(
