@@ -156,6 +156,35 @@ class JointShift:
             " that is flat or of another shape, and leave it out"
         )
 
+    def score(self, place: FloatArray, residual: FloatArray) -> float:
+        """Rao's score of a place: how far the cost would fall from it, were it the parabola it looks like.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            Unknowns, shape `(n - 1,)` or `(2n - 2,)`.
+        residual : numpy.ndarray
+            ln E about its curve there, shape `(moduli, m)` [-].
+
+        Returns
+        -------
+        float
+            Chi squared, of as many degrees of freedom as unknowns that are not at their minimum [-].
+
+        Raises
+        ------
+        NoSolutionError
+            If the data do not determine the unknowns.
+
+        References
+        ----------
+        C. R. Rao, Proc. Camb. Phil. Soc. 44 (1948) 50-57.
+        """
+        state = self._choose(place, np.array([trust(one) for one in residual]), np.zeros(len(self.y)))
+        parts, gradient = self._normal(*self._fit(place, state), state)
+        down = gradient - state.evenness @ place
+        return float(down @ _inverse(parts.sum(axis=0) + state.evenness) @ down)
+
     def _choose(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _State:
         x, y = self._moved(place)
         spacing = max(KNOT_SPACING, float(np.ptp(x)) / MAX_KNOTS)

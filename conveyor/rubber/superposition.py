@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
-from conveyor.rubber.joint_shift import SINGULAR, JointShift, Placed
+from conveyor.rubber.joint_shift import JointShift, Placed
 from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
@@ -206,7 +206,8 @@ class Superposition:
         values, vectors = np.linalg.eigh(self.joint_covariance)
         error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
         found = self.shifts + error.reshape(2, -1)
-        return found - PchipInterpolator(self.temperatures, found, axis=1)(self.reference)[:, None]
+        level = PchipInterpolator(self.temperatures, found, axis=1)(self.reference)
+        return np.asarray(found - level[:, None])
 
 
 def superpose(
@@ -289,21 +290,27 @@ def superpose(
         sheets = [_without(sheet, [one.frequency for one in resonances]) for sheet in sheets]
         placed = _placed(sheets, moduli, vertical=vertical)
     found = replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
-    return found if vertical else _doubted(found, sheets, moduli)
+    return found if vertical else _doubted(found, sheets, moduli, placed)
 
 
-def _doubted(found: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...]) -> Superposition:
+def _doubted(
+    found: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed
+) -> Superposition:
     """With the vertical shift in the uncertainty where the isotherms ask for one: as an error of that size."""
+    steps = -np.diff(placed.shift)
     try:
+        score = JointShift(sheets, moduli=moduli, vertical=True).score(
+            np.concatenate([steps, np.zeros_like(steps)]), placed.residual
+        )
+        if score < _chi2_limit(steps.size):
+            return found
         other = _result(sheets, found.reference, moduli, _placed(sheets, moduli, vertical=True))
     except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
         return found
-    n = found.temperatures.size
-    inverse = np.linalg.pinv(other.joint_covariance[n:, n:], rcond=SINGULAR, hermitian=True)
-    chi2 = float(other.log10_b_T @ inverse @ other.log10_b_T)
-    if np.ptp(other.log10_b_T) < LEAST_VERTICAL or chi2 < _chi2_limit(n - 1):
+    if np.ptp(other.log10_b_T) < LEAST_VERTICAL:
         return found
-    apart = np.concatenate([other.log10_a_T - found.log10_a_T, other.log10_b_T])
+    n = found.temperatures.size
+    apart = (other.shifts - found.shifts).ravel()
     covariance = found.joint_covariance + np.outer(apart, apart)
     return replace(
         found,

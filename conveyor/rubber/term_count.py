@@ -261,7 +261,7 @@ def choose(
         found += _closer(rows, held, found[-1])
     if not found:
         raise InputError(
-            f"{target.size // 2} rows are too few to choose the number of terms: measure more frequencies,"
+            f"{rows.frequency.size} rows are too few to choose the number of terms: measure more frequencies,"
             " or give terms_per_decade= or times="
         )
     best = min(one[0].score for one in found)
