@@ -57,8 +57,8 @@ def _shift(found: Fitted) -> Iterator[str]:
     )
     for one in shifted.resonances:
         yield (
-            f"  {one.frequency:.4g} Hz is left out of all isotherms: {one.isotherms} of them stand off the common curve "
-            f"there, E' by {one.storage:+.0%}, E'' by {one.loss:+.0%}: a resonance of the instrument?"
+            f"  {one.frequency:.4g} Hz is left out of all isotherms: {one.isotherms} of them stand off the common curve"
+            f" there, E' by {one.storage:+.0%}, E'' by {one.loss:+.0%}: a resonance of the instrument?"
         )
     other = shifted.with_vertical
     if other is not None:
@@ -72,8 +72,8 @@ def _shift(found: Fitted) -> Iterator[str]:
         ]
         vertical = 10.0 ** float(np.max(np.abs(other.log10_b_T))) - 1.0
         yield (
-            f"  a vertical shift of up to {vertical:.0%} would bring them closer, the scatter from {' and '.join(beside)}: "
-            "try --vertical. Until then the errors above, and the band, hold what it would change"
+            f"  a vertical shift of up to {vertical:.0%} would bring them closer, the scatter from "
+            f"{' and '.join(beside)}: try --vertical. The errors above, and the band, hold what it would change"
         )
     if other is None and shifted.correlation > _SHAPE_CORRELATION:
         yield (
@@ -118,8 +118,8 @@ def _outliers(fit: PronyFit) -> Iterator[str]:
         if stray.size:
             rows = ", ".join(f"{f[k]:.3g} Hz ({-misfit[k]:+.0%})" for k in stray[:_STRAYS])
             more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
-            yield f"  {name} of {stray.size} rows stands off by more than five times what the others scatter: {rows}{more};"
-            yield "    resonances, bad contact? They hardly pull the fit, and count in its errors"
+            yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more};"
+            yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 
 def _criterion(found: Fitted) -> Iterator[str]:

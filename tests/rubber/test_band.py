@@ -90,8 +90,9 @@ def test_series_are_the_replicas() -> None:
     for name in ("storage", "loss", "tan_delta"):
         low, high = getattr(band, name)([10.0, 1e3], level=0.5)
         both = np.array([getattr(s, name)([10.0, 1e3]) for s in (one, two)])
-        np.testing.assert_allclose(low, np.quantile(both, 0.25, axis=0), rtol=1e-12)
-        np.testing.assert_allclose(high, np.quantile(both, 0.75, axis=0), rtol=1e-12)
+        # a third draw lies between two with a chance of a third: the half between their outermost ones
+        np.testing.assert_allclose(low, both.min(axis=0), rtol=1e-12)
+        np.testing.assert_allclose(high, both.max(axis=0), rtol=1e-12)
 
 
 def test_draws_that_are_fluids_are_refused_or_drawn_again() -> None:

@@ -121,7 +121,7 @@ def test_held_equilibrium_allows_slow_times() -> None:
 
 def test_exact_data_are_their_own_fit_with_the_plateau_held() -> None:
     f, e1, e2 = data(TRUTH, FREQUENCY)
-    rows = Rows(f, e1, e2, np.concatenate([e1, e2]))
+    rows = Rows(f, e1, e2, np.concatenate([e1, e2]), np.ones(2 * f.size))
     found = relative_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
     np.testing.assert_allclose(found.scale, rows.scale, rtol=1e-9)
 
