@@ -186,8 +186,8 @@ def share(values: list[np.ndarray], truth: np.ndarray) -> float:
     return float(np.mean(inside))
 
 
-def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[Judged, Judged]:
-    """Ours, and plain NNLS."""
+def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[Judged, Judged | None]:
+    """Ours, and plain NNLS; None where that gives up or finds a fluid."""
     with tempfile.TemporaryDirectory() as folder:
         data = Path(folder) / "rubber.csv"
         data.write_text(
@@ -215,9 +215,11 @@ def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[
         terms=found.fit.active_terms,
         seconds=seconds,
     )
-    plain = nnls_series(2.0 * np.pi * found.frequency, found.storage, found.loss)
-    shift = found.superposition
-    a, b = (np.interp(WARM, shift.temperatures, row) for row in shift.shifts)
+    try:
+        plain = nnls_series(2.0 * np.pi * found.frequency, found.storage, found.loss)
+    except (RuntimeError, ConveyorError):
+        return ours, None
+    a, b = (np.interp(WARM, shifts.temperatures, row) for row in shifts.shifts)
     return ours, Judged(**errors(rubber, plain, plain.scaled(a_T=10.0**a, b_T=10.0**b), omega))
 
 
@@ -263,20 +265,20 @@ def columns(found: list[Judged]) -> list[float]:
 
 
 def printed(
-    label: str, groups: tuple[list[Judged], list[Judged]], failed: int, other: dict[str, str]
+    label: str, found: list[tuple[Judged, Judged | None]], failed: int, other: dict[str, str]
 ) -> None:
-    ours, plain = groups
+    ours, plain = [one for one, _ in found], [one for _, one in found if one is not None]
     e1, e2, shift, mu, worst = columns(ours)
     cover = [
         100.0 * float(np.mean([getattr(o, f"{k}_inside") for o in ours]))
         for k in ("storage", "loss", "friction")
     ]
     z = [rms(np.array([getattr(one, f"{k}_z") for one in ours])) for k in ("shift", "vertical")]
-    n1, n2, _, nmu, nworst = columns(plain)
+    n1, n2, _, nmu, nworst = columns(plain) if plain else [np.nan] * 5
     print(
         f"{label:26s} {e1:5.2f} {e2:5.2f} {shift:6.4f} {mu:5.2f} {worst:5.1f} | {cover[0]:3.0f} {cover[1]:3.0f}"
-        f" {cover[2]:4.0f} | {z[0]:4.1f} {z[1]:4.1f} | {failed:2d} | {n1:5.2f} {n2:5.2f} {nmu:5.2f} {nworst:5.1f} | "
-        + " ".join(other.values()),
+        f" {cover[2]:4.0f} | {z[0]:4.1f} {z[1]:4.1f} | {failed:2d} | {n1:5.2f} {n2:5.2f} {nmu:5.2f} {nworst:5.1f}"
+        f" {len(ours) - len(plain):2d} | " + " ".join(other.values()),
         flush=True,
     )
 
@@ -308,6 +310,36 @@ def judge_peer(path: Path) -> None:
         print(",".join([name, *figures, f"{failed} of {failed + len(found)}"]))
 
 
+def compare(names: list[str], noises: list[float], seeds: int) -> None:
+    with PEER.open() as stream:
+        peers = {row.pop("family"): row for row in csv.DictReader(line for line in stream if line[0] != "#")}
+    print(
+        f"{'family':26s} E'%   E''%  shift  mu%  worst | inside E' E'' mu | z_a z_b | failed"
+        " | NNLS E'% E''% mu% worst failed | pyvisco E'% E''% shift mu% worst failed"
+    )
+    every: dict[bool, list[tuple[Judged, Judged | None]]] = {False: [], True: []}
+    failures: dict[bool, list[str]] = {False: [], True: []}
+    for name, vertical in [(n, v) for n in names for v in ((True, False) if n in VERTICAL else (False,))]:
+        found, failed = [], []
+        for noise, seed in [(x, k) for x in noises for k in range(seeds if x else 1)]:
+            try:
+                found.append(judged(FAMILIES[name], noise, seed, vertical=vertical))
+            except ConveyorError as error:
+                failed.append(f"{name}, {noise:g}, seed {seed}: {error}")
+        label = name + (", --vertical" if vertical else ", advice not taken" if name in VERTICAL else "")
+        printed(label, found, len(failed), peers.get(name, {}))
+        if name not in VERTICAL or vertical:
+            every[name in HELD_OUT] += found
+            failures[name in HELD_OUT] += failed
+    for held_out, found in every.items():
+        if found:
+            label = f"{'held out' if held_out else 'the eight'}, {len(found)} fits"
+            printed(label, found, len(failures[held_out]), {})
+    ours = [one for both in every.values() for one, _ in both]
+    print(f"{median(ours, 'seconds'):.2f} s a file, {median(ours, 'terms'):.0f} terms (median)")
+    print(*failures[False], *failures[True], sep="\n")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description="Errors and coverage of conveyor fit on rubbers of known truth."
@@ -319,41 +351,11 @@ def main() -> None:
     parser.add_argument("--pyvisco", type=Path)
     asked = parser.parse_args()
     if asked.export:
-        return export(asked.export, asked.noise, asked.seeds)
-    if asked.pyvisco:
-        return judge_peer(asked.pyvisco)
-    with PEER.open() as stream:
-        peers = {row.pop("family"): row for row in csv.DictReader(line for line in stream if line[0] != "#")}
-    print(
-        f"{'family':26s} E'%   E''%  shift  mu%  worst | inside E' E'' mu | z_a z_b | failed | NNLS | pyvisco"
-    )
-    every: dict[bool, list[tuple[Judged, Judged]]] = {False: [], True: []}
-    failures = []
-    for name in asked.family:
-        for vertical in (True, False) if name in VERTICAL else (False,):
-            found = []
-            for noise in asked.noise:
-                for seed in range(asked.seeds if noise else 1):
-                    try:
-                        found.append(judged(FAMILIES[name], noise, seed, vertical=vertical))
-                    except ConveyorError as error:
-                        failures.append(f"{name}, {noise:g}, seed {seed}: {error}")
-            label = name + (", --vertical" if vertical else ", advice not taken" if name in VERTICAL else "")
-            tried = len(asked.noise) * asked.seeds if all(asked.noise) else len(found)
-            printed(
-                label, tuple(map(list, zip(*found, strict=True))), tried - len(found), peers.get(name, {})
-            )
-            if name not in VERTICAL or vertical:
-                every[name in HELD_OUT] += found
-    for held_out, found in every.items():
-        if found:
-            label = f"all {'held out' if held_out else 'eight'}, {len(found)} fits"
-            printed(label, tuple(map(list, zip(*found, strict=True))), len(failures), {})
-    seconds = [one[0].seconds for both in every.values() for one in both]
-    print(
-        f"{np.median(seconds):.2f} s a file (median), terms {np.mean([o[0].terms for b in every.values() for o in b]):.0f}"
-    )
-    print(*failures, sep="\n")
+        export(asked.export, asked.noise, asked.seeds)
+    elif asked.pyvisco:
+        judge_peer(asked.pyvisco)
+    else:
+        compare(asked.family, asked.noise, asked.seeds)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from conveyor.errors import InputError
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
 from conveyor.rubber import band as module
 from conveyor.rubber.band import ReplicaBand, bootstrap
+from conveyor.rubber.superposition import Isotherm, Superposition, superpose
 
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 25) / 2, np.logspace(-10, 2, 25))
 FREQUENCY = np.logspace(-3, 10.5, 84)
@@ -122,6 +123,47 @@ def test_refusals() -> None:
         ReplicaBand([1.0, 2.0], [0.0], [[1.0, 1.0]])
     with pytest.raises(InputError, match=r"level = 1 must be > 0 and < 1"):
         ReplicaBand([1.0], [1e6], [[1.0]]).loss([1.0], level=1.0)
+
+
+def isotherms(seed: int) -> Superposition:
+    rng = np.random.default_rng(seed)
+    f, found = np.logspace(-1, 2, 10), []
+    for t, shift in ((283.0, 1.2), (293.0, 0.0), (303.0, -1.0)):
+        omega = 2 * np.pi * f * 10.0**shift
+        noise = np.exp(0.02 * rng.standard_normal((2, 10)))
+        found.append(Isotherm(t, f, TRUTH.storage(omega) * noise[0], TRUTH.loss(omega) * noise[1]))
+    return superpose(found, 293.0)
+
+
+def test_replicas_of_isotherms_carry_their_shifts() -> None:
+    shifted = isotherms(1)
+    fit = fit_prony(shifted.frequency, shifted.storage, shifted.loss)
+    band = bootstrap(fit, shifted, replicas=200)
+    assert band.log10_a_T is not None
+    assert band.log10_b_T is None
+    np.testing.assert_array_equal(band.log10_a_T[:, 1], 0.0)
+    assert np.all(np.diff(band.log10_a_T, axis=1) < 0.0)
+    # 200 draws tell a standard deviation to 5 %, a mean to 7 % of one; four of them
+    spread = band.log10_a_T.std(axis=0)
+    np.testing.assert_allclose(spread, shifted.log10_a_T_error, rtol=0.2)
+    np.testing.assert_allclose(
+        band.log10_a_T.mean(axis=0), shifted.log10_a_T, atol=0.28 * float(shifted.log10_a_T_error.max())
+    )
+    # a curve whose rows may lie elsewhere is less certain
+    omega = 2 * np.pi * np.array([shifted.frequency[0], shifted.frequency[-1]])
+    alone, both = bootstrap(fit).loss(omega), band.loss(omega)
+    assert np.all(both[1] - both[0] > alone[1] - alone[0])
+    with pytest.raises(InputError, match=r"the superposition has 30 rows, the fit 84: fit its master curve"):
+        bootstrap(fitted(0.02, 0.02, 1), shifted)
+
+
+def test_what_the_data_do_not_reach_is_less_certain() -> None:
+    fit = fitted(0.02, 0.02, 1)
+    ends = 2 * np.pi * np.array([FREQUENCY[0] / 5.0, 1e3, FREQUENCY[-1] * 5.0])
+    low, high = bootstrap(fit).loss(ends)
+    width = (high - low) / fit.series.loss(ends)
+    assert width[0] > 2.0 * width[1]
+    assert width[2] > 2.0 * width[1]
 
 
 def test_blocks_are_as_long_as_errors_hang_together():
