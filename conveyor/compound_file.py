@@ -402,8 +402,8 @@ def _method(fit: PronyFit, request: Request) -> str:
     )
     return (
         f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "
-        f"per decade inside the data window and penalty {fit.regularisation:g} on the curvature of the spectrum by "
-        f"AICc, equilibrium {equilibrium}; {left}{scatter}"
+        f"per decade to a decade beyond the data window and penalty {fit.regularisation:g} on the curvature of the "
+        f"spectrum by AICc, outliers without weight, equilibrium {equilibrium}; {left}{scatter}"
     )
 
 

@@ -50,7 +50,7 @@ class PronyFit:
     tan_delta : Misfit
         Of E''/E' [-].
     window : tuple of float
-        Lowest and highest measured frequency: the series says nothing outside [Hz].
+        Lowest and highest measured frequency: outside, the series is a guess [Hz].
     grid_terms : int
         Terms offered; `active_terms` is what the data took [-].
     condition : float
@@ -154,7 +154,8 @@ def fit_prony(
         E'' at them, shape `(n,)` [Pa].
     terms_per_decade : float, optional
         Density of the relaxation times, spread evenly in log over the window 1/omega_max ... 1/omega_min,
-        ends included; not used with `times`. Chosen by the criterion when both are left out [1/decade].
+        ends included; not used with `times`. Chosen by the criterion, with times to a decade beyond, when both
+        are left out [1/decade].
     times : array_like, optional
         Relaxation times to use instead, shape `(m,)`; outside the window only with `equilibrium` held [s].
     equilibrium : float, optional
@@ -188,11 +189,21 @@ def fit_prony(
     -----
     Minimised is the sum of squared RELATIVE errors of E' and E'' with all moduli >= 0 (NNLS), so every decade
     weighs the same. Rows of equal frequency are kept as separate rows: they are separate measurements, and
-    least squares then weighs their mean by their number. Times outside the window are not determined by
-    the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same residual.
+    least squares then weighs their mean by their number.
 
-    The number of terms: densities of 0.5 to 8 a decade and seven strengths of the penalty are fitted, and of
-    those that AICc cannot tell from the best the one with the fewest terms is taken (see `choose`).
+    Where density and times are chosen, the times reach a decade beyond the window on both sides: without them the
+    tails of what relaxes outside are missing, and E'' at the ends turns down by some ten per cent. Farther times
+    are not determined by the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same
+    residual.
+    A decade loses it 13 %, and the penalty holds the spectrum there to the slope that E'' has at the end of the
+    window (see `Penalised`). So E_e is what does not relax within ten times the slowest measured period.
+
+    There, too, a row that stands off by more than some five robust standard deviations of its modulus loses its
+    pull (`misfit.trust`); it still counts in the misfits.
+
+    The number of terms: densities of 2 to 8 a decade and seven strengths of the penalty are fitted, spectra of few
+    lines on finer ones, and of those that AICc cannot tell from the best the one with the fewest terms is taken
+    (see `choose`).
 
     A dense grid (2 a decade and more) returns twins: neighbours that together stand for one time between
     them. They are not merged: the pair is the least-squares answer on its grid, and a merged line would

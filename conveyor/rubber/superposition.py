@@ -252,9 +252,17 @@ def superpose(
     Stiffness of the curves and noise of each modulus follow from the restricted likelihood, so E' and E''
     weigh by how well they superpose. The first guess lays each isotherm on its hotter neighbour.
 
+    A row that stands off loses its pull (`misfit.trust`). A frequency at which most isotherms stand off is a
+    resonance of the instrument: its rows are left out of all of them, also where one isotherm alone reaches.
+
+    Isotherms with little slope are placed by a prior: the decades per kelvin change from one pair of
+    neighbours to the next by half of their mean, as a standard deviation (`joint_shift.UNEVEN`).
+
     The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
     scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
-    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). It does not hold errors
+    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
+    test asks whether vertical shifts are missing; if so they are fitted beside, and the difference enters the
+    uncertainty as one standard deviation. It does not hold errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as

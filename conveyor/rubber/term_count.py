@@ -97,8 +97,9 @@ class Penalised:
         sum of squared relative errors  +  lambda (N/L) integral (d^2 g/du^2)^2 du,   u = ln tau,
 
     with N rows of E' and E'' over L = ln(omega_max/omega_min), and g = H/H0: the spectrum over its own
-    first estimate H0(tau) = (2/pi) E''(1/tau), E'' smoothed. So each decade of a spectrum that spans many
-    is smoothed alike, as it would be by a penalty on ln H, while the problem stays linear.
+    first estimate H0(tau) = (2/pi) E''(1/tau), E'' smoothed; beyond the window it goes on as a power law, of the
+    slope of E'' at its end. So each decade of a spectrum that spans many is smoothed alike, as it would be by a
+    penalty on ln H, while the problem stays linear.
 
     References
     ----------
