@@ -113,12 +113,12 @@ def _series(found: Fitted) -> Iterator[str]:
 def _outliers(fit: PronyFit) -> Iterator[str]:
     """Rows that pull the fit no more."""
     f = fit.rows.frequency
-    for name, kept, misfit in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
+    for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
         stray = np.flatnonzero(kept < STRAY)
         if stray.size:
-            rows = ", ".join(f"{f[k]:.3g} Hz ({-misfit[k]:+.0%})" for k in stray[:_STRAYS])
+            rows = ", ".join(f"{f[k]:.3g} Hz ({1.0 / (1.0 + error[k]) - 1.0:+.0%})" for k in stray[:_STRAYS])
             more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
-            yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more};"
+            yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more}:"
             yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
-from conveyor.rubber.joint_shift import JointShift, Placed
+from conveyor.rubber.joint_shift import LONGEST_STEP, JointShift, Placed
 from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
@@ -153,8 +153,8 @@ class Superposition:
     resonances : tuple of Resonance
         Frequencies that were left out of every isotherm; their rows are in nothing above.
     with_vertical : Superposition or None
-        With vertical shifts, where none were asked for and the isotherms need them: beyond chance, and
-        by one per cent and more. The errors above then hold the difference to it.
+        With vertical shifts, where none were asked for and the isotherms need them: beyond chance, by one per
+        cent and more, and they become one curve by it. The errors above then hold the difference to it.
     """
 
     reference: float
@@ -315,10 +315,16 @@ def _doubted(
         other = _result(sheets, found.reference, moduli, _placed(sheets, moduli, vertical=True))
     except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
         return found
-    if np.ptp(other.log10_b_T) < LEAST_VERTICAL:
-        return found
     n = found.temperatures.size
     apart = (other.shifts - found.shifts).ravel()
+    chance = 2.0 / np.sqrt(found.frequency.size)
+    if (
+        np.ptp(other.log10_b_T) < LEAST_VERTICAL
+        or np.max(np.abs(np.diff(apart[:n])))
+        > LONGEST_STEP  # the slopes hardly tell one shift from the other
+        or other.correlation > max(chance, 0.5 * found.correlation)  # it does not make them one curve
+    ):
+        return found
     covariance = found.joint_covariance + np.outer(apart, apart)
     return replace(
         found,
