@@ -25,6 +25,8 @@ STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
 SUPPORT = 2.0
 """Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
+NO_SUPPORT = 10.0
+"""Candidates farther than this from the best have essentially none: the same section [-]."""
 ROUNDING = 1e-13
 """Relative errors below this are rounding, not information [-]."""
 SMOOTHING = 0.5 * np.log(10.0)
@@ -250,7 +252,7 @@ def choose(
     -----
     Of all candidates within `SUPPORT` of the smallest AICc, the one with the fewest active terms is taken,
     among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
-    (fluids) count only if no other has that support.
+    (fluids) count only if all others have essentially no support: a cover is a solid.
     """
     found: list[_Offer] = []
     for density in DENSITIES:
@@ -266,9 +268,10 @@ def choose(
             " or give terms_per_decade= or times="
         )
     best = min(one[0].score for one in found)
-    supported = [c for c in found if c[0].score <= best + SUPPORT]
-    solid = [c for c in supported if c[2][0] > 0.0]
-    chosen = min(solid or supported, key=lambda c: (c[0].terms, c[0].freedom))
+    solid = [one for one in found if one[2][0] > 0.0 and one[0].score <= best + NO_SUPPORT]
+    least = min(one[0].score for one in solid or found)
+    supported = [one for one in solid or found if one[0].score <= least + SUPPORT]
+    chosen = min(supported, key=lambda one: (one[0].terms, one[0].freedom))
     others = sorted((c[0] for c in found if c is not chosen), key=lambda line: line.score)
     return chosen[1], chosen[0].regularisation, (chosen[0], *others)
 

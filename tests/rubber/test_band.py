@@ -149,12 +149,20 @@ def test_replicas_of_isotherms_carry_their_shifts() -> None:
     np.testing.assert_allclose(
         band.log10_a_T.mean(axis=0), shifted.log10_a_T, atol=0.28 * float(shifted.log10_a_T_error.max())
     )
-    # a curve whose rows may lie elsewhere is less certain
-    omega = 2 * np.pi * np.array([shifted.frequency[0], shifted.frequency[-1]])
-    alone, both = bootstrap(fit).loss(omega), band.loss(omega)
-    assert np.all(both[1] - both[0] > alone[1] - alone[0])
     with pytest.raises(InputError, match=r"the superposition has 30 rows, the fit 84: fit its master curve"):
         bootstrap(fitted(0.02, 0.02, 1), shifted)
+
+
+def test_a_contradiction_is_in_the_band() -> None:
+    """E'' measured 30 % too high: a fit that believes E' passes 23 % below it, one that believes E'' does not."""
+    e1, e2 = TRUTH.storage(OMEGA), TRUTH.loss(OMEGA)
+    noise = np.exp(0.01 * np.random.default_rng(3).standard_normal((2, 84)))
+    widths = []
+    for factor in (1.0, 1.3):
+        low, high = bootstrap(fit_prony(FREQUENCY, e1 * noise[0], factor * e2 * noise[1])).loss(OMEGA)
+        widths.append(float(np.mean((high - low) / e2)))
+    assert widths[0] < 0.05
+    assert widths[1] > 0.1
 
 
 def test_what_the_data_do_not_reach_is_less_certain() -> None:
