@@ -307,7 +307,7 @@ def judge_peer(path: Path) -> None:
                 except (ConveyorError, KeyError):
                     failed += 1
         figures = [f"{x:.3g}" for x in columns(found)] if found else ["-"] * 5
-        print(",".join([name, *figures, f"{failed} of {failed + len(found)}"]))
+        print(",".join([f'"{name}"', *figures, f"{failed} of {failed + len(found)}"]))
 
 
 def compare(names: list[str], noises: list[float], seeds: int) -> None:
