@@ -327,7 +327,8 @@ def compare(names: list[str], noises: list[float], seeds: int) -> None:
             except ConveyorError as error:
                 failed.append(f"{name}, {noise:g}, seed {seed}: {error}")
         label = name + (", --vertical" if vertical else ", advice not taken" if name in VERTICAL else "")
-        printed(label, found, len(failed), peers.get(name, {}))
+        if found:
+            printed(label, found, len(failed), peers.get(name, {}))
         if name not in VERTICAL or vertical:
             every[name in HELD_OUT] += found
             failures[name in HELD_OUT] += failed

@@ -44,6 +44,7 @@ REPLICAS = 20
 """Of the bootstrap in a compound file: nineteen of twenty leave nine tenths between the outermost ones."""
 _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
+_ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _UNKNOWN = "not stated"
 _REFERENCE_NAMES = frozenset(
     {
@@ -354,10 +355,10 @@ def _described(
             "temperature": [reference] * 2,
         },
         "fit": {
-            "storage_rms": _six(fit.storage.rms),
-            "loss_rms": _six(fit.loss.rms),
-            "storage_worst": _six(abs(fit.storage.worst)),
-            "loss_worst": _six(abs(fit.loss.worst)),
+            "storage_rms": _six(round(fit.storage.rms, _ERROR_DECIMALS)),
+            "loss_rms": _six(round(fit.loss.rms, _ERROR_DECIMALS)),
+            "storage_worst": _six(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
+            "loss_worst": _six(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
             "method": _method(fit, request),
         },
         "missing": ["strain dependence", "density"],
