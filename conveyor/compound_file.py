@@ -46,9 +46,10 @@ from conveyor.units.sentences import ZERO_CELSIUS, celsius
 Array = NDArray[np.float64]
 
 REPLICAS = 20
-"""Of the bootstrap in a compound file: quantiles at a twentieth are its outermost ones."""
+"""Of the bootstrap in a compound file: nineteen of twenty leave nine tenths between the outermost ones."""
 _DIGITS = 12  # read back, the series is the fit to 1e-11
 _BAND_DIGITS = 6  # the band is known to one or two
+_ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _UNKNOWN = "not stated"
 _REFERENCE_NAMES = frozenset(
     {
@@ -271,9 +272,11 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
         f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium,
         storage_error=request.storage_error, loss_error=request.loss_error,
     )  # fmt: skip
-    described = _described(read, request, (reference, fit))
     laws = _laws(superposition, shifts, _kelvin(reference))
     law = _stored(laws, _kelvin(reference), request)
+    # a law that stands in place of the table has no shifts of replicas
+    band_of = superposition if law is None else None
+    described = _described(read, request, (reference, fit), (rows, band_of))
     described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted, *said, *told])
     _add_shift(described, superposition, shifts, law)
     if strains is not None:
@@ -519,16 +522,21 @@ def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
     return read
 
 
-def _described(read: Sequence[DmaData], request: Request, found: tuple[str, PronyFit]) -> dict[str, Any]:
+def _described(
+    read: Sequence[DmaData],
+    request: Request,
+    found: tuple[str, PronyFit],
+    shifted: tuple[MeasuredRows, Superposition | None],
+) -> dict[str, Any]:
     reference, fit = found
     described = _compound_of(read, request, reference, fit.series, fit.window)
     if request.replicas:
-        described["prony"]["band"] = _band(fit, request.replicas)
+        described["prony"]["band"] = _band(fit, *shifted, request.replicas)
     described["fit"] = {
-        "storage_rms": _six(fit.storage.rms),
-        "loss_rms": _six(fit.loss.rms),
-        "storage_worst": _six(abs(fit.storage.worst)),
-        "loss_worst": _six(abs(fit.loss.worst)),
+        "storage_rms": _six(round(fit.storage.rms, _ERROR_DECIMALS)),
+        "loss_rms": _six(round(fit.loss.rms, _ERROR_DECIMALS)),
+        "storage_worst": _six(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
+        "loss_worst": _six(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
         "method": _method(fit, request),
     }
     described["missing"] = ["strain dependence", "density"]
@@ -574,14 +582,21 @@ def _six(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def _band(fit: PronyFit, replicas: int) -> dict[str, Any]:
-    band = bootstrap(fit, replicas=replicas)
-    return {
+def _band(
+    fit: PronyFit, rows: MeasuredRows, superposition: Superposition | None, replicas: int
+) -> dict[str, Any]:
+    band = bootstrap(fit, superposition, rows.temperature, replicas=replicas)
+    described: dict[str, Any] = {
         "method": METHOD,
         "equilibrium": [_mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
         "unit": "MPa",
         "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
     }
+    shifts = {"log10_aT": band.log10_a_T, "log10_bT": band.log10_b_T}
+    described |= {
+        key: [[_six(y) for y in row] for row in rows] for key, rows in shifts.items() if rows is not None
+    }
+    return described
 
 
 def _method(fit: PronyFit, request: Request) -> str:
@@ -599,8 +614,8 @@ def _method(fit: PronyFit, request: Request) -> str:
     )
     return (
         f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "
-        f"per decade inside the data window and penalty {fit.regularisation:g} on the curvature of the spectrum by "
-        f"AICc, equilibrium {equilibrium}; {left}{scatter}"
+        f"per decade to a decade beyond the data window and penalty {fit.regularisation:g} on the curvature of the "
+        f"spectrum by AICc, outliers without weight, equilibrium {equilibrium}; {left}{scatter}"
     )
 
 
@@ -633,7 +648,7 @@ def _add_shift(
         energy = f"{law.activation_energy / 1e3:.{_DIGITS}g} kJ/mol"
         described["shift"] = {"law": "arrhenius", "activation_energy": energy}
     if law is not None:
-        described["missing"].append("vertical shift (none applied)")
+        described["missing"] += ["vertical shift (none applied)", "error of the shift in the band"]
         return
     described["shift"] = {
         "law": "table",

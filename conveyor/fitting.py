@@ -9,6 +9,7 @@ import numpy as np
 from conveyor.compound_file import Fitted, Tabulated
 from conveyor.errors import InputError
 from conveyor.report.plots import colour, master_curve, stacked
+from conveyor.rubber.superposition import STRAY
 from conveyor.units import text
 from conveyor.units.sentences import celsius
 
@@ -17,10 +18,11 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from conveyor.rubber import PronySeries
+    from conveyor.rubber import PronyFit, PronySeries
     from conveyor.rubber.arrays import FloatArray
 
 _CANDIDATES = 6  # of the criterion's table that are printed
+_STRAYS = 6  # outliers that are named
 _POINTS = 400
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
@@ -63,7 +65,27 @@ def _shift(found: Fitted) -> Iterator[str]:
         f"common curve {told}"
         + ("" if None not in (shifted.storage_scatter, shifted.loss_scatter) else "; it alone placed them")
     )
-    if shifted.correlation > _SHAPE_CORRELATION:
+    for one in shifted.resonances:
+        yield (
+            f"  {one.frequency:.4g} Hz is left out of all isotherms: {one.isotherms} of them stand off the common curve"
+            f" there, E' by {one.storage:+.0%}, E'' by {one.loss:+.0%}: a resonance of the instrument?"
+        )
+    other = shifted.with_vertical
+    if other is not None:
+        beside = [
+            f"{now:.1%} of {name} to {then:.1%}"
+            for now, then, name in (
+                (shifted.storage_scatter, other.storage_scatter, "E'"),
+                (shifted.loss_scatter, other.loss_scatter, "E''"),
+            )
+            if now is not None and then is not None
+        ]
+        vertical = 10.0 ** float(np.max(np.abs(other.log10_b_T))) - 1.0
+        yield (
+            f"  a vertical shift of up to {vertical:.0%} would bring them closer, the scatter from "
+            f"{' and '.join(beside)}: try --vertical. The errors above, and the band, hold what it would change"
+        )
+    if other is None and shifted.correlation > _SHAPE_CORRELATION:
         yield (
             f"  neighbouring residuals are correlated by {shifted.correlation:.2f}: the isotherms differ in shape, "
             "no shift makes them one curve"
@@ -93,8 +115,21 @@ def _series(found: Fitted) -> Iterator[str]:
         yield (
             f"  {label:>9}: rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"
         )
+    yield from _outliers(fit)
     if fit.storage_noise is not None and fit.loss_noise is not None:
         yield f"  scatter from row to row: {fit.storage_noise:.1%} (E'), {fit.loss_noise:.1%} (E'')"
+
+
+def _outliers(fit: PronyFit) -> Iterator[str]:
+    """Rows that pull the fit no more."""
+    f = fit.rows.frequency
+    for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
+        stray = np.flatnonzero(kept < STRAY)
+        if stray.size:
+            rows = ", ".join(f"{f[k]:.3g} Hz ({1.0 / (1.0 + error[k]) - 1.0:+.0%})" for k in stray[:_STRAYS])
+            more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
+            yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more}:"
+            yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 
 def _criterion(found: Fitted) -> Iterator[str]:
@@ -163,7 +198,9 @@ def figure(found: Fitted | Tabulated) -> Figure:
         axis.plot(f, data, color=colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
         axis.plot(at, model(series), color=colour(k), label=label)
         if replicas:
-            bottom, top = np.quantile([model(replica) for replica in replicas], (0.05, 0.95), axis=0)
+            bottom, top = np.quantile(
+                [model(replica) for replica in replicas], (0.05, 0.95), axis=0, method="weibull"
+            )
             axis.fill_between(at, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
     reference = text(found.compound.reference_temperature)
     above.set(

@@ -192,6 +192,7 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
     """
     shift, vertical = found.log10_a_T.copy(), found.log10_b_T.copy()
     error, said = found.log10_a_T_error.copy(), []
+    covariance = found.joint_covariance.copy()
     if given.temperature is None or given.log10_a_T is None:
         raise InputError(f"{given.source}: holds no shift factors")
     for k, (t, a) in enumerate(zip(given.temperature.tolist(), given.log10_a_T.tolist(), strict=True)):
@@ -205,9 +206,13 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
             f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades"
         )
         shift[at], error[at] = a, 0.0
+        covariance[at] = covariance[:, at] = 0.0
         if given.log10_b_T is not None:
             vertical[at] = given.log10_b_T[k]
-    return replace(found, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical), tuple(said)
+    moved = replace(
+        found, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance
+    )
+    return moved, tuple(said)
 
 
 def laid(
@@ -240,7 +245,10 @@ def laid(
         one = part.isotherm
         a = 0.0 if law is None else float(law.log10_a_T(one.temperature))
         shift = (a, vertical.get(one.temperature, 0.0))
-        columns.append(_column(part.file, one.temperature, (one.frequency, one.storage, one.loss), shift))
+        rows = np.array([one.frequency, one.storage, one.loss])
+        if found is not None:
+            rows = rows[:, found.kept(one.frequency)]
+        columns.append(_column(part.file, one.temperature, (rows[0], rows[1], rows[2]), shift))
     if whole is not None:
         number, reference, read = whole
         columns.append(_column(number, reference, _moduli(read, read.frequency), (0.0, 0.0)))

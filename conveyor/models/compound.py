@@ -38,6 +38,8 @@ from conveyor.units import (
 if TYPE_CHECKING:
     from conveyor.rubber import AmplitudeFactors, PronySeries, ShiftLaw
 
+Shift = TableShift | WLFShift | ArrheniusShift
+
 CONVERSION_ROUNDING = 1e-9
 """Relative difference of one temperature given in degC, degF or K: rounding of the conversion only."""
 
@@ -61,7 +63,7 @@ class RubberCompound(Model):
     reference_temperature: AbsoluteTemperature
     """Temperature at which the series holds and the shift is 1."""
     prony: Prony
-    shift: Annotated[TableShift | WLFShift | ArrheniusShift, Field(discriminator="law")] | None = None
+    shift: Annotated[Shift, Field(discriminator="law")] | None = None
     """Temperature shift of all times; without it only the reference temperature is allowed."""
     range: MeasuredRange | None = None
     strain_dependence: StrainDependence | None = None
@@ -80,6 +82,7 @@ class RubberCompound(Model):
         checks: dict[str, Callable[[], object]] = {
             "prony": lambda: self.series_at_reference,
             "shift": self.shift_law,
+            "prony.band": lambda: [shift and shift.at(self.reference) for shift in self._replica_shifts()],
             "strain_dependence": self.amplitude_factors,
         }
         problems = []
@@ -87,7 +90,7 @@ class RubberCompound(Model):
             try:
                 build()
             except (InputError, RangeError) as error:
-                problems.append(Problem((name,), str(error)))
+                problems.append(Problem(tuple(name.split(".")), str(error)))
         if self.carrier is not None and not self.tests:
             problems.append(
                 Problem(("tests",), "missing; with a carrier's spectrum the tests are all that is known")
@@ -177,7 +180,7 @@ class RubberCompound(Model):
         RangeError
             The temperature is outside the compound's stated range or its shift law, or it has no law.
         """
-        return self._at(temperature, (self.series_at_reference,))[0]
+        return self._at(temperature, (self.series_at_reference,), (self.shift,))[0]
 
     def replicas(self, temperature: float) -> tuple[PronySeries, ...]:
         """Return the replicas of the fit at a temperature, alternatives to `series`.
@@ -197,36 +200,53 @@ class RubberCompound(Model):
         RangeError
             As `series`.
         """
-        return self._at(temperature, self._reference_replicas())
+        return self._at(temperature, self._reference_replicas(), self._replica_shifts())
+
+    def _replica_shifts(self) -> tuple[Shift | None, ...]:
+        """The shift that each replica goes with; that of the compound where the band has none."""
+        band = self.prony.band
+        if band is None:
+            return ()
+        count = len(band.equilibrium)
+        if band.log10_a_t is None:
+            return (self.shift,) * count
+        if not isinstance(self.shift, TableShift):
+            raise InputError("band: log10_aT belongs to a table; the compound's shift is none")
+        vertical = band.log10_b_t or (self.shift.log10_b_t,) * count
+        return tuple(
+            self.shift.replace(log10_aT=a, log10_bT=b) for a, b in zip(band.log10_a_t, vertical, strict=True)
+        )
 
     def _reference_replicas(self) -> tuple[PronySeries, ...]:
         band, terms = self.prony.band, self.prony.terms
         return () if band is None else band.series([si(term.time) for term in terms])
 
     def alternatives(self) -> tuple[Self, ...]:
-        """Return the compound with each replica of its fit as its series; everything else of it stays."""
+        """Return the compound with each replica of its fit, and its shift; everything else of it stays."""
         return tuple(
             self.replace(
+                shift=shift,
                 prony={
                     "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
                     "terms": [
                         {"modulus": from_si(modulus, "pressure", "Pa"), "time": from_si(time, "time", "s")}
                         for modulus, time in zip(series.moduli.tolist(), series.times.tolist(), strict=True)
                     ],
-                }
+                },
             )
-            for series in self._reference_replicas()
+            for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
 
-    def _at(self, temperature: float, reference: tuple[PronySeries, ...]) -> tuple[PronySeries, ...]:
-        """Shift series of the reference temperature to another [K]."""
-        from conveyor.rubber import shifted
-
+    def _at(
+        self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
+    ) -> tuple[PronySeries, ...]:
+        """Shift series of the reference temperature to another [K], each by its shift."""
         self._refuse_extrapolation(temperature)
-        law = self.shift_law()
-        if law is not None:
-            b_T = self.shift.vertical(temperature) if isinstance(self.shift, TableShift) else 1.0
-            return tuple(shifted(series, law, temperature, b_T=b_T) for series in reference)
+        if self.shift is not None:
+            return tuple(
+                self._shifted(series, shift, temperature)
+                for series, shift in zip(reference, shifts, strict=True)
+            )
         if not math.isclose(temperature, si(self.reference_temperature), rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '
@@ -234,6 +254,15 @@ class RubberCompound(Model):
                 "give it a shift law, or calculate at its reference temperature"
             )
         return reference
+
+    def _shifted(self, series: PronySeries, shift: Shift | None, temperature: float) -> PronySeries:
+        """One series by one shift, at a temperature [K]."""
+        from conveyor.rubber import shifted
+
+        if shift is None:
+            return series
+        b_T = shift.vertical(temperature) if isinstance(shift, TableShift) else 1.0
+        return shifted(series, shift.at(self.reference), temperature, b_T=b_T)
 
 
 def _resolved(value: Any, info: ValidationInfo) -> Any:

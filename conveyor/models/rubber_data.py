@@ -68,12 +68,26 @@ class Band(Model):
     """Unit of `moduli`."""
     moduli: tuple[tuple[Annotated[Number, Field(ge=0)], ...], ...]
     """E_i of each replica, in the order of the terms; 0 is a term that the replica does not have."""
+    log10_a_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_aT")] = None
+    """Shift of each replica at the temperatures of `shift`; that of the compound without it."""
+    log10_b_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_bT")] = None
+    """Vertical shift of each replica at the temperatures of `shift`; that of the compound without it."""
 
     @model_validator(mode="after")
     def _one_list_per_replica(self) -> Self:
-        if len(self.moduli) != len(self.equilibrium):
-            message = f"got {len(self.moduli)} lists for {len(self.equilibrium)} values of equilibrium"
-            refuse("Band", [Problem(("moduli",), f"{message}, one list per replica is needed")])
+        lists = {"moduli": self.moduli, "log10_aT": self.log10_a_t, "log10_bT": self.log10_b_t}
+        refuse(
+            "Band",
+            [
+                Problem(
+                    (name,),
+                    f"got {len(rows)} lists for {len(self.equilibrium)} values of equilibrium, one list per replica is"
+                    " needed",
+                )
+                for name, rows in lists.items()
+                if rows is not None and len(rows) != len(self.equilibrium)
+            ],
+        )
         return self
 
     def series(self, times: Sequence[float]) -> tuple[PronySeries, ...]:

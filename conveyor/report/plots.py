@@ -346,7 +346,7 @@ def master_curve(
             (above, modulus([r.loss(omega) for r in replicas]), 1),
             (below, [r.tan_delta(omega) for r in replicas], 2),
         ):
-            bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0)
+            bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0, method="weibull")
             axis.fill_between(f, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
     above.set(xscale="log", yscale="log", ylabel=modulus.beside("modulus"))
     titled(figure, f"{compound.name} ({compound.kind})")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,15 +12,19 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.rows import kernel
+from conveyor.rubber.superposition import Superposition
 from conveyor.rubber.term_count import Penalised
 
-METHOD = "block bootstrap of the relative residuals, moduli refitted at the same times"
-CALIBRATION = 1.25
-"""Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/fit.py).
-Without it 80 to 85 %: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-UNDERSMOOTHING = 0.1
-"""Penalty of a replica over that of the fit: the bias of smoothing must be small against the band, P. Hall,
-The Bootstrap and Edgeworth Expansion (1992), section 4.4 [-]."""
+METHOD = (
+    "block bootstrap of the relative residuals; penalty, weights of E' and E'' and shifts drawn too; moduli refitted at"
+    " the same times"
+)
+CALIBRATION = 1.1
+"""Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/families.py).
+Without it some 3 % less: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
+LEANING = float(np.log(2.0))
+"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: two (general
+knowledge). It moves a fit only where the two contradict each other [-]."""
 LEVERAGE_LIMIT = 0.9
 """Largest leverage a residual is freed of: beyond, it is rounding divided by rounding [-]."""
 DRAWS_PER_REPLICA = 20
@@ -39,8 +43,10 @@ class ReplicaBand:
         Equilibrium modulus of each replica, shape `(replicas,)`, > 0 [Pa].
     moduli : numpy.ndarray
         Moduli of each replica, shape `(replicas, n)`, >= 0 [Pa].
-    method : str
-        How they were drawn [-].
+    log10_a_T : numpy.ndarray, optional
+        Shift of each replica at the temperatures of the isotherms, shape `(replicas, t)` [decades].
+    log10_b_T : numpy.ndarray, optional
+        Its vertical shift, likewise [decades].
 
     Raises
     ------
@@ -57,7 +63,8 @@ class ReplicaBand:
     times: FloatArray
     equilibrium: FloatArray
     moduli: FloatArray
-    method: str = METHOD
+    log10_a_T: FloatArray | None = None  # noqa: N815
+    log10_b_T: FloatArray | None = None  # noqa: N815
 
     def __post_init__(self) -> None:
         """Check, copy, freeze."""
@@ -158,16 +165,29 @@ class ReplicaBand:
         if not 0.0 < level < 1.0:
             raise InputError(f"level = {level:g} must be > 0 and < 1")
         tail = 0.5 * (1.0 - level)
-        return np.quantile(curves, tail, axis=0), np.quantile(curves, 1.0 - tail, axis=0)
+        low, high = np.quantile(curves, (tail, 1.0 - tail), axis=0, method="weibull")
+        return low, high
 
 
-def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBand:
+def bootstrap(
+    fit: PronyFit,
+    superposition: Superposition | None = None,
+    temperature: ArrayLike | None = None,
+    *,
+    replicas: int = 200,
+    seed: int = 0,
+) -> ReplicaBand:
     """Draw series that the same measurement could have given.
 
     Parameters
     ----------
     fit : PronyFit
         The fit; its times, penalty and weights are kept.
+    superposition : Superposition, optional
+        What the fitted rows were shifted by; without it the rows count as measured at one temperature.
+    temperature : array_like, optional
+        Of every fitted row, shape `(m,)` [K], where other rows than the isotherms' were laid on their curve: a row
+        between two isotherms moves with both, in proportion.
     replicas : int
         Number of series, >= 1 [-].
     seed : int
@@ -176,50 +196,49 @@ def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBa
     Returns
     -------
     ReplicaBand
-        The replicas at the times of `fit.series`.
+        The replicas at the times of `fit.series`, with the shifts that each of them goes with.
 
     Raises
     ------
     InputError
-        If `replicas` is below 1.
+        If `replicas` is below 1, or the superposition has other rows than the fit.
     NoSolutionError
-        If the data hardly ever give an equilibrium modulus.
+        If the data hardly ever give an equilibrium modulus, or shifts that fall with temperature.
 
     Notes
     -----
-    The data of a replica are the fit times ratios data/fit, drawn with their neighbours in circular blocks,
+    The data of a replica are the rows times ratios data/fit, drawn with their neighbours in circular blocks,
     E' and E'' of one frequency together. In logarithms the ratios are freed of their leverage h, by
     1/sqrt(1 - L h), and widened by `CALIBRATION`; their mean is brought to 1. A block has
     L = (1 + c)/(1 - c) rows, the time constant of a first-order process whose neighbours correlate by c;
-    L = 1 where c cannot be told from noise.
+    L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
-    Coverage of the truth by the 90 % band, mean over the window of 13 decades and 84 rows, 40 data sets each
-    of four kinds of spectrum (benchmarks/fit.py), E' / E'':
+    The penalty on the curvature is a prior, and each curvature is held to a draw of it: what the data do not
+    tell, within gaps and beyond the window, scatters as much as the spectrum does where they tell it. Such bands of
+    a penalised curve hold the truth, its bias included, as often as they say on the mean over the window.
 
-    ======================================================  ============  ============
-    noise                                                   E'            E''
-    ======================================================  ============  ============
-    1 % and 1 %                                             92 to 95 %    88 to 96 %
-    2 % and 5 %                                             91 to 93 %    89 to 93 %
-    5 % and 28 %                                            86 to 91 %    85 to 86 %
-    3 % and 3 %, neighbours correlated by 0.7               82 to 86 %    86 to 90 %
-    ======================================================  ============  ============
+    Each replica weighs E' against E'' anew, by `LEANING`: where they contradict each other, which no scatter of
+    rows tells, the band holds how far the compromise moves with what is believed.
 
-    At its worst frequency it is 57 to 83 %: at the ends of the window, and in valleys of E'' between
-    lines of a spectrum that IS discrete.
+    Of isotherms, each replica first draws the shifts from their covariance, vertical ones too where they were
+    fitted or are missing, and lays the rows out anew. It keeps these shifts: at another temperature most of
+    an error of the shift takes back what it did to the curve.
 
-    Draws whose best equilibrium modulus is 0 are drawn again: a cover is a solid.
+    Coverage of the truth by the 90 % band: see docs/rubber.md, and benchmarks/families.py. At its worst frequency
+    it is 50 to 75 %: at the ends of the window, and in valleys of E'' between lines of a spectrum that IS discrete.
 
-    The band holds errors of the data as they scatter about THIS kind of fit. It does not hold what every
-    row has in common (a wrong strain, temperature or vertical shift), errors of the time-temperature shift, or the
-    curve outside the measured window. Where E' and E'' contradict each other the residuals are no
-    noise: the band then says how far the compromise could move, not where the truth is.
+    Draws whose best equilibrium modulus is 0 are drawn again: a cover is a solid. So are shifts that rise with
+    temperature.
+
+    The band does not hold what every row has in common (a wrong strain or thermometer).
 
     References
     ----------
     D. N. Politis, J. P. Romano, A circular block-resampling procedure for stationary data, in: Exploring the
     Limits of Bootstrap (1992) 263-270.
     J. G. MacKinnon, H. White, J. Econometrics 29 (1985) 305-325 (leverage, HC2).
+    G. Wahba, J. R. Stat. Soc. B 45 (1983) 133-150; D. Nychka, J. Am. Stat. Assoc. 83 (1988) 1134-1143 (bands of
+    a penalised curve, from its prior).
 
     Examples
     --------
@@ -236,28 +255,60 @@ def bootstrap(fit: PronyFit, *, replicas: int = 200, seed: int = 0) -> ReplicaBa
     if replicas < 1:
         raise InputError(f"replicas = {replicas} must be >= 1")
     series, rows = fit.series, fit.rows
+    if superposition is not None:
+        known = superposition.temperatures
+        at = (
+            known[superposition.isotherm]
+            if temperature is None
+            else np.asarray(temperature, dtype=np.float64)
+        )
+        if at.size != rows.frequency.size:
+            raise InputError(
+                f"the superposition has {at.size} rows, the fit {rows.frequency.size}: fit its master curve"
+            )
     problem = Penalised(rows, series.times, fit.held)
     moduli = np.concatenate([[series.equilibrium], series.moduli])
     fitted = rows.matrix(series.times) @ moduli
-    ratio, block = _ratios(rows.target / fitted, problem.leverage(moduli, fit.regularisation))
-    generator = np.random.default_rng(seed)
+    ratio, block = _ratios(
+        1.0 + (rows.target / fitted - 1.0) * rows.trust, problem.leverage(moduli, fit.regularisation)
+    )
     size = rows.frequency.size
+    spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
+    generator = np.random.default_rng(seed)
     found: list[FloatArray] = []
+    shifts: list[FloatArray] = []
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
-        draw = problem.solve(fitted * ratio[:, taken].ravel(), UNDERSMOOTHING * fit.regularisation)
-        if draw[0] > 0.0:
-            found.append(draw)
+        lean = np.repeat(np.exp(LEANING * np.array([1.0, -1.0]) * generator.standard_normal()), size)
+        drawn = replace(rows, scale=rows.scale * lean)
+        target = drawn.target * ratio[:, taken].ravel()
+        if superposition is not None:
+            shift = superposition.drawn(generator)
+            if np.any(np.diff(shift[0]) >= 0.0):
+                continue
+            moved = [np.interp(at, known, change) for change in shift - superposition.shifts]
+            drawn = replace(drawn, frequency=rows.frequency * 10.0 ** moved[0])
+            target = target * np.tile(10.0 ** -moved[1], 2)
+        problem = Penalised(drawn, series.times, fit.held)
+        bends = spread * generator.standard_normal(len(problem.bends))
+        moduli = problem.solve(target, fit.regularisation, bends)
+        if moduli[0] > 0.0:
+            found.append(moduli)
+            shifts += [] if superposition is None else [shift]
         if len(found) == replicas:
             break
     else:
         raise NoSolutionError(
-            f"only {len(found)} of {DRAWS_PER_REPLICA * replicas} draws have an equilibrium modulus: the data"
-            " hardly reach the rubbery plateau; measure lower frequencies, or hold equilibrium="
+            f"only {len(found)} of {DRAWS_PER_REPLICA * replicas} draws are a solid whose shifts fall with temperature:"
+            " the data hardly reach the rubbery plateau, or hardly tell the shifts; measure lower frequencies, or hold"
+            " equilibrium="
         )
-    drawn = np.array(found)
-    return ReplicaBand(series.times, drawn[:, 0], drawn[:, 1:])
+    spectra, laws = np.array(found), np.array(shifts)
+    if superposition is None:
+        return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:])
+    vertical = laws[:, 1] if np.any(superposition.log10_b_T_error) else None
+    return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:], laws[:, 0], vertical)
 
 
 def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:

@@ -22,12 +22,13 @@ from conveyor.rubber.rows import (
     plain,
     relative_to_fit,
 )
-from conveyor.rubber.term_count import Candidate, Penalised, choose
+from conveyor.rubber.term_count import REACH, Candidate, Penalised, choose
 
 __all__ = ["Misfit", "PronyFit", "fit_prony"]
 
 REFERENCE_TERMS_PER_DECADE = 2.0
-"""Times of the fit that errors are relative to: dense enough for any spectrum to a few per cent."""
+"""Times of the fit that errors are relative to: dense enough for any spectrum to a few per cent, less than what makes
+an outlier of a row, `misfit.LEAST_SCATTER` times eight."""
 FLOOR_TERMS_PER_DECADE = 10.0
 """Spectrum lines of the consistency test. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-18."""
 FLOOR_EXTRA_DECADES = 3.0
@@ -49,7 +50,7 @@ class PronyFit:
     tan_delta : Misfit
         Of E''/E' [-].
     window : tuple of float
-        Lowest and highest measured frequency: the series says nothing outside [Hz].
+        Lowest and highest measured frequency: outside, the series is a guess [Hz].
     grid_terms : int
         Terms offered; `active_terms` is what the data took [-].
     condition : float
@@ -102,6 +103,14 @@ class PronyFit:
         """Number of terms the fit kept [-]."""
         return int(self.series.times.size)
 
+    @property
+    def errors(self) -> FloatArray:
+        """Relative errors of E', then of E'', series over data minus one, shape `(2, n)` [-]."""
+        rows, omega = self.rows, self.rows.omega
+        return (
+            np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0
+        )
+
     def _repr_html_(self) -> str:
         """For notebooks: the series, and how far it is from the data."""
         from conveyor.markup import Html, joined, listing
@@ -145,7 +154,8 @@ def fit_prony(
         E'' at them, shape `(n,)` [Pa].
     terms_per_decade : float, optional
         Density of the relaxation times, spread evenly in log over the window 1/omega_max ... 1/omega_min,
-        ends included; not used with `times`. Chosen by the criterion when both are left out [1/decade].
+        ends included; not used with `times`. Chosen by the criterion, with times to a decade beyond, when both
+        are left out [1/decade].
     times : array_like, optional
         Relaxation times to use instead, shape `(m,)`; outside the window only with `equilibrium` held [s].
     equilibrium : float, optional
@@ -179,11 +189,21 @@ def fit_prony(
     -----
     Minimised is the sum of squared RELATIVE errors of E' and E'' with all moduli >= 0 (NNLS), so every decade
     weighs the same. Rows of equal frequency are kept as separate rows: they are separate measurements, and
-    least squares then weighs their mean by their number. Times outside the window are not determined by
-    the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same residual.
+    least squares then weighs their mean by their number.
 
-    The number of terms: densities of 0.5 to 8 a decade and seven strengths of the penalty are fitted, and of
-    those that AICc cannot tell from the best the one with the fewest terms is taken (see `choose`).
+    Where density and times are chosen, the times reach a decade beyond the window on both sides: without them the
+    tails of what relaxes outside are missing, and E'' at the ends turns down by some ten per cent. Farther times
+    are not determined by the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same
+    residual.
+    A decade loses it 13 %, and the penalty holds the spectrum there to the slope that E'' has at the end of the
+    window (see `Penalised`). So E_e is what does not relax within ten times the slowest measured period.
+
+    There, too, a row that stands off by more than some five robust standard deviations of its modulus loses its
+    pull (`misfit.trust`); it still counts in the misfits.
+
+    The number of terms: densities of 2 to 8 a decade and seven strengths of the penalty are fitted, spectra of few
+    lines on finer ones, and of those that AICc cannot tell from the best the one with the fewest terms is taken
+    (see `choose`).
 
     A dense grid (2 a decade and more) returns twins: neighbours that together stand for one time between
     them. They are not merged: the pair is the least-squares answer on its grid, and a merged line would
@@ -221,7 +241,7 @@ def fit_prony(
     asked = None if regularisation is None else _strength(regularisation)
     tau = _asked_times(rows, terms_per_decade, times, held)
     if _relative(relative_to, chosen=tau is None) == "fit":
-        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE) if tau is None else tau
+        first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH) if tau is None else tau
         rows = relative_to_fit(rows, first, held)
     candidates: tuple[Candidate, ...] = ()
     strength = 0.0 if asked is None else asked
@@ -321,7 +341,7 @@ def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike)
         If no term is active.
     """
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
-    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE), None))
+    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None))
 
 
 def _floor(rows: Rows) -> float:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.common_curve import KNOT_SPACING, MAX_KNOTS, ORDER, Basis, Curve, Smoother, basis
+from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, reach
 
 Curves = tuple[Curve, ...]
@@ -29,12 +30,14 @@ LONGEST_STEP = 0.5
 """Longest move of an isotherm in one step: the slope of the curve holds about so far [decades]."""
 ARRIVED = 1.0e-2
 """A step this small against the standard error is the minimum [-]."""
+UNEVEN = 0.5
+"""Standard deviation, over their mean, of the change of the decades per kelvin from one pair of neighbours to the
+next. The law of Williams, Landel and Ferry changes them by a tenth to a fifth in 7 K; a measured slope outweighs this
+at once, a curve without slope leaves nothing else [-]."""
+LEAST_RATE = 0.005
+"""Smallest mean shift for this: an activation energy of 8 kJ/mol, below any rubber's [decades/K]."""
 ROUNDING = 1.0e-9
 """A step this small is rounding [decades]."""
-HUBER = 2.5
-"""Residuals beyond this many robust standard deviations pull no harder: P. J. Huber, Robust Statistics (1981)."""
-MAD_TO_SIGMA = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation [-]."""
 SINGULAR = 1.0e-11
 """Smallest eigenvalue, over the largest, of normal equations that can be solved [-]."""
 FLOOR = 1.0e-9
@@ -59,6 +62,8 @@ class Placed:
         Standard deviation of each modulus, ln E, about its curve [-].
     correlation : float
         Of residuals of neighbouring rows, the largest [-].
+    residual : numpy.ndarray
+        ln E about its curve, shape `(moduli, m)` [-].
     """
 
     shift: FloatArray
@@ -67,6 +72,7 @@ class Placed:
     held: NDArray[np.bool_]
     scatter: tuple[float, ...]
     correlation: float
+    residual: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +83,7 @@ class _State:
     stiffness: tuple[float, ...]
     variance: FloatArray
     weight: FloatArray
+    evenness: FloatArray
 
 
 class JointShift:
@@ -108,6 +115,8 @@ class JointShift:
         self.sums = summed if not vertical else np.kron(np.eye(2), summed)
         self.to_rows = summed[self.of]
         self.vertical = vertical
+        kelvin = np.diff([s.temperature for s in sheets])
+        self.rates = np.pad(np.diag(1.0 / kelvin), ((0, 0), (0, len(kelvin) if vertical else 0)))
         limits = np.array([reach(cold, hot) for cold, hot in pairwise(sheets)])
         free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
         self.lower, self.upper = np.vstack([limits, free]).T
@@ -140,12 +149,41 @@ class JointShift:
             if not far.any():
                 return self._placed(place, covariance, state, curves)
             if turn < CHOICES:
-                weight = np.array([_huber(c.residual) for c in curves])
+                weight = np.array([trust(c.residual) for c in curves])
                 state = self._choose(place, weight, share)
         raise NoSolutionError(
             f"the shifts do not settle in {ROUNDS} rounds: the isotherms do not determine them; look for one"
             " that is flat or of another shape, and leave it out"
         )
+
+    def score(self, place: FloatArray, residual: FloatArray) -> float:
+        """Rao's score of a place: how far the cost would fall from it, were it the parabola it looks like.
+
+        Parameters
+        ----------
+        place : numpy.ndarray
+            Unknowns, shape `(n - 1,)` or `(2n - 2,)`.
+        residual : numpy.ndarray
+            ln E about its curve there, shape `(moduli, m)` [-].
+
+        Returns
+        -------
+        float
+            Chi squared, of as many degrees of freedom as unknowns that are not at their minimum [-].
+
+        Raises
+        ------
+        NoSolutionError
+            If the data do not determine the unknowns.
+
+        References
+        ----------
+        C. R. Rao, Proc. Camb. Phil. Soc. 44 (1948) 50-57.
+        """
+        state = self._choose(place, np.array([trust(one) for one in residual]), np.zeros(len(self.y)))
+        parts, gradient = self._normal(*self._fit(place, state), state)
+        down = gradient - state.evenness @ place
+        return float(down @ _inverse(parts.sum(axis=0) + state.evenness) @ down)
 
     def _choose(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _State:
         x, y = self._moved(place)
@@ -155,14 +193,17 @@ class JointShift:
         best = tuple(s.best_stiffness() for s in smoothers)
         cost = np.array([s.curve(b).cost for s, b in zip(smoothers, best, strict=True)])
         freedom = np.maximum(weight.sum(axis=1) - ORDER - share, 1.0)
-        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight)
+        rates = self.rates @ place
+        uneven = np.diff(self.rates, axis=0) / (UNEVEN * max(float(np.mean(np.abs(rates))), LEAST_RATE))
+        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight, uneven.T @ uneven)
 
     def _descend(self, place: FloatArray, state: _State) -> tuple[FloatArray, FloatArray, FloatArray, Curves]:
         """Projected Gauss-Newton steps; place, covariance, parameters that each modulus pays for, curves."""
         splines, curves = self._fit(place, state)
         for _ in range(STEPS):
             parts, gradient = self._normal(splines, curves, state)
-            whole = parts.sum(axis=0)
+            whole = parts.sum(axis=0) + state.evenness
+            gradient -= state.evenness @ place
             held = ((place <= self.lower) & (gradient < 0.0)) | ((place >= self.upper) & (gradient > 0.0))
             move = np.zeros_like(place)
             free = ~held
@@ -172,11 +213,11 @@ class JointShift:
             small = np.maximum(ARRIVED * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING)
             if np.all(np.abs(move[free]) <= small):
                 break
-            before = _total(curves, state)
+            before = _total(curves, state) + place @ state.evenness @ place
             for halving in range(HALVINGS):
                 trial = np.clip(place + move / 2.0**halving, self.lower, self.upper)
                 splines, curves = self._fit(trial, state)
-                if _total(curves, state) < before:
+                if _total(curves, state) + trial @ state.evenness @ trial < before:
                     place = trial
                     break
             else:
@@ -186,7 +227,8 @@ class JointShift:
         wide = [
             _widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)
         ]
-        covariance = inverse @ np.einsum("k,kij->ij", np.array(wide), parts) @ inverse
+        told = np.einsum("k,kij->ij", np.array(wide), parts) + state.evenness
+        covariance = inverse @ told @ inverse
         share = np.array([float(np.sum(inverse * part)) for part in parts])
         return place, covariance, share, curves
 
@@ -230,18 +272,12 @@ class JointShift:
             held=at_limit[: n - 1],
             scatter=tuple(np.sqrt(state.variance).tolist()),
             correlation=max(_together(c.residual, self.of) for c in curves),
+            residual=np.array([c.residual for c in curves]),
         )
 
 
 def _total(curves: Curves, state: _State) -> float:
     return float(sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True)))
-
-
-def _huber(residual: FloatArray) -> FloatArray:
-    """Weights that bound the pull of a residual, from the median absolute one [-]."""
-    sigma = MAD_TO_SIGMA * float(np.median(np.abs(residual)))
-    size = np.abs(residual)
-    return np.divide(HUBER * sigma, size, out=np.ones_like(size), where=size > HUBER * sigma)
 
 
 def _together(residual: FloatArray, of: NDArray[np.intp]) -> float:

@@ -8,6 +8,14 @@ import numpy as np
 
 from conveyor.rubber.arrays import FloatArray
 
+MAD_TO_SIGMA = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation [-]."""
+BEND, FALL, OUT = 2.5, 4.0, 8.0
+"""Robust standard deviations from which a residual pulls no harder, pulls less, and pulls no more [-]."""
+LEAST_SCATTER = 0.005
+"""Relative scatter taken at least: closer than this no instrument repeats a modulus, and what a curve or a series
+leaves of exact data is no outlier (general knowledge) [-]."""
+
 
 @dataclass(frozen=True)
 class Misfit:
@@ -51,6 +59,34 @@ def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
     """
     k = int(np.argmax(np.abs(error)))
     return Misfit(float(np.sqrt(np.mean(error**2))), float(error[k]), float(frequency[k]))
+
+
+def trust(error: FloatArray) -> FloatArray:
+    """Weights that bound, and then end, the pull of a residual: Hampel's three-part loss.
+
+    Parameters
+    ----------
+    error : numpy.ndarray
+        Relative residuals of one modulus, shape `(n,)` [-].
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape `(n,)`: 1 for what scatters, 0 for what is something else, by the median absolute residual [-].
+
+    References
+    ----------
+    F. R. Hampel, E. M. Ronchetti, P. J. Rousseeuw, W. A. Stahel, Robust Statistics (1986), section 2.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> trust(np.array([0.01, -0.01, 0.01, -0.01, 0.05, 1.0])).round(2)
+    array([1.  , 1.  , 1.  , 1.  , 0.74, 0.  ])
+    """
+    size = np.abs(error) / max(MAD_TO_SIGMA * float(np.median(np.abs(error))), LEAST_SCATTER)
+    pull = BEND * np.clip((OUT - size) / (OUT - FALL), 0.0, 1.0)
+    return np.divide(pull, size, out=np.ones_like(size), where=size > BEND)
 
 
 def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:

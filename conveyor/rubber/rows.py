@@ -9,10 +9,13 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.rubber.misfit import trust
 from conveyor.rubber.non_negative import non_negative
 
 DUST = 1.0e-12
 """NNLS may return zero as rounding, 1e-16; no data resolve a modulus this far below the smallest E'."""
+NO_TRUST = 1.0e-300
+"""Weight of a row without any: its reciprocal is still finite [-]."""
 PASSES = 5
 """Passes of the reference: each leaves about sigma^2 of the last one's change, 1e-3 at 28 % noise."""
 
@@ -31,12 +34,15 @@ class Rows:
         E'', shape `(n,)` [Pa].
     scale : numpy.ndarray
         What an error is divided by, shape `(2n,)`, E' first: the data or the fit, over the row's weight [Pa].
+    trust : numpy.ndarray
+        Share of its weight that each row kept, shape `(2n,)`, E' first; 0 for an outlier, see `misfit.trust` [-].
     """
 
     frequency: FloatArray
     storage: FloatArray
     loss: FloatArray
     scale: FloatArray
+    trust: FloatArray
 
     @property
     def omega(self) -> FloatArray:
@@ -125,7 +131,7 @@ def checked_rows(
     order = np.argsort(f, kind="stable")
     spread = _spread(f.size, storage_error, loss_error).reshape(2, -1)[:, order].ravel()
     e1, e2 = arrays["storage"][order], arrays["loss"][order]
-    return Rows(f[order], e1, e2, np.concatenate([e1, e2]) * spread)
+    return Rows(f[order], e1, e2, np.concatenate([e1, e2]) * spread, np.ones(2 * f.size))
 
 
 def _spread(size: int, storage_error: ArrayLike | None, loss_error: ArrayLike | None) -> FloatArray:
@@ -264,7 +270,7 @@ def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
 
 
 def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
-    """Replace the data in the denominators by the fit, by a few passes of `plain`.
+    """Replace the data in the denominators by the fit, by a few passes of `plain`, and end the pull of outliers.
 
     Parameters
     ----------
@@ -295,13 +301,16 @@ def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
     ----------
     R. W. M. Wedderburn, Biometrika 61 (1974) 439-447.
     """
-    spread = rows.scale / np.concatenate([rows.storage, rows.loss])
+    data = np.concatenate([rows.storage, rows.loss])
+    spread = rows.scale / data
     terms = kernel(rows.omega, tau)
     for _ in range(PASSES):
         moduli = _solved(rows, terms, held)
         if not moduli[1:].any():
             raise NoSolutionError(NO_TERM)
-        rows = replace(rows, scale=terms @ moduli * spread)
+        fitted = terms @ moduli
+        kept = np.concatenate([trust(error) for error in np.split(data / fitted - 1.0, 2)])
+        rows = replace(rows, scale=fitted * spread / np.sqrt(np.maximum(kept, NO_TRUST)), trust=kept)
     return rows
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
-from conveyor.rubber.joint_shift import JointShift, Placed
+from conveyor.rubber.joint_shift import LONGEST_STEP, JointShift, Placed
+from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
 
@@ -22,6 +23,16 @@ DIFFERENCE = 1.0e-4
 """Step of a central difference: a hundredth of the smallest shift that matters [decades]."""
 MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
 """Rows of a `Sheet` that count."""
+LEAST_ISOTHERMS = 3
+"""Isotherms in which a frequency must be measured to be told from one bad row [-]."""
+STRAY = 0.5
+"""Trust below which a row stands off its curve: more than five robust standard deviations, see `trust` [-]."""
+SAME_FREQUENCY = 1.0e-4
+"""Frequencies closer than this are one setting of the instrument [decades]."""
+LEAST_VERTICAL = 0.004
+"""Range of log10 b_T below which a vertical shift changes no modulus by 1 % [decades]."""
+ONE_IN_A_THOUSAND = 3.09
+"""Quantile of the normal distribution [-]."""
 LN10 = float(np.log(10.0))
 
 
@@ -75,6 +86,28 @@ class Isotherm:
         object.__setattr__(self, "temperature", t)
 
 
+@dataclass(frozen=True)
+class Resonance:
+    """A frequency of the instrument whose rows stand off the common curve in most isotherms.
+
+    Parameters
+    ----------
+    frequency : float
+        As measured [Hz].
+    isotherms : int
+        In how many it stands off [-].
+    storage : float
+        Median of E' over the common curve, less one; 0 if E' did not count [-].
+    loss : float
+        The same of E'' [-].
+    """
+
+    frequency: float
+    isotherms: int
+    storage: float
+    loss: float
+
+
 @dataclass(frozen=True, eq=False)
 class Superposition:
     """A master curve and everything needed to judge it; `n` isotherms, `m` rows.
@@ -93,8 +126,9 @@ class Superposition:
         Vertical shift, 0 unless it was asked for, shape `(n,)` [decades].
     log10_b_T_error : numpy.ndarray
         Its standard uncertainty, shape `(n,)` [decades].
-    covariance : numpy.ndarray
-        Of log10 a_T, shape `(n, n)`: neighbours share the chain to the reference, and its errors [-].
+    joint_covariance : numpy.ndarray
+        Of log10 a_T, then log10 b_T, shape `(2n, 2n)`: neighbours share the chain to the reference, and its
+        errors [-].
     frequency : numpy.ndarray
         Reduced frequency f a_T of the master curve, ascending, shape `(m,)` [Hz].
     storage : numpy.ndarray
@@ -116,6 +150,11 @@ class Superposition:
     correlation : float
         Correlation of residuals of neighbouring rows, the larger of E' and E''; far above 0 where the
         isotherms differ in shape: then they do not superpose, whatever the shift [-].
+    resonances : tuple of Resonance
+        Frequencies that were left out of every isotherm; their rows are in nothing above.
+    with_vertical : Superposition or None
+        With vertical shifts, where none were asked for and the isotherms need them: beyond chance, by one per
+        cent and more, and they become one curve by it. The errors above then hold the difference to it.
     """
 
     reference: float
@@ -124,7 +163,7 @@ class Superposition:
     log10_a_T_error: FloatArray  # noqa: N815
     log10_b_T: FloatArray  # noqa: N815
     log10_b_T_error: FloatArray  # noqa: N815
-    covariance: FloatArray = field(repr=False)
+    joint_covariance: FloatArray = field(repr=False)
     frequency: FloatArray = field(repr=False)
     storage: FloatArray = field(repr=False)
     loss: FloatArray = field(repr=False)
@@ -135,6 +174,44 @@ class Superposition:
     storage_scatter: float | None
     loss_scatter: float | None
     correlation: float
+    resonances: tuple[Resonance, ...] = ()
+    with_vertical: Superposition | None = field(default=None, repr=False)
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Of log10 a_T, shape `(n, n)` [-]."""
+        n = self.temperatures.size
+        return self.joint_covariance[:n, :n]
+
+    @property
+    def shifts(self) -> FloatArray:
+        """log10 a_T, then log10 b_T, shape `(2, n)` [decades]."""
+        return np.array([self.log10_a_T, self.log10_b_T])
+
+    def kept(self, frequency: FloatArray) -> NDArray[np.bool_]:
+        """Whether rows at frequencies [Hz] are those of no resonance, shape `(m,)`."""
+        return _kept(np.log10(frequency), [one.frequency for one in self.resonances])
+
+    def drawn(self, generator: np.random.Generator) -> FloatArray:
+        """Shifts that the isotherms allow as well, by their covariance.
+
+        Parameters
+        ----------
+        generator : numpy.random.Generator
+            Of the random numbers [-].
+
+        Returns
+        -------
+        numpy.ndarray
+            log10 a_T, then log10 b_T, shape `(2, n)` [decades].
+        """
+        from scipy.interpolate import PchipInterpolator
+
+        values, vectors = np.linalg.eigh(self.joint_covariance)
+        error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
+        found = self.shifts + error.reshape(2, -1)
+        level = PchipInterpolator(self.temperatures, found, axis=1)(self.reference)
+        return np.asarray(found - level[:, None])
 
 
 def superpose(
@@ -179,9 +256,17 @@ def superpose(
     Stiffness of the curves and noise of each modulus follow from the restricted likelihood, so E' and E''
     weigh by how well they superpose. The first guess lays each isotherm on its hotter neighbour.
 
+    A row that stands off loses its pull (`misfit.trust`). A frequency at which most isotherms stand off is a
+    resonance of the instrument: its rows are left out of all of them, also where one isotherm alone reaches.
+
+    Isotherms with little slope are placed by a prior: the decades per kelvin change from one pair of
+    neighbours to the next by half of their mean, as a standard deviation (`joint_shift.UNEVEN`).
+
     The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
     scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
-    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). It does not hold errors
+    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
+    test asks whether vertical shifts are missing; if so they are fitted beside, and the difference enters the
+    uncertainty as one standard deviation. It does not hold errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
@@ -211,9 +296,90 @@ def superpose(
     if by not in MODULI:
         raise InputError(f'by = {by!r} must be "both", "storage" or "loss"')
     moduli = MODULI[by]
+    placed = _placed(sheets, moduli, vertical=vertical)
+    resonances = _resonances(sheets, moduli, placed)
+    if resonances:
+        sheets = [_without(sheet, [one.frequency for one in resonances]) for sheet in sheets]
+        placed = _placed(sheets, moduli, vertical=vertical)
+    found = replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
+    return found if vertical else _doubted(found, sheets, moduli, placed)
+
+
+def _doubted(
+    found: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed
+) -> Superposition:
+    """With the vertical shift in the uncertainty where the isotherms ask for one: as an error of that size."""
+    steps = -np.diff(placed.shift)
+    try:
+        score = JointShift(sheets, moduli=moduli, vertical=True).score(
+            np.concatenate([steps, np.zeros_like(steps)]), placed.residual
+        )
+        if score < _chi2_limit(steps.size):
+            return found
+        other = _result(sheets, found.reference, moduli, _placed(sheets, moduli, vertical=True))
+    except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
+        return found
+    n = found.temperatures.size
+    apart = (other.shifts - found.shifts).ravel()
+    chance = 2.0 / np.sqrt(found.frequency.size)
+    if (
+        np.ptp(other.log10_b_T) < LEAST_VERTICAL
+        or np.max(np.abs(np.diff(apart[:n])))
+        > LONGEST_STEP  # the slopes hardly tell one shift from the other
+        or other.correlation > max(chance, 0.5 * found.correlation)  # it does not make them one curve
+    ):
+        return found
+    covariance = found.joint_covariance + np.outer(apart, apart)
+    return replace(
+        found,
+        joint_covariance=covariance,
+        log10_a_T_error=_root(covariance[:n, :n]),
+        log10_b_T_error=_root(covariance[n:, n:]),
+        with_vertical=other,
+    )
+
+
+def _chi2_limit(freedom: int) -> float:
+    """Chi squared that chance passes once in a thousand: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
+    step = 2.0 / (9.0 * freedom)
+    return float(freedom * (1.0 - step + ONE_IN_A_THOUSAND * np.sqrt(step)) ** 3)
+
+
+def _placed(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool) -> Placed:
     joint = JointShift(sheets, moduli=moduli, vertical=vertical)
     start = [first_guess(cold, hot, moduli=moduli, vertical=vertical) for cold, hot in pairwise(sheets)]
-    return _result(sheets, t_ref, moduli, joint.minimum(np.array(start).T))
+    return joint.minimum(np.array(start).T)
+
+
+def _resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed) -> tuple[Resonance, ...]:
+    """Frequencies that the common curves do not trust in more than half of the isotherms that hold them."""
+    x = np.concatenate([sheet.x for sheet in sheets])
+    stray = np.min([trust(one) for one in placed.residual], axis=0) < STRAY
+    found = []
+    for at in np.unique(x[stray]):
+        same = np.abs(x - at) < SAME_FREQUENCY
+        if np.count_nonzero(same) < LEAST_ISOTHERMS or np.mean(stray[same]) <= 0.5:
+            continue
+        off = dict(zip(moduli, np.expm1(np.median(placed.residual[:, same & stray], axis=1)), strict=True))
+        count = int(np.count_nonzero(stray[same]))
+        found.append(Resonance(float(10.0**at), count, float(off.get(0, 0.0)), float(off.get(1, 0.0))))
+    return tuple(found)
+
+
+def _kept(x: FloatArray, frequencies: list[float]) -> NDArray[np.bool_]:
+    """Whether log10 of frequencies is none of those that are left out."""
+    apart: NDArray[np.bool_] = np.abs(x - np.log10(frequencies)[:, None]) >= SAME_FREQUENCY
+    return np.asarray(apart.all(axis=0))
+
+
+def _without(sheet: LogIsotherm, frequencies: list[float]) -> LogIsotherm:
+    kept = _kept(sheet.x, frequencies)
+    if np.count_nonzero(kept) < LEAST_ROWS:
+        raise NoSolutionError(
+            f"the rows at {', '.join(f'{f:g} Hz' for f in frequencies)} stand off the common curve in most isotherms"
+            f" (a resonance?), and without them the one at {celsius(sheet.temperature)} has < {LEAST_ROWS} rows"
+        )
+    return LogIsotherm(sheet.temperature, sheet.x[kept], sheet.y[:, kept])
 
 
 def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[LogIsotherm], float]:
@@ -245,8 +411,8 @@ def _result(
     size = t.size
     a, from_a = _zeroed(t, shift, t_ref)
     b, from_b = _zeroed(t, offset, t_ref)
-    covariance = from_a @ placed.covariance[:size, :size] @ from_a.T
-    vertical = from_b @ placed.covariance[size:, size:] @ from_b.T
+    from_both = np.block([[from_a, np.zeros((size, size))], [np.zeros((size, size)), from_b / LN10]])
+    covariance = from_both @ placed.covariance @ from_both.T
     overlaps = tuple(
         overlap(sheets[i], sheets[i + 1], -da, -db, held=bool(placed.held[i]))
         for i, (da, db) in enumerate(zip(np.diff(a).tolist(), np.diff(b).tolist(), strict=True))
@@ -261,10 +427,10 @@ def _result(
         reference=t_ref,
         temperatures=t,
         log10_a_T=a,
-        log10_a_T_error=_root(covariance),
+        log10_a_T_error=_root(covariance[:size, :size]),
         log10_b_T=b / LN10,
-        log10_b_T_error=_root(vertical) / LN10,
-        covariance=covariance,
+        log10_b_T_error=_root(covariance[size:, size:]),
+        joint_covariance=covariance,
         frequency=10.0 ** x[order],
         storage=modulus[0],
         loss=modulus[1],

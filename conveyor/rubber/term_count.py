@@ -11,14 +11,22 @@ from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.non_negative import non_negative
 from conveyor.rubber.rows import DUST, Rows, even_times
 
-DENSITIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 8.0)
-"""Offered terms per decade. At eight, twins stand for a line between them to (0.29)^2/8 = 1 % of E'' or less."""
+DENSITIES = (2.0, 3.0, 4.0, 8.0)
+"""Offered terms per decade. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d), 0.08 % at two; twins stand for a line
+between them to d^2/8, 1 % of E'' at eight, and are set closer where that shows."""
+REACH = 1.0
+"""Reach of the times beyond both ends of the window. A line a decade outside stands for all farther ones: they are
+a constant and a loss ~ 1/omega on the slow side, a loss ~ omega on the fast one, to 1 % [decades]."""
+HALVINGS = 4
+"""Halvings of the spacing about the lines of a spectrum of few: 0.018 in ln(time), (0.018)^2/8 = 4e-5."""
 BARE_DENSITY = 8.0
 """From here on no penalty is offered: a spectrum that is smooth needs fewer lines [1/decade]."""
 STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
 SUPPORT = 2.0
 """Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
+NO_SUPPORT = 10.0
+"""Candidates farther than this from the best have essentially none: the same section [-]."""
 ROUNDING = 1e-13
 """Relative errors below this are rounding, not information [-]."""
 SMOOTHING = 0.5 * np.log(10.0)
@@ -91,8 +99,9 @@ class Penalised:
         sum of squared relative errors  +  lambda (N/L) integral (d^2 g/du^2)^2 du,   u = ln tau,
 
     with N rows of E' and E'' over L = ln(omega_max/omega_min), and g = H/H0: the spectrum over its own
-    first estimate H0(tau) = (2/pi) E''(1/tau), E'' smoothed. So each decade of a spectrum that spans many
-    is smoothed alike, as it would be by a penalty on ln H, while the problem stays linear.
+    first estimate H0(tau) = (2/pi) E''(1/tau), E'' smoothed; beyond the window it goes on as a power law, of the
+    slope of E'' at its end. So each decade of a spectrum that spans many is smoothed alike, as it would be by a
+    penalty on ln H, while the problem stays linear.
 
     References
     ----------
@@ -117,14 +126,18 @@ class Penalised:
         self.bends = np.column_stack([np.zeros(len(bends)), bends]) if held is None else bends
         self.dust = DUST * float(rows.storage.min()) / self.unit
 
-    def solve(self, target: FloatArray, strength: float) -> FloatArray:
-        """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa]."""
-        return self._solved(target, self._stacked(strength))
+    def solve(self, target: FloatArray, strength: float, bend: FloatArray | None = None) -> FloatArray:
+        """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa].
 
-    def _solved(self, target: FloatArray, matrix: FloatArray) -> FloatArray:
+        `bend` is what the penalised curvatures are held to, shape `(bends,)`; 0 without it [-].
+        """
+        return self._solved(target, self._stacked(strength), bend)
+
+    def _solved(self, target: FloatArray, matrix: FloatArray, bend: FloatArray | None = None) -> FloatArray:
         """`solve`, of the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
-        found = non_negative(matrix, np.concatenate([right, np.zeros(len(matrix) - right.size)]))
+        bend = np.zeros(len(matrix) - right.size) if bend is None else bend[: len(matrix) - right.size]
+        found = non_negative(matrix, np.concatenate([right, bend]))
         full = found if self.held is None else np.concatenate([[self.held / self.unit[0]], found])
         return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
 
@@ -155,11 +168,20 @@ class Penalised:
 
 
 def _smoothed_loss(rows: Rows, tau: FloatArray) -> FloatArray:
-    """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa]."""
-    distance = (np.log(rows.omega) + np.log(tau)[:, None]) / SMOOTHING
-    nearest = np.min(np.abs(distance), axis=1, keepdims=True)
-    weights = np.exp(0.5 * (nearest**2 - distance**2))
-    return np.asarray(np.exp(weights @ np.log(rows.loss) / weights.sum(axis=1)))
+    """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa].
+
+    Beyond the window a power law goes on, of the slope at its end: between 0 and 1 on the slow side, where a loss that
+    grew would eat the equilibrium modulus, between -1 and 1 on the fast one.
+    """
+    x, y = np.log(rows.omega), np.log(rows.loss)
+    at = -np.log(tau)
+    inside = np.clip(at, x[0], x[-1])
+    weights = np.exp(-0.5 * ((x - inside[:, None]) / SMOOTHING) ** 2) * rows.trust[x.size :]
+    weights /= weights.sum(axis=1, keepdims=True)
+    away = x - (weights @ x)[:, None]
+    slope = np.sum(weights * away * y, axis=1) / np.sum(weights * away**2, axis=1)
+    slope = np.clip(slope, np.where(at < inside, 0.0, -1.0), 1.0)
+    return np.asarray(np.exp(weights @ y + slope * (at - inside)))
 
 
 def _second_derivative(u: FloatArray) -> FloatArray:
@@ -230,31 +252,60 @@ def choose(
     -----
     Of all candidates within `SUPPORT` of the smallest AICc, the one with the fewest active terms is taken,
     among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
-    (fluids) count only if no other has that support.
+    (fluids) count only if all others have essentially no support: a cover is a solid.
     """
-    found: list[tuple[Candidate, FloatArray, bool]] = []
-    target = rows.target
+    found: list[_Offer] = []
     for density in DENSITIES:
-        tau = even_times(rows.omega, density)
-        if any(tau.size == other.size for _, other, _ in found):
-            continue  # a short window: the same two or three times again
+        tau = even_times(rows.omega, density, REACH)
         problem = Penalised(rows, tau, held)
-        for strength in strengths if tau.size > 2 and density < BARE_DENSITY else strengths[:1]:
-            one = problem.judged(target, strength)
-            terms = int(np.count_nonzero(one.moduli[1:]))
-            if target.size - one.freedom - 2.0 <= 0.0 or terms == 0:
-                continue
-            score = aicc(target.size, one.freedom, one.residual)
-            line = Candidate(density, strength, terms, one.freedom, one.residual, score)
-            found.append((line, tau, bool(one.moduli[0] > 0.0)))
+        for strength in strengths if density < BARE_DENSITY else strengths[:1]:
+            found += _offer(rows, problem, density, strength)
+    if found and found[-1][0].regularisation == 0.0:
+        found += _closer(rows, held, found[-1])
     if not found:
         raise InputError(
-            f"{target.size // 2} rows are too few to choose the number of terms: measure more frequencies,"
+            f"{rows.frequency.size} rows are too few to choose the number of terms: measure more frequencies,"
             " or give terms_per_decade= or times="
         )
-    best = min(line.score for line, _, _ in found)
-    supported = [c for c in found if c[0].score <= best + SUPPORT]
-    solid = [c for c in supported if c[2]]
-    chosen = min(solid or supported, key=lambda c: (c[0].terms, c[0].freedom))
+    best = min(one[0].score for one in found)
+    solid = [one for one in found if one[2][0] > 0.0 and one[0].score <= best + NO_SUPPORT]
+    least = min(one[0].score for one in solid or found)
+    supported = [one for one in solid or found if one[0].score <= least + SUPPORT]
+    chosen = min(supported, key=lambda one: (one[0].terms, one[0].freedom))
     others = sorted((c[0] for c in found if c is not chosen), key=lambda line: line.score)
     return chosen[1], chosen[0].regularisation, (chosen[0], *others)
+
+
+_Offer = tuple[Candidate, FloatArray, FloatArray]
+"""A candidate, its times [s], and its moduli, equilibrium first [Pa]."""
+
+
+def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> list[_Offer]:
+    """One candidate, or none where the criterion does not exist."""
+    target = rows.target
+    one = problem.judged(target, strength)
+    terms = int(np.count_nonzero(one.moduli[1:]))
+    if target.size - one.freedom - 2.0 <= 0.0 or terms == 0:
+        return []
+    score = aicc(target.size, one.freedom, one.residual)
+    return [(Candidate(density, strength, terms, one.freedom, one.residual, score), problem.tau, one.moduli)]
+
+
+def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
+    """Candidates of halved spacing about the lines of a spectrum of few, as long as each is better."""
+    found: list[_Offer] = []
+    for _ in range(HALVINGS):
+        line, tau, moduli = last
+        if 2 * line.terms > tau.size:
+            break  # no lines, a spectrum
+        near = np.convolve(moduli[1:] > 0.0, np.ones(3), "same") > 0.0
+        u = np.log(tau[near])
+        step = np.log(10.0) / line.terms_per_decade
+        between = 0.5 * (u[1:] + u[:-1])[np.diff(u) < 1.5 * step]
+        problem = Penalised(rows, np.exp(np.sort(np.concatenate([u, between]))), held)
+        closer = _offer(rows, problem, 2.0 * line.terms_per_decade, 0.0)
+        if not closer or closer[0][0].score > line.score - SUPPORT:
+            break
+        last = closer[0]
+        found.append(last)
+    return found

@@ -61,6 +61,39 @@ def test_replicas_shift_like_the_series(banded: dict[str, Any]) -> None:
         compound.replicas(263.14)
 
 
+def test_replicas_go_with_their_own_shifts(banded: dict[str, Any]) -> None:
+    shift = banded["shift"]
+    own = [list(shift["log10_aT"]), [2.0 * y for y in shift["log10_aT"]]]
+    vertical = [[0.0] * len(own[0]), [0.3 * (y != 0.0) for y in own[0]]]
+    banded["prony"]["band"] |= {"log10_aT": own, "log10_bT": vertical}
+    compound = RubberCompound.model_validate(banded)
+    coldest = 263.15
+    one, two = compound.replicas(coldest)
+    base = compound.replicas(293.15)
+    a = 10.0 ** float(compound.shift_law().log10_a_T(coldest))
+    np.testing.assert_allclose(one.times, base[0].times * a, rtol=1e-12)
+    np.testing.assert_allclose(two.times, base[1].times * a**2, rtol=1e-12)
+    assert two.equilibrium == pytest.approx(base[1].equilibrium * 10.0**0.3, rel=1e-12)
+    for alternative, replica in zip(compound.alternatives(), (one, two), strict=True):
+        np.testing.assert_allclose(alternative.series(coldest).times, replica.times, rtol=1e-12)
+    assert RubberCompound.model_validate(compound.as_data()) == compound
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"log10_aT": [[1.0, 0.0]]}, "got 1 lists for 2 values of equilibrium"),
+        ({"log10_aT": [[0.0] * 9] * 2}, "a shift table needs >= 2 temperatures and one log10 a_T for each"),
+    ],
+)
+def test_shifts_of_replicas_that_do_not_fit(
+    banded: dict[str, Any], change: dict[str, Any], message: str
+) -> None:
+    banded["prony"]["band"] |= change
+    with pytest.raises(ValidationError, match=message):
+        RubberCompound.model_validate(banded)
+
+
 def test_without_shift_or_band(banded: dict[str, Any]) -> None:
     del banded["shift"]
     compound = RubberCompound.model_validate(banded)

@@ -102,12 +102,52 @@ def test_frequency_is_cyclic() -> None:
     assert fit.series.moduli[0] == pytest.approx(1e6, rel=1e-12)
 
 
-def test_default_times_stay_inside_the_window() -> None:
+def test_default_times_reach_a_decade_beyond_the_window() -> None:
     fit = fit_prony(*noisy(0.01, 6))
-    assert fit.series.times[0] >= 1 / (2 * np.pi * FREQUENCY[-1]) * (1 - 1e-12)
-    assert fit.series.times[-1] <= 1 / (2 * np.pi * FREQUENCY[0]) * (1 + 1e-12)
+    assert fit.series.times[0] >= 0.1 / (2 * np.pi * FREQUENCY[-1]) * (1 - 1e-12)
+    assert fit.series.times[-1] <= 10.0 / (2 * np.pi * FREQUENCY[0]) * (1 + 1e-12)
     assert fit_prony(*noisy(0.01, 6), terms_per_decade=1.0).grid_terms == round(13.5) + 1
     assert fit.window == (FREQUENCY[0], FREQUENCY[-1])
+
+
+LINES = np.logspace(-14.0, 7.0, 127)
+EXACT = {
+    "power law": PronySeries(2e6, 2e5 * LINES**-0.25 / (1 + LINES / 1e4) ** 2, LINES),
+    "glass": PronySeries(1e6, 5e6 * np.exp(-0.5 * ((np.log10(LINES) + 5.5) / 1.6) ** 2) + 1e-6, LINES),
+    "two lines": PronySeries(3e6, [2e6, 6e6], [3e-2, 3e-4]),
+}
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_exact_data_are_met_to_the_ends_of_the_window(name: str) -> None:
+    f, e1, e2 = data(EXACT[name], np.logspace(-2.0, 5.0, 50))
+    fit = fit_prony(f, e1, e2)
+    # lines closer than 0.02 in ln(tau) stand in for any to 4e-5; spectra outside for a decade of them to 1 % of a tail
+    assert abs(fit.storage.worst) < 5e-4
+    assert abs(fit.loss.worst) < 5e-4
+
+
+def test_the_tail_beyond_the_window_leaves_the_equilibrium_modulus() -> None:
+    truth = EXACT["power law"]
+    fit = fit_prony(*data(truth, np.logspace(-2.0, 5.0, 50)))
+    # nothing tells E_e from terms slower than ten times the slowest period: it holds them, and no more
+    slow = truth.moduli[truth.times > 10.0 / (2 * np.pi * 1e-2)].sum()
+    assert truth.equilibrium < fit.series.equilibrium < truth.equilibrium + 1.5 * slow
+
+
+def test_an_outlier_is_named_and_pulls_nothing() -> None:
+    f, e1, e2 = noisy(0.01, 2)
+    bad = e2.copy()
+    bad[40] *= 2.0
+    clean, fit = fit_prony(f, e1, e2), fit_prony(f, e1, bad)
+    assert np.flatnonzero(fit.rows.trust < 0.5).tolist() == [84 + 40]
+    assert (clean.rows.trust > 0.5).all()
+    omega = 2 * np.pi * f
+    # one row less of 168: nothing moves by more than the noise
+    np.testing.assert_allclose(fit.series.loss(omega), clean.series.loss(omega), rtol=0.01)
+    # it stays in the errors that are told: a half less than the datum
+    assert fit.loss.worst == pytest.approx(-0.5, abs=0.03)
+    assert fit.errors[1, 40] == pytest.approx(fit.loss.worst, rel=1e-12)
 
 
 def test_held_equilibrium_allows_slow_times() -> None:
@@ -121,7 +161,7 @@ def test_held_equilibrium_allows_slow_times() -> None:
 
 def test_exact_data_are_their_own_fit_with_the_plateau_held() -> None:
     f, e1, e2 = data(TRUTH, FREQUENCY)
-    rows = Rows(f, e1, e2, np.concatenate([e1, e2]))
+    rows = Rows(f, e1, e2, np.concatenate([e1, e2]), np.ones(2 * f.size))
     found = relative_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
     np.testing.assert_allclose(found.scale, rows.scale, rtol=1e-9)
 

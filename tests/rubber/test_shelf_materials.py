@@ -141,8 +141,8 @@ def test_every_compound_is_complete_and_usable(name: str) -> None:
     # times beyond the window by more than a decade would not be determined by it
     low, high = (si(f) for f in c["range"]["frequency"])
     if c["kind"] == "measured":
-        assert series.times[0] >= 0.999 / (2 * np.pi * high)
-        assert series.times[-1] <= 1.001 / (2 * np.pi * low)
+        assert series.times[0] >= 0.0999 / (2 * np.pi * high)
+        assert series.times[-1] <= 10.01 / (2 * np.pi * low)
     for temperature in (si(t) for t in c["range"]["temperature"]):
         assert np.isfinite(shifted(series, law, temperature).times).all()
     assert float(law.log10_a_T(si(c["reference_temperature"]))) == 0.0

@@ -169,6 +169,64 @@ def test_one_outlier_moves_nothing() -> None:
     assert np.all(np.abs(with_it.log10_a_T - without.log10_a_T) < 2.0 * error)
 
 
+def spoiled(one: Isotherm, row: int, storage: float, loss: float) -> Isotherm:
+    e1, e2 = one.storage.copy(), one.loss.copy()
+    e1[row] *= storage
+    e2[row] *= loss
+    return Isotherm(one.temperature, one.frequency, e1, e2)
+
+
+def test_a_resonance_is_found_and_moves_nothing() -> None:
+    clean = sweeps(9, 0.01)
+    result = superpose([spoiled(one, -1, 1.3, 2.5) for one in clean], REFERENCE)
+    (found,) = result.resonances
+    assert found.frequency == pytest.approx(100.0, rel=1e-9)
+    # a row more or less beside its curve: at the ends one is the curve
+    assert found.isotherms >= TEMPERATURES.size - 3
+    assert (found.storage, found.loss) == (pytest.approx(0.3, abs=0.02), pytest.approx(1.5, abs=0.05))
+    without = superpose(
+        [Isotherm(i.temperature, i.frequency[:-1], i.storage[:-1], i.loss[:-1]) for i in clean], REFERENCE
+    )
+    np.testing.assert_array_equal(result.log10_a_T, without.log10_a_T)
+    assert superpose(clean, REFERENCE).resonances == ()
+
+
+def test_one_isotherm_off_is_no_resonance() -> None:
+    clean = sweeps(9, 0.01)
+    assert superpose([spoiled(clean[0], -1, 1.3, 2.5), *clean[1:]], REFERENCE).resonances == ()
+
+
+def test_a_vertical_shift_that_is_missing_is_said_and_in_the_errors() -> None:
+    truth = np.asarray(LAW.log10_a_T(TEMPERATURES))
+    away = TEMPERATURES != REFERENCE
+    for seed in range(3):
+        result = superpose(sweeps(seed, 0.01, b=TEMPERATURES / REFERENCE), REFERENCE)
+        assert result.with_vertical is not None
+        np.testing.assert_array_equal(result.log10_b_T, 0.0)
+        # what is missing is one error of one standard deviation
+        z = np.abs(result.log10_a_T - truth)[away] / result.log10_a_T_error[away]
+        assert np.sqrt(np.mean(z**2)) < 1.5
+        b = np.log10(TEMPERATURES / REFERENCE)[away] / result.log10_b_T_error[away]
+        assert np.sqrt(np.mean(b**2)) < 1.5
+        assert superpose(sweeps(seed, 0.01), REFERENCE).with_vertical is None
+
+
+def test_curves_almost_without_slope_keep_an_order() -> None:
+    """E'' constant, E' rising by 3 % a decade: noise of 2 % alone would let every other isotherm change places."""
+    flat = PronySeries(6e6, np.full(67, 6e4), TIMES)
+    rng = np.random.default_rng(0)
+    found = []
+    for t in TEMPERATURES[4:]:
+        f = np.logspace(-1, 2, 10)
+        omega = 2 * np.pi * f * 10.0 ** LAW.log10_a_T(t)
+        scatter = np.exp(0.02 * rng.standard_normal((2, 10)))
+        found.append(Isotherm(t, f, flat.storage(omega) * scatter[0], flat.loss(omega) * scatter[1]))
+    result = superpose(found, REFERENCE)
+    assert np.all(np.diff(result.log10_a_T) < 0.0)
+    z = (result.log10_a_T - LAW.log10_a_T(TEMPERATURES[4:])) / np.maximum(result.log10_a_T_error, 1e-9)
+    assert np.all(np.abs(z) < 4.0)
+
+
 def test_residuals_are_the_noise() -> None:
     result = superpose(sweeps(5, 0.02), REFERENCE)
     # 150 rows less some 40 parameters: 7 % standard error of the scatter, three of them

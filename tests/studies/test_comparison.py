@@ -89,7 +89,7 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
         other = compound.replace(prony=prony)
         (replica,) = compare_compounds(line, [other], temperatures=["20 degC"], speeds=["5 m/s"]).scenes
         powers.append(replica.motor)
-    low, high = np.quantile(powers, (0.05, 0.95))
+    low, high = np.quantile(powers, (0.05, 0.95), method="weibull")
     assert one.motor_low < one.motor < one.motor_high
     width = high - low
     # other rolls and the softening at each replica's own strain move the ends by a part of the band
@@ -97,8 +97,8 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
     assert one.motor_high == pytest.approx(high, abs=0.15 * width)
 
 
-def test_band_of_two_replicas_lies_a_twentieth_inside_them(line):
-    # one is the fit, which leaves the power as it is; friction, and with it power, is linear between both
+def test_band_of_two_replicas_is_both_of_them(line):
+    # one is the fit, which leaves the power as it is; with two, nine tenths reach to both
     compound = shelf.compound("s100")
     fit = compound.series(si(compound.reference_temperature))
     band = {
@@ -109,8 +109,8 @@ def test_band_of_two_replicas_lies_a_twentieth_inside_them(line):
     }
     stiff = compound.replace(prony=compound.prony.replace(band=band))
     (one,) = compare_compounds(line, [stiff]).scenes
-    assert one.motor_high < one.motor  # stiff rubber is indented less
-    assert one.motor - one.motor_low == pytest.approx(0.95 / 0.05 * (one.motor - one.motor_high), rel=1e-6)
+    assert one.motor_low < 0.99 * one.motor  # stiff rubber is indented less
+    assert one.motor_high == pytest.approx(one.motor, rel=1e-9)
 
 
 def test_no_replicas_and_no_tests_no_band(line):
