@@ -39,7 +39,7 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact", "validate",
+    "new", "power", "dynamics", "compare", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact", "validate",
     "schema",
 )  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -28,9 +28,10 @@ Array = NDArray[np.float64]
 
 ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
-_CELLS = 150  # of the longest belt at first
+_CELLS = 100  # of the longest belt at first
 _REFINED = 4  # times at most
 _ORDER = 2.0
+_COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +88,16 @@ class Followed:
     def place(self, i: int) -> str:
         """Where a cell is, in words: section and strand."""
         at = int(np.searchsorted(self.ride.loop.way, self.middles[i], side="right")) - 1
-        stretch = self.line.loop.stretches[self.ride.loop.order[min(at, self.ride.loop.order.size - 1)]]
+        stretch = self.line.loop.stretches[self.ride.loop.order[at]]
         return f"{stretch.section}, {stretch.strand}"
+
+    @cached_property
+    def round_loop(self) -> tuple[NDArray[np.int_], Array]:
+        """Cells as the belt meets them from the head, return strand first, and their distance from it [m]."""
+        loop, ways = self.ride.loop, self.line.loop.way
+        distance = (self.middles + ways[loop.order[0]]) % ways[-1]
+        order = np.argsort(distance)
+        return order, distance[order]
 
     def stretches(self) -> Iterator[tuple[int, slice]]:
         """Every stretch of `line.loop` and its cells; at least one."""
@@ -96,6 +105,22 @@ class Followed:
             low, high = np.searchsorted(self.middles, self.ride.loop.way[i : i + 2])
             low = min(int(low), self.middles.size - 1)
             yield k, slice(low, max(int(high), low + 1))
+
+    @cached_property
+    def torque(self) -> Array:
+        """Of every motor over its rated one [-], shape (steps, d)."""
+        return np.asarray(self.record.drives["motor"] / self.ride.rated)
+
+    @cached_property
+    def travel(self) -> Array:
+        """Of the take-up's carriage, away from the belt positive [m], every step."""
+        return np.asarray(self.record.take_up["belt"] / self.line.take_up.strands)
+
+    @cached_property
+    def stops(self) -> bool:
+        """Whether the last thing every drive is told is to stop."""
+        told = {d: happening.do for happening in self.ride.scene.happenings for d in happening.drives}
+        return len(told) == len(self.ride.drives) and "start" not in told.values()
 
     @cached_property
     def belt_speed(self) -> Array:
@@ -212,23 +237,22 @@ def follow(
         raise InputError(f"error = {error}: between 0 and 1 is needed")
     rides, given = _rides(conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)))
     if step is not None:
-        return CalculatedDynamics(conveyor, given, tuple(_followed(rides, step)))
+        return CalculatedDynamics(conveyor, given, tuple(side_by_side(rides, step)))
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
-    before = _followed(rides, step)
-    for done in range(_REFINED):
+    open_ones, found = list(range(len(rides))), dict(enumerate(side_by_side(rides, step)))
+    for _ in range(_REFINED):
         if progress is not None:
-            progress(done, _REFINED)
+            progress(len(rides) - len(open_ones), len(rides))
         step *= 0.5
-        now = _followed(rides, step)
-        estimates = [_error(old, new) for old, new in zip(before, now, strict=True)]
-        if max(estimates) <= error:
-            known = (Followed(one.ride, one.cells, one.record, e) for one, e in zip(now, estimates, strict=True))
-            return CalculatedDynamics(conveyor, given, tuple(known))
-        before = now
-    worst = max(range(len(rides)), key=lambda i: estimates[i])
+        for i, now in zip(open_ones, side_by_side([rides[i] for i in open_ones], step), strict=True):
+            found[i] = replace(now, error=_error(found[i], now))
+        open_ones = [i for i in open_ones if (found[i].error or 0.0) > error]
+        if not open_ones:
+            return CalculatedDynamics(conveyor, given, tuple(found[i] for i in range(len(rides))))
+    worst = max((found[i] for i in open_ones), key=lambda one: one.error or 0.0)
     raise NoSolutionError(
-        f'scenario "{rides[worst].scene.name}": its peaks still change by {estimates[worst]:.1%} at cells of '
-        f"{step:.3g} s: ask for a larger error, or look for a drive of hardly any mass"
+        f'scenario "{worst.name}": its peaks still change by {worst.error:.1%} at cells of {step:.3g} s: ask for a '
+        "larger error, or look for a drive of hardly any mass"
     )
 
 
@@ -238,10 +262,16 @@ def _error(coarse: Followed, fine: Followed) -> float:
     return max(map(abs, changes)) / (2.0**_ORDER - 1.0) / fine.highest
 
 
-def _followed(rides: Sequence[Ride], step: float) -> list[Followed]:
-    """All scenarios side by side."""
+def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
+    """Follow scenarios of one conveyor side by side, their cells as long as a wave travels in a step [s].
+
+    Raises
+    ------
+    NoSolutionError
+        The drives have no room, a drive cannot do what it is told, or a figure is not finite.
+    """
     cells, chain, start = prepared(list(rides), step)
-    step = min(step, chain.longest_step)
+    step = _COURANT * min(step, chain.longest_step)
     steps = math.ceil(max(ride.duration for ride in rides) / step) + 1
     record = run(chain, machines(list(rides), start, step, steps), start, step=step)
     return [

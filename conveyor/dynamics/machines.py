@@ -252,8 +252,8 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Start]
 def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
     """Friction, tensions (of the take-up, then of every cell) and forces of the drives in balance [N].
 
-    At rest friction holds the belt as far as it can, everywhere by the same share of its own; the first drive what is
-    left, by its brake or backstop.
+    At rest friction holds the belt as far as it can, everywhere by the same share of its own, but more where the belt
+    would be slack; the first drive holds what is left, by its brake or backstop.
     """
     line, friction = ride.loop.line, ride.scene.friction
     shares = np.array([drive.share for drive in ride.drives])
@@ -264,6 +264,7 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
         most = friction * (cells.resisting(line.speed, 1.0) + cells.stuck)
         share = -float(cells.weight.sum()) / float(most.sum())
         resisting = most * min(1.0, max(-1.0, share))
+        resisting = _taut(ride.setting, resisting, most, cells.weight)
         driving = np.zeros_like(shares)
         driving[0] = float(resisting.sum() + cells.weight.sum())
     against = resisting + cells.weight
@@ -274,6 +275,17 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
         length = np.diff(cells.at)
         tension = tension - float(along[1:] @ length) / float(length.sum())
     return resisting, tension, driving
+
+
+def _taut(setting: float, resisting: Array, most: Array, weight: Array) -> Array:
+    """Friction at rest that keeps the belt from being slack, where it can [N]."""
+    tension = setting + np.cumsum(resisting + weight)[:-1]
+    for i in range(1, tension.size):
+        tension[i] = max(tension[i], 0.0, tension[i - 1] + weight[i] - most[i])
+    for i in range(tension.size - 2, -1, -1):
+        tension[i] = max(tension[i], tension[i + 1] - weight[i + 1] - most[i + 1])
+    held = np.append(np.diff(tension, prepend=setting) - weight[:-1], resisting[-1])
+    return np.asarray(np.clip(held, -most, most))
 
 
 def machines(rides: list[Ride], start: Start, step: float, steps: int) -> Machines:

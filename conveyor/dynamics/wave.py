@@ -306,8 +306,15 @@ def run(
     rows, one, at = np.arange(s)[:, None], np.arange(s), chain.nodes
     loose = np.ones((s, n + 1), bool)
     loose[rows, at] = False  # friction there is taken with the pulley's
-    first, last = at == 0, at == chain.end[:, None]
-    ahead, behind, stuck = at - 1, np.minimum(at, n - 1), chain.sticking[rows, at]
+    into = np.where(at == 0, chain.end[:, None], at)  # the take-up's both sides where the pulley stands beside it
+    out = np.where(at == chain.end[:, None], 0, at)
+    stuck = chain.sticking[rows, at]
+    softer = 0.25 * step * chain.stiffness
+    every_drive = np.arange(count)
+    yields = (
+        softer[rows, into - 1] * solver.columns[rows, every_drive, into] / solver.answer,
+        softer[rows, out] * solver.columns[rows, every_drive, out] / solver.answer,
+    )
     over_mass = loose * step / chain.mass
     under_mass = loose * chain.mass / step
     still = chain.sticking * over_mass
@@ -339,15 +346,17 @@ def run(
         new = speed + change
         rolling = chain.resisting(speed)
         if count:
-            at_nodes = speed[rows, at]
+            at_nodes, going = speed[rows, at], new[rows, at]
+            turning = softer * (np.diff(new, axis=1) - stretching)
+            arriving = strained[rows, into - 1] + turning[rows, into - 1]
+            leaving = strained[rows, out] + turning[rows, out]
             moved = _pulleys(
                 chain, machines, i, step=step, answer=solver.answer, rim=rims,
-                free=new[rows, at] - solver.answer * step * driving,
-                arriving=np.where(first, tight[:, None], strained[rows, ahead]),
-                leaving=np.where(last, tight[:, None], strained[rows, behind]),
+                free=going - solver.answer * step * driving,
+                arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going, yields=yields,
                 friction=np.where(at_nodes == 0.0, stuck, rolling[rows, at]),
             )  # fmt: skip
-            push = (moved.belt - new[rows, at]) / solver.answer
+            push = (moved.belt - going) / solver.answer
             new += np.einsum("sd,sdn->sn", push, solver.columns)
             lacking = lacking + (solver.of_take_up * push).sum(axis=1)
             for name, values in drives.items():
@@ -416,33 +425,43 @@ def _rest(free: Array, forward: Array, backward: Array) -> Array:
 
 def _pulleys(
     chain: Chain, machines: Machines, i: int, *, step: float, answer: Array, rim: Array, free: Array,
-    arriving: Array, leaving: Array, friction: Array,
+    arriving: Array, leaving: Array, yields: tuple[Array, Array], friction: Array,
 ) -> _Moved:  # fmt: skip
     """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
 
-    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it.
+    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; the tensions are those at no
+    speed there, and `yields` what a speed adds before and takes off behind. They are means over two steps, of which
+    the later one is implicit (Newmark's 1/4): explicit ones would make a slipping belt unstable, whose slack side
+    tells its force, and single ones would let it grip every other step.
     """
     most = machines.share[i] * machines.limit(rim)
-    brake, back = machines.brake[i], chain.backstop
+    brake, back, grip = machines.brake[i], chain.backstop, chain.grip
     on = most > 0.0
     slope = np.where(on, machines.slope, 0.0)
     base = slope * machines.reference[i]
-    forward, backward = chain.grip * np.maximum(leaving, 0.0), chain.grip * np.maximum(arriving, 0.0)
     for tried in range(2):
         mass = chain.rim + 0.5 * step * slope
         alone = (chain.rim * rim + step * (base - 0.5 * slope * rim)) / mass
         together = 1.0 / answer + mass
         stop = step * (brake + friction) / together
         common = _rest((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
-        asked = (common - free) / (answer * step) + np.sign(common) * friction
-        force = np.minimum(np.maximum(asked, -backward), forward)
-        grips = force == asked
+        force = (common - free) / (answer * step) + np.sign(common) * friction
+        forward = force > grip * np.maximum(leaving - yields[1] * common, 0.0)
+        backward = force < -grip * np.maximum(arriving + yields[0] * common, 0.0)
+        grips = ~(forward | backward)
         belt, turned = common, common
         if not grips.all():
-            rub, stop = answer * step * friction, step * brake / mass
-            spun = alone - step * force / mass
-            belt = np.where(grips, common, _rest(free + answer * step * force, rub, rub))
-            turned = np.where(grips, common, _rest(spun, stop, np.where(back, np.inf, stop)))
+            pushed, slack = np.where(forward, leaving, -arriving), np.where(forward, yields[1], yields[0])
+            eased = 1.0 + answer * step * grip * slack
+            rub = answer * step * friction / eased
+            slid = _rest((free + answer * step * grip * pushed) / eased, rub, rub)
+            limit = grip * (pushed - slack * slid)
+            limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
+            slid = np.where(limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid)
+            force = np.where(grips, force, limit)
+            stop = step * brake / mass
+            spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
+            belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
         motor = base - 0.5 * slope * (turned + rim)
         beyond = np.abs(motor) > most
         if tried or not beyond.any():
@@ -450,7 +469,7 @@ def _pulleys(
         base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
     return _Moved(
         force, motor, mass * (alone - turned) / step - force, force - (belt - free) / (answer * step), turned,
-        belt, arriving, leaving, grips,
+        belt, arriving + yields[0] * belt, leaving - yields[1] * belt, grips,
     )  # fmt: skip
 
 
