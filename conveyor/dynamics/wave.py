@@ -306,15 +306,15 @@ def run(
     rows, one, at = np.arange(s)[:, None], np.arange(s), chain.nodes
     loose = np.ones((s, n + 1), bool)
     loose[rows, at] = False  # friction there is taken with the pulley's
-    into = np.where(at == 0, chain.end[:, None], at)  # the take-up's both sides where the pulley stands beside it
-    out = np.where(at == chain.end[:, None], 0, at)
     stuck = chain.sticking[rows, at]
-    softer = 0.25 * step * chain.stiffness
-    every_drive = np.arange(count)
+    first, last = at == 0, at == chain.end[:, None]  # pulleys beside the take-up bear its tension
+    before, behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
+    softer, of_take_up = step * chain.stiffness, solver.of_take_up / (solver.answer * step)
     yields = (
-        softer[rows, into - 1] * solver.columns[rows, every_drive, into] / solver.answer,
-        softer[rows, out] * solver.columns[rows, every_drive, out] / solver.answer,
+        np.where(first, -of_take_up, softer[rows, before]),
+        np.where(last, of_take_up, softer[rows, behind]),
     )
+    here = np.where(first | last, 1.0, 0.5)  # of what lies on the pulley's mass, on either side
     over_mass = loose * step / chain.mass
     under_mass = loose * chain.mass / step
     still = chain.sticking * over_mass
@@ -329,8 +329,7 @@ def run(
     kept: list[tuple[float, Array, Array]] = []
     fastest, slowest = np.zeros((s, n + 1)), np.zeros((s, n + 1))
     ledger = _Ledger(chain, step, start)
-    pull, held, wanted = np.zeros((s, n + 1)), chain.held, np.zeros(s)
-    tight = chain.held.copy()
+    pull, held, wanted, pulled = np.zeros((s, n + 1)), chain.held, np.zeros(s), chain.held
     stretching, sampled = np.diff(speed, axis=1), speed
     for i in range(steps):
         strained = tension + tau_k * stretching
@@ -339,7 +338,7 @@ def run(
         pull[:, :-1] += strained
         pull[one, chain.end] += held
         if np.any(chain.winch[0]):
-            wanted = chain.winch[0] * _winding(tight / held - 1.0, chain.winch[1])
+            wanted = chain.winch[0] * _winding(pulled / held - 1.0, chain.winch[1])
         acting = pull - chain.weight - resisting
         acting[rows, at] += driving
         change, lacking = solver.change(step * acting, speed, wanted)
@@ -347,9 +346,11 @@ def run(
         rolling = chain.resisting(speed)
         if count:
             at_nodes, going = speed[rows, at], new[rows, at]
-            turning = softer * (np.diff(new, axis=1) - stretching)
-            arriving = strained[rows, into - 1] + turning[rows, into - 1]
-            leaving = strained[rows, out] + turning[rows, out]
+            turning = strained + softer * np.diff(new, axis=1)
+            lying = here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
+            tight = (held - lacking / step)[:, None]
+            arriving = np.where(first, tight, turning[rows, before] + lying)
+            leaving = np.where(last, tight, turning[rows, behind] - lying)
             moved = _pulleys(
                 chain, machines, i, step=step, answer=solver.answer, rim=rims,
                 free=going - solver.answer * step * driving,
@@ -371,12 +372,12 @@ def run(
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
         new = free - rubbed
         resisting = rubbed * under_mass
-        tight = held - lacking / step
-        ledger.belts(speed, new, resisting, tight)
+        pulled = held - lacking / step
+        ledger.belts(speed, new, resisting, pulled)
         taken += step * (new[one, chain.end] - new[:, 0])
-        take_up["tension"][i], take_up["belt"][i] = tight, taken
-        before, stretching = stretching, np.diff(new, axis=1)
-        strained = tension + tau_k * (0.5 * (before + stretching))
+        take_up["tension"][i], take_up["belt"][i] = pulled, taken
+        earlier, stretching = stretching, np.diff(new, axis=1)
+        strained = tension + tau_k * (0.5 * (earlier + stretching))
         extremes.tell(strained)
         if i % every == 0:
             kept.append((i * step, strained.astype(np.float32), new.astype(np.float32)))
@@ -430,9 +431,8 @@ def _pulleys(
     """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
 
     `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; the tensions are those at no
-    speed there, and `yields` what a speed adds before and takes off behind. They are means over two steps, of which
-    the later one is implicit (Newmark's 1/4): explicit ones would make a slipping belt unstable, whose slack side
-    tells its force, and single ones would let it grip every other step.
+    speed there, and `yields` what a speed adds before and takes off behind. They are those at the end of the step:
+    earlier ones would make a slipping belt unstable, whose slack side tells its force.
     """
     most = machines.share[i] * machines.limit(rim)
     brake, back, grip = machines.brake[i], chain.backstop, chain.grip
