@@ -309,7 +309,7 @@ def run(
     stuck = chain.sticking[rows, at]
     first, last = at == 0, at == chain.end[:, None]  # pulleys beside the take-up bear its tension
     before, behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-    softer, of_take_up = step * chain.stiffness, solver.of_take_up / (solver.answer * step)
+    softer, of_take_up = (step + chain.retardation) * chain.stiffness, solver.of_take_up / (solver.answer * step)
     yields = (
         np.where(first, -of_take_up, softer[rows, before]),
         np.where(last, of_take_up, softer[rows, behind]),
@@ -346,7 +346,7 @@ def run(
         rolling = chain.resisting(speed)
         if count:
             at_nodes, going = speed[rows, at], new[rows, at]
-            turning = strained + softer * np.diff(new, axis=1)
+            turning = tension + softer * np.diff(new, axis=1)
             lying = here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
             tight = (held - lacking / step)[:, None]
             arriving = np.where(first, tight, turning[rows, before] + lying)
