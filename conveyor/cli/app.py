@@ -39,8 +39,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "dynamics", "compare", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact", "validate",
-    "schema",
+    "new", "power", "dynamics", "compare", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact",
+    "validate", "schema",
 )  # fmt: skip
 
 app = typer.Typer(

@@ -48,11 +48,17 @@ _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png"
 def dynamics(
     spec: Spec,
     scenario: Annotated[
-        list[str] | None, typer.Option("--scenario", "-s", metavar="NAME", help="Only this one; may be repeated.")
+        list[str] | None,
+        typer.Option("--scenario", "-s", metavar="NAME", help="Only this one; may be repeated."),
     ] = None,
     output: Annotated[
         list[Path] | None,
-        typer.Option("-o", "--output", metavar="FILE", help="Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
+        ),
     ] = None,
     error: Annotated[
         float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
@@ -75,7 +81,9 @@ def dynamics(
     system: System = line.report.units if units is None else units.value
     chosen = _chosen(line, scenario)
     with progress(silent=quiet or as_json) as told:
-        found = follow(line, chosen, error=error, progress=None if told is None else partial(told, "scenarios"))
+        found = follow(
+            line, chosen, error=error, progress=None if told is None else partial(told, "scenarios")
+        )
     contents = of_dynamics(found, system)
     figures = json_text(plain(found))
     for path in output or ():

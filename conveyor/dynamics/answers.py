@@ -80,11 +80,11 @@ def _slack(found: Followed) -> Iterator[Check]:
 
 def _lift_off(found: Followed) -> Iterator[Check]:
     sections = {section.name: section for section in found.line.sections if section.curve == "concave"}
-    stretches = {(s.section, s.strand): s for s in found.line.loop.stretches}
+    stretches = {f"{s.section}, {s.strand}": s for s in found.line.loop.stretches}
     for peak in peaks(found):
         if peak.section not in sections:
             continue
-        stretch, radius = stretches[peak.section, peak.strand], abs(sections[peak.section].radius)
+        stretch, radius = stretches[f"{peak.section}, {peak.strand}"], abs(sections[peak.section].radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=stretch.inclination,
                                 gravity=found.line.gravity)  # fmt: skip
         why = said("the empty belt lifts off on the concave curve of {}; at least {} are needed", (radius, "length"),
@@ -97,11 +97,13 @@ def _grip(found: Followed) -> Iterator[Check]:
     for d, drive in enumerate(found.ride.drives):
         way, heat = float(found.record.slipped[d]), float(found.record.heat[d])
         why = said(
-            f'the belt slips on "{quoted(drive.name)}" by {{}} and heats it with {heat / 1e6:.3g} MJ; raise the take-up\'s tension, '
-            "the wrap or the friction, or slow the motion",
+            f'the belt slips on "{quoted(drive.name)}" by {{}} and heats it with {heat / 1e6:.3g} MJ; raise the '
+            "take-up's tension, the wrap or the friction, or slow the motion",
             (way, "length"),
         )
-        made = compared("dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", why=why)
+        made = compared(
+            "dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", why=why
+        )
         yield replace(made, found=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
                       asked=said("no slip"))  # fmt: skip
 
@@ -122,7 +124,9 @@ def _end(found: Followed) -> Iterator[Check]:
     elif not found.ride.scene.running:
         end = float(found.belt_speed[-1])
         why = said("the belt reaches {}", (end, "speed"))
-        yield compared("dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed", why=why)
+        yield compared(
+            "dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed", why=why
+        )
 
 
 def _bulk(found: Followed) -> Iterator[Check]:
@@ -136,7 +140,10 @@ def _bulk(found: Followed) -> Iterator[Check]:
         low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
         hardest = float(found.record.slowest[cells.start : cells.stop + 1].min())
         fastest = float(found.record.fastest[cells.start : cells.stop + 1].max())
-        worst += [(-hardest / -low, -hardest, -low, stretch.section), (fastest / high, fastest, high, stretch.section)]
+        worst += [
+            (-hardest / -low, -hardest, -low, stretch.section),
+            (fastest / high, fastest, high, stretch.section),
+        ]
     if worst:
         _, most, allowed, section = max(worst)
         why = said(f'the bulk slides in "{quoted(section)}": {{}}, {{}} are allowed', (most, "acceleration"),

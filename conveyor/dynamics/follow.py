@@ -11,13 +11,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.dynamics.loop import SPEEDS, Cells, Loop
+from conveyor.dynamics.loop import SPEEDS, Cells, CutLoop
 from conveyor.dynamics.machines import Ride, machines, prepared
 from conveyor.dynamics.wave import Record, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, PULLEY_INERTIA, TORQUE_LIMIT
 from conveyor.line.line import Line
-from conveyor.line.scenes import Scene
+from conveyor.line.scenes import ScenarioUnit
 from conveyor.models import Conveyor, LoadCase, Scenario
 from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
@@ -68,12 +68,12 @@ class Followed:
     @cached_property
     def times(self) -> Array:
         """Every step [s]."""
-        return self.record.step * np.arange(len(self.record.take_up["tension"]))
+        return np.asarray(self.record.step * np.arange(len(self.record.take_up["tension"])), dtype=float)
 
     @cached_property
     def middles(self) -> Array:
         """Distance of every cell from the take-up [m]."""
-        return 0.5 * (self.cells.at[:-1] + self.cells.at[1:])
+        return np.asarray(0.5 * (self.cells.at[:-1] + self.cells.at[1:]))
 
     @property
     def highest(self) -> float:
@@ -125,7 +125,7 @@ class Followed:
     @cached_property
     def belt_speed(self) -> Array:
         """At the first drive [m/s], every step."""
-        return self.record.drives["belt"][:, 0]
+        return np.asarray(self.record.drives["belt"][:, 0])
 
     @cached_property
     def rests_at(self) -> float | None:
@@ -259,7 +259,7 @@ def follow(
 def _error(coarse: Followed, fine: Followed) -> float:
     """Of the fine one's peaks, by their change at half the cells and the second order of the scheme."""
     changes = (fine.highest - coarse.highest, fine.lowest - coarse.lowest)
-    return max(map(abs, changes)) / (2.0**_ORDER - 1.0) / fine.highest
+    return float(max(map(abs, changes)) / (2.0**_ORDER - 1.0) / fine.highest)
 
 
 def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
@@ -297,7 +297,7 @@ def _rides(conveyor: Conveyor, scenarios: Sequence[Scenario]) -> tuple[list[Ride
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []
     for scenario in scenarios:
-        temperature = Scene.of(scenario, conveyor).temperature
+        temperature = ScenarioUnit.of(scenario, conveyor).temperature
         key = (scenario.loading, scenario.sections, str(scenario.share), temperature)
         keys.append(key)
         if key not in loaded:
@@ -313,11 +313,12 @@ def _rides(conveyor: Conveyor, scenarios: Sequence[Scenario]) -> tuple[list[Ride
         for one in (conveyor, *loaded.values()) for share in SPEEDS
     ])  # fmt: skip
     loops = [
-        Loop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)]) for i, one in enumerate((given, *steady))
+        CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
+        for i, one in enumerate((given, *steady))
     ]
     of_key = dict(zip(loaded, loops[1:], strict=True))
     rides = [
-        Ride(Scene.of(scenario, conveyor), of_key[key], loops[0], setting)
+        Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], setting)
         for scenario, key in zip(scenarios, keys, strict=True)
     ]
     return rides, given
@@ -350,22 +351,28 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
     if line.belt.stiffness is None:
         yield "belt.carcass.stiffness not given: the usual multiple of the strength"
     if any(not pulley.driven for pulley in line.pulleys):
-        yield f"pulleys turn like {PULLEY_INERTIA.value:.0%} of their mass at the rim, general knowledge"
-    if not line.take_up.keeps_length and line.take_up.kind == "slack side":
+        yield f"pulleys not driven turn like {PULLEY_INERTIA.value:.0%} of their mass, not given: general knowledge"
+    if line.take_up.kind == "slack side":
         yield "route.take_up not given: a weight on the slack side of the drive"
     for followed in found.followed:
-        ride = followed.ride
-        for drive, unit in zip(ride.drives, ride.starters, strict=True):
-            for what in unit.assumed:
-                value = {"slip": f"{MOTOR_SLIP.value:.0%}, general knowledge", "kind": unit.kind,
-                         "time": f"{unit.time or 0.0:.0f} s, of the stiff belt at the start factor and the ramp's shape",
-                         "initial torque": f"{unit.initial:.0%}, general knowledge"}[what]  # fmt: skip
-                yield f"{drive.name}: starter's {what} not given: {value}"
-            if unit.limit is None and not line.torque_curve:
-                yield f"{drive.name}: torque limit not given: {TORQUE_LIMIT.value:g} x rated, general knowledge"
-            if drive.power is None:
-                yield f"{drive.name}: installed power not given: motors rated for the largest steady force"
-            if not drive.mass_given:
-                yield f"{drive.name}: rotating masses not given: typical of its power"
-        if ride.assumed_backstop:
-            yield f"{ride.drives[0].name}: a backstop is taken to be there, the loaded belt would roll back"
+        yield from _assumed_drives(followed.ride)
+
+
+def _assumed_drives(ride: Ride) -> Iterator[str]:
+    for drive, unit in zip(ride.drives, ride.starters, strict=True):
+        values = {
+            "slip": f"{MOTOR_SLIP.value:.0%}, general knowledge",
+            "kind": unit.kind,
+            "time": f"{unit.time or 0.0:.0f} s, of the stiff belt at the start factor, by the ramp's shape",
+            "initial torque": f"{unit.initial:.0%}, general knowledge",
+        }
+        for what in unit.assumed:
+            yield f"{drive.name}: starter's {what} not given: {values[what]}"
+        if unit.limit is None and not ride.loop.line.torque_curve:
+            yield f"{drive.name}: torque limit not given: {TORQUE_LIMIT.value:g} x rated, general knowledge"
+        if drive.power is None:
+            yield f"{drive.name}: installed power not given: motors rated for the largest steady force"
+        if not drive.mass_given:
+            yield f"{drive.name}: rotating masses not given: typical of its power"
+    if ride.assumed_backstop:
+        yield f"{ride.drives[0].name}: backstop not given: one is assumed, the loaded belt would roll back"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
-from conveyor.laws.waves import PULLEY_INERTIA
+from conveyor.laws.waves import PULLEY_INERTIA, wave_speed
 from conveyor.line.line import Line
 from conveyor.line.places import Spot, Stand
 from conveyor.loop.take_up import belt_stiffness
@@ -38,7 +39,7 @@ class _Lump:
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class CutLoop:
     """A loaded belt from behind its take-up round to it again.
 
     Attributes
@@ -80,11 +81,14 @@ class Loop:
     @cached_property
     def travel(self) -> Array:
         """Time in which a wave comes to every boundary [s]."""
-        length = np.diff(self.way)
-        return np.concatenate([np.zeros(1), np.cumsum(np.sqrt(length * self.mass / self.stiffness))])
+        each = [
+            length / wave_speed(self.stiffness, line_mass=mass / length)
+            for length, mass in zip(np.diff(self.way).tolist(), self.mass.tolist(), strict=True)
+        ]
+        return np.concatenate([np.zeros(1), np.cumsum(each)])
 
     @classmethod
-    def of(cls, steady: CalculatedConveyor, slower: Sequence[CalculatedConveyor] = ()) -> Loop:
+    def of(cls, steady: CalculatedConveyor, slower: Sequence[CalculatedConveyor] = ()) -> CutLoop:
         """Cut open the loop of a steady result.
 
         Parameters
@@ -151,7 +155,7 @@ class Loop:
         arriving = _apart(np.interp(self.drives, self.way, self.travel), float(self.travel[-1]), step)
         stations = [0.0, *sorted(arriving), float(self.travel[-1])]
         times = [np.zeros(1)]
-        for start, stop in zip(stations[:-1], stations[1:], strict=True):
+        for start, stop in itertools.pairwise(stations):
             pieces = max(1, math.floor((stop - start) / step * (1.0 + 1e-9)))  # rounding of the quotient
             if stop > start:
                 times.append(start + (stop - start) * np.arange(1, pieces + 1) / pieces)
@@ -196,7 +200,9 @@ class Cells:
 
     def resisting(self, speed: float, friction: float) -> Array:
         """Friction of every mass at a speed [N]."""
-        return friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
+        return np.asarray(
+            friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
+        )
 
 
 def _cut(line: Line, *, pulls: bool) -> tuple[Spot, bool]:
@@ -228,7 +234,9 @@ def _over_speed(speed: float, slower: Sequence[Array], full: Array, line: Line) 
     if not slower:
         return np.stack([_turned(full, line), np.zeros_like(full), np.zeros_like(full)])
     powers = np.vander(speed * np.array([*SPEEDS, 1.0]), 3, increasing=True)
-    return np.linalg.solve(powers, np.stack([_turned(one, line) for one in (*slower, full)]))
+    return np.asarray(
+        np.linalg.solve(powers, np.stack([_turned(one, line) for one in (*slower, full)])), dtype=float
+    )
 
 
 def _lumps(found: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iterator[_Lump]:

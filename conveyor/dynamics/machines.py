@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.dynamics.loop import Cells, Loop
-from conveyor.dynamics.wave import SPEED_POINTS, Chain, Machines, Start
+from conveyor.dynamics.loop import Cells, CutLoop
+from conveyor.dynamics.wave import SPEED_POINTS, Beginning, Chain, Machines
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import start_force, typical_reduced_mass
 from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
 from conveyor.line.line import DriveUnit
-from conveyor.line.scenes import Scene, StarterUnit
+from conveyor.line.scenes import ScenarioUnit, StarterUnit
 
 Array = NDArray[np.float64]
 
@@ -29,19 +29,19 @@ class Ride:
 
     Attributes
     ----------
-    scene : Scene
+    scene : ScenarioUnit
         What happens.
-    loop : Loop
+    loop : CutLoop
         The belt with its bulk.
-    given : Loop
+    given : CutLoop
         The belt as its spec loads it: settings of the starters are made for it.
     setting : float
         What the take-up is set to [N].
     """
 
-    scene: Scene
-    loop: Loop
-    given: Loop
+    scene: ScenarioUnit
+    loop: CutLoop
+    given: CutLoop
     setting: float
 
     @property
@@ -76,7 +76,9 @@ class Ride:
         line, found = self.loop.line, []
         for drive in self.drives:
             if drive.power is None:
-                largest = max(abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force))
+                largest = max(
+                    abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force)
+                )
                 found.append(max(drive.share, 1.0 / len(self.drives)) * largest)
             else:
                 found.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
@@ -135,46 +137,49 @@ class Ride:
         NoSolutionError
             A drive without an inverter is told to ramp down.
         """
-        shape = (times.size, len(self.drives))
-        running = float(self.scene.running)
-        reference, share = np.full(shape, running), np.full(shape, running)
-        brakes = np.array(self.loop.line.brakes)
-        brake = np.tile(np.zeros_like(brakes) if running else brakes, (times.size, 1))
-        for happening in self.scene.happenings:
-            for d in happening.drives:
-                unit = self.starters[d]
-                if happening.do == "brake":
-                    since = times - happening.at
-                    grown = np.clip(since / happening.over, 0.0, 1.0) if happening.over else np.ones_like(since)
-                    brake[:, d] = np.where(since >= 0.0, happening.share * brakes[d] * grown, brake[:, d])
-                elif happening.do == "power off":
-                    share[:, d] = np.where(times >= happening.at, 0.0, share[:, d])
-                elif happening.do == "start":
-                    since = times - happening.at - unit.delay
-                    brake[:, d] = np.where(since >= 0.0, 0.0, brake[:, d])
-                    share[:, d] = np.where(since >= 0.0, _gain(unit, since), share[:, d])
-                    led = ramp(since / unit.time, shape=unit.ramp) if unit.kind == "inverter" and unit.time else 1.0
-                    reference[:, d] = np.where(since >= 0.0, led, reference[:, d])
-                else:
-                    self._ramp_down(happening.at, d, times, reference, share, brake)
+        columns = [self._of_drive(d, times) for d in range(len(self.drives))]
+        reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*columns, strict=True))
         return reference, share, brake
 
-    def _ramp_down(
-        self, at: float, d: int, times: Array, reference: Array, share: Array, brake: Array
-    ) -> None:
-        """Lead the speed to rest; then the power is off and the brake, where there is one, on."""
+    def _of_drive(self, d: int, times: Array) -> tuple[Array, Array, Array]:
+        """The same of one drive; what it is told later stands."""
+        unit, force = self.starters[d], self.loop.line.brakes[d]
+        reference = np.full(times.size, float(self.scene.running))
+        share, brake = reference, force * (1.0 - reference)
+        for told in self.scene.happenings:
+            if d not in told.drives:
+                continue
+            since = times - told.at - (unit.delay if told.do == "start" else 0.0)
+            now = since >= 0.0
+            if told.do == "brake":
+                grown = np.clip(since / told.over, 0.0, 1.0) if told.over else 1.0
+                brake = np.where(now, told.share * force * grown, brake)
+            elif told.do == "power off":
+                share = np.where(now, 0.0, share)
+            elif told.do == "start":
+                led = (
+                    ramp(since / unit.time, shape=unit.ramp) if unit.kind == "inverter" and unit.time else 1.0
+                )
+                reference = np.where(now, led, reference)
+                share, brake = np.where(now, _gain(unit, since), share), np.where(now, 0.0, brake)
+            else:
+                time = self._stop_time(d)
+                led = float(np.interp(told.at, times, reference)) * (
+                    1.0 - ramp(since / time, shape=unit.ramp)
+                )
+                reference = np.where(now, led, reference)
+                over = since > time  # then the power is off and the brake, where there is one, on
+                share, brake = np.where(over, 0.0, share), np.where(over, force, brake)
+        return reference, share, brake
+
+    def _stop_time(self, d: int) -> float:
         unit = self.starters[d]
         if unit.kind != "inverter" or unit.stop_time is None:
             raise NoSolutionError(
                 f'scenario "{self.scene.name}": drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot '
                 'ramp down; say "power off", or give it a starter'
             )
-        since = times - at
-        begun = float(np.interp(at, times, reference[:, d]))
-        led = begun * (1.0 - ramp(since / unit.stop_time, shape=unit.ramp))
-        reference[:, d] = np.where(since >= 0.0, led, reference[:, d])
-        share[:, d] = np.where(since > unit.stop_time, 0.0, share[:, d])
-        brake[:, d] = np.where(since > unit.stop_time, self.loop.line.brakes[d], brake[:, d])
+        return unit.stop_time
 
     def limits(self) -> Array:
         """Largest force of every motor over speed [N], shape (d, points)."""
@@ -188,7 +193,7 @@ class Ride:
             else np.minimum(torque, unit.limit or math.inf)
             for unit in self.starters
         ]  # fmt: skip
-        return self.rated[:, None] * np.array(each)
+        return np.asarray(self.rated[:, None] * np.array(each))
 
 
 def _gain(unit: StarterUnit, since: Array) -> Array:
@@ -204,7 +209,7 @@ def _gain(unit: StarterUnit, since: Array) -> Array:
     return np.asarray((root + (1.0 - root) * x) ** 2)
 
 
-def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Start]:
+def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginning]:
     """Belts of scenarios side by side, those of fewer cells filled up with idle ones; and how they begin."""
     cells = [ride.loop.cells(step) for ride in rides]
     most = max(one.at.size for one in cells)
@@ -219,7 +224,11 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Start]
     unit, friction = line.take_up, np.array([ride.scene.friction for ride in rides])
     begun = [_begin(ride, one) for ride, one in zip(rides, cells, strict=True)]
     held = np.array([tension[0] for _, tension, _ in begun])
-    weight = 0.0 if unit.kind in {"winch", "fixed", "screw", "locked winch"} else unit.reeving / (unit.strands * line.gravity)
+    weight = (
+        0.0
+        if unit.kind in {"winch", "fixed", "screw", "locked winch"}
+        else unit.reeving / (unit.strands * line.gravity)
+    )
     carriage = np.inf if unit.keeps_length else weight * held + unit.carriage / unit.strands**2
     speed, band = unit.winch or (0.0, 0.0)
     chain = Chain(
@@ -227,8 +236,8 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Start]
         stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
         retardation=BELT_RETARDATION.value if line.belt.retardation is None else line.belt.retardation,
         weight=filled([one.weight for one in cells], 0.0, most),
-        friction=np.moveaxis(filled([f * one.friction for f, one in zip(friction, cells, strict=True)], 0.0, most), 1, 0),
-        sticking=filled([f * (one.resisting(line.speed, 1.0) + one.stuck) for f, one in zip(friction, cells, strict=True)], 0.0, most),
+        friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
+        sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
         end=np.array([one.at.size - 1 for one in cells]),
         nodes=np.array([one.nodes for one in cells]),
         rim=np.array([ride.rims for ride in rides]),
@@ -239,7 +248,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Start]
         winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
     )  # fmt: skip
     moving = np.array([[line.speed * ride.scene.running] for ride in rides])
-    start = Start(
+    start = Beginning(
         speed=moving * filled([np.ones(one.at.size) for one in cells], 0.0, most),
         tension=filled([tension[1:] for _, tension, _ in begun], 0.0, most - 1),
         resisting=filled([resisting for resisting, _, _ in begun], 0.0, most),
@@ -288,10 +297,10 @@ def _taut(setting: float, resisting: Array, most: Array, weight: Array) -> Array
     return np.asarray(np.clip(held, -most, most))
 
 
-def machines(rides: list[Ride], start: Start, step: float, steps: int) -> Machines:
+def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Machines:
     """Motors and brakes of scenarios over time; a motor runs steadily where the drives begin to run."""
     line = rides[0].loop.line
-    times = step * np.arange(steps)
+    times = np.asarray(step * np.arange(steps), dtype=float)
     tables = [ride.over_time(times) for ride in rides]
     reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*tables, strict=True))
     rated = np.array([ride.rated for ride in rides])

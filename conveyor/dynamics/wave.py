@@ -82,9 +82,7 @@ class Chain:
     @property
     def longest_step(self) -> float:
         """Step up to which the leapfrog is stable, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
-        pull = 2.0 * (
-            np.pad(self.stiffness, ((0, 0), (1, 0))) + np.pad(self.stiffness, ((0, 0), (0, 1)))
-        )
+        pull = 2.0 * (np.pad(self.stiffness, ((0, 0), (1, 0))) + np.pad(self.stiffness, ((0, 0), (0, 1))))
         return float(2.0 / np.sqrt((pull / self.mass).max()))
 
     def resisting(self, speed: Array) -> Array:
@@ -132,7 +130,7 @@ class Machines:
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class Beginning:
     """Where belts begin: speeds and tensions, friction that acts, forces of the drives on the belt [m/s, N]."""
 
     speed: Array
@@ -274,9 +272,7 @@ class _Solver:
         return change - self.pair * lacking[:, None], lacking
 
 
-def run(
-    chain: Chain, machines: Machines, start: Start, *, step: float, samples: int = 300
-) -> Record:
+def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samples: int = 300) -> Record:
     """Follow belts through time.
 
     Parameters
@@ -285,7 +281,7 @@ def run(
         The belts.
     machines : Machines
         Motors and brakes; as many steps as they have.
-    start : Start
+    start : Beginning
         Speeds, tensions and forces at the begin.
     step : float
         Of time [s], at most `chain.longest_step`.
@@ -299,104 +295,149 @@ def run(
     """
     if step > chain.longest_step * (1.0 + 1e-9):  # rounding of the quotient
         raise NoSolutionError(f"a step of {step:.4g} s is unstable: at most {chain.longest_step:.4g} s")
-    solver, steps = _Solver(chain, step), machines.reference.shape[0]
-    s, n = chain.stiffness.shape
-    count = chain.nodes.shape[1]
-    every = max(1, steps // samples)
-    rows, one, at = np.arange(s)[:, None], np.arange(s), chain.nodes
-    loose = np.ones((s, n + 1), bool)
-    loose[rows, at] = False  # friction there is taken with the pulley's
-    stuck = chain.sticking[rows, at]
-    first, last = at == 0, at == chain.end[:, None]  # pulleys beside the take-up bear its tension
-    before, behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-    softer, of_take_up = (step + chain.retardation) * chain.stiffness, solver.of_take_up / (solver.answer * step)
-    yields = (
-        np.where(first, -of_take_up, softer[rows, before]),
-        np.where(last, of_take_up, softer[rows, behind]),
-    )
-    here = np.where(first | last, 1.0, 0.5)  # of what lies on the pulley's mass, on either side
-    over_mass = loose * step / chain.mass
-    under_mass = loose * chain.mass / step
-    still = chain.sticking * over_mass
-    k_step, tau_k = step * chain.stiffness, chain.retardation * chain.stiffness
-    speed, tension, resisting = start.speed.copy(), start.tension.copy(), start.resisting * loose
-    driving, rims = start.driving.copy(), start.rims.copy()
-    extremes = _Extremes((s, n))
-    names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
-    drives = {name: np.zeros((steps, s, count)) for name in names}
-    take_up = {name: np.zeros((steps, s)) for name in ("tension", "belt")}
-    slipped, heat, taken = np.zeros((s, count)), np.zeros((s, count)), np.zeros(s)
-    kept: list[tuple[float, Array, Array]] = []
-    fastest, slowest = np.zeros((s, n + 1)), np.zeros((s, n + 1))
-    ledger = _Ledger(chain, step, start)
-    pull, held, wanted, pulled = np.zeros((s, n + 1)), chain.held, np.zeros(s), chain.held
-    stretching, sampled = np.diff(speed, axis=1), speed
-    for i in range(steps):
-        strained = tension + tau_k * stretching
-        pull[:, 1:] = -strained
-        pull[:, 0] = -held
-        pull[:, :-1] += strained
-        pull[one, chain.end] += held
+    return _Motion(chain, machines, start, step, samples).followed()
+
+
+class _Motion:
+    """Belts in motion: what changes from step to step, and what is kept of it."""
+
+    def __init__(self, chain: Chain, machines: Machines, start: Beginning, step: float, samples: int) -> None:
+        self.chain, self.machines, self.dt = chain, machines, step
+        self.steps = machines.reference.shape[0]
+        self.every = max(1, self.steps // samples)
+        self.solver, self.ledger = _Solver(chain, step), _Ledger(chain, step, start)
+        self._set_up()
+        s, n = chain.stiffness.shape
+        self.speed, self.tension = start.speed, start.tension
+        self.stretching = np.diff(start.speed, axis=1)
+        self.strained = start.tension + self.tau_k * self.stretching
+        self.resisting = start.resisting * self.loose
+        self.driving, self.rims = start.driving, start.rims
+        self.rubbing = start.resisting[self.rows, self.at]
+        self.pulled, self.taken = chain.held, np.zeros(s)
+        self.extremes = _Extremes((s, n))
+        names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
+        self.drives = {name: np.zeros((self.steps, *chain.nodes.shape)) for name in names}
+        self.take_up = {name: np.zeros((self.steps, s)) for name in ("tension", "belt")}
+        self.slipped, self.heat = np.zeros(chain.nodes.shape), np.zeros(chain.nodes.shape)
+        self.fastest, self.slowest = np.zeros((s, n + 1)), np.zeros((s, n + 1))
+        self.sampled = start.speed
+        self.kept: list[tuple[float, Array, Array]] = []
+
+    def _set_up(self) -> None:
+        """What stays the same: places, compliances, friction at rest."""
+        chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
+        self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
+        self.at = at = chain.nodes
+        self.loose = np.ones_like(chain.mass)
+        self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
+        self.over_mass, self.under_mass = self.loose * step / chain.mass, self.loose * chain.mass / step
+        self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
+        self.tau_k, self.k_step = chain.retardation * chain.stiffness, step * chain.stiffness
+        self.first, self.last = (
+            at == 0,
+            at == chain.end[:, None],
+        )  # beside the take-up pulleys bear its tension
+        self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
+        self.softer = self.k_step + self.tau_k
+        of_take_up = self.solver.of_take_up / (self.solver.answer * step)
+        self.yields = (
+            np.where(self.first, -of_take_up, self.softer[self.rows, self.before]),
+            np.where(self.last, of_take_up, self.softer[self.rows, self.behind]),
+        )
+        self.here = np.where(
+            self.first | self.last, 1.0, 0.5
+        )  # of what lies on a pulley's mass, on either side
+
+    def followed(self) -> Record:
+        """Take every step."""
+        for i in range(self.steps):
+            self._step(i)
+            self._keep(i)
+        self.extremes.look()
+        extremes, kept = self.extremes, self.kept
+        if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
+            raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
+        return Record(
+            self.dt, extremes.high, extremes.low, self.dt * extremes.high_at, self.dt * extremes.low_at,
+            np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
+            np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
+            self.slowest, self.ledger.closed(self.speed, self.rims, self.tension),
+        )  # fmt: skip
+
+    def _step(self, i: int) -> None:
+        """Speeds by forces, pulleys, friction; then tensions by speeds."""
+        chain = self.chain
+        wanted = np.zeros_like(self.taken)
         if np.any(chain.winch[0]):
-            wanted = chain.winch[0] * _winding(pulled / held - 1.0, chain.winch[1])
-        acting = pull - chain.weight - resisting
-        acting[rows, at] += driving
-        change, lacking = solver.change(step * acting, speed, wanted)
-        new = speed + change
-        rolling = chain.resisting(speed)
-        if count:
-            at_nodes, going = speed[rows, at], new[rows, at]
-            turning = tension + softer * np.diff(new, axis=1)
-            lying = here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
-            tight = (held - lacking / step)[:, None]
-            arriving = np.where(first, tight, turning[rows, before] + lying)
-            leaving = np.where(last, tight, turning[rows, behind] - lying)
-            moved = _pulleys(
-                chain, machines, i, step=step, answer=solver.answer, rim=rims,
-                free=going - solver.answer * step * driving,
-                arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going, yields=yields,
-                friction=np.where(at_nodes == 0.0, stuck, rolling[rows, at]),
-            )  # fmt: skip
-            push = (moved.belt - going) / solver.answer
-            new += np.einsum("sd,sdn->sn", push, solver.columns)
-            lacking = lacking + (solver.of_take_up * push).sum(axis=1)
-            for name, values in drives.items():
-                values[i] = getattr(moved, name)
-            over = np.where(moved.grips, 0.0, step * (moved.rim - moved.belt))
-            slipped += np.abs(over)
-            heat += over * moved.force
-            ledger.drives(rims, at_nodes, moved)
-            driving, rims = moved.force, moved.rim
-        free = new + resisting * over_mass
-        allowed = np.where(speed == 0.0, still, rolling * over_mass)
+            wanted = chain.winch[0] * _winding(self.pulled / chain.held - 1.0, chain.winch[1])
+        change, lacking = self.solver.change(self.dt * self._acting(), self.speed, wanted)
+        new, rolling = self.speed + change, chain.resisting(self.speed)
+        if self.at.size:
+            new, lacking = self._driven(i, new, lacking, rolling)
+        free = new + self.resisting * self.over_mass
+        allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
         new = free - rubbed
-        resisting = rubbed * under_mass
-        pulled = held - lacking / step
-        ledger.belts(speed, new, resisting, pulled)
-        taken += step * (new[one, chain.end] - new[:, 0])
-        take_up["tension"][i], take_up["belt"][i] = pulled, taken
-        earlier, stretching = stretching, np.diff(new, axis=1)
-        strained = tension + tau_k * (0.5 * (earlier + stretching))
-        extremes.tell(strained)
-        if i % every == 0:
-            kept.append((i * step, strained.astype(np.float32), new.astype(np.float32)))
+        self.resisting = rubbed * self.under_mass
+        self.pulled = chain.held - lacking / self.dt
+        self.ledger.belts(self.speed, new, self.resisting, self.pulled)
+        earlier, self.stretching = self.stretching, np.diff(new, axis=1)
+        self.shown = self.tension + self.tau_k * (0.5 * (earlier + self.stretching))
+        self.speed = new
+        self.tension = self.tension + self.k_step * self.stretching
+        self.strained = self.tension + self.tau_k * self.stretching
+
+    def _acting(self) -> Array:
+        """Force on every mass, friction and drives as they were."""
+        acting = -self.chain.weight - self.resisting
+        acting[:, 1:] -= self.strained
+        acting[:, :-1] += self.strained
+        acting[:, 0] -= self.chain.held
+        acting[self.one, self.chain.end] += self.chain.held
+        acting[self.rows, self.at] += self.driving - self.rubbing
+        return acting
+
+    def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
+        """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
+        chain, solver, rows, at = self.chain, self.solver, self.rows, self.at
+        at_nodes, going = self.speed[rows, at], new[rows, at]
+        coming = self.tension + self.softer * np.diff(new, axis=1)
+        lying = self.here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
+        tight = (chain.held - lacking / self.dt)[:, None]
+        arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
+        leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
+        moved = _pulleys(
+            chain, self.machines, i, step=self.dt, answer=solver.answer, rim=self.rims,
+            free=going - solver.answer * self.dt * (self.driving - self.rubbing),
+            arriving=arriving - self.yields[0] * going, leaving=leaving + self.yields[1] * going,
+            yields=self.yields, friction=np.where(at_nodes == 0.0, self.stuck, rolling[rows, at]),
+        )  # fmt: skip
+        push = (moved.belt - going) / solver.answer
+        for name, values in self.drives.items():
+            values[i] = getattr(moved, name)
+        over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
+        self.slipped = self.slipped + np.abs(over)
+        self.heat = self.heat + over * moved.force
+        self.ledger.drives(self.rims, at_nodes, moved)
+        self.driving, self.rubbing, self.rims = moved.force, moved.friction, moved.rim
+        new = new + np.einsum("sd,sdn->sn", push, solver.columns)
+        return new, lacking + (solver.of_take_up * push).sum(axis=1)
+
+    def _keep(self, i: int) -> None:
+        """Note extremes, samples, and what the take-up does."""
+        self.extremes.tell(self.shown)
+        self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
+        self.take_up["tension"][i], self.take_up["belt"][i] = self.pulled, self.taken
+        if i % self.every == 0:
+            self.kept.append((i * self.dt, self.shown.astype(np.float32), self.speed.astype(np.float32)))
             if i:
-                change = (new - sampled) / (every * step)
-                np.maximum(fastest, change, out=fastest)
-                np.minimum(slowest, change, out=slowest)
-            sampled = new
-        speed = new
-        tension = tension + k_step * stretching
-    extremes.look()
-    if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(speed))):
-        raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
-    return Record(
-        step, extremes.high, extremes.low, step * extremes.high_at, step * extremes.low_at,
-        np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
-        np.stack([v for _, _, v in kept]), drives, take_up, slipped, heat, fastest, slowest,
-        ledger.closed(speed, rims, tension),
-    )  # fmt: skip
+                change = (self.speed - self.sampled) / (self.every * self.dt)
+                self.fastest, self.slowest = (
+                    np.maximum(change, self.fastest),
+                    np.minimum(change, self.slowest),
+                )
+            self.sampled = self.speed
 
 
 def _winding(over: Array, band: Array) -> Array:
@@ -457,7 +498,9 @@ def _pulleys(
             slid = _rest((free + answer * step * grip * pushed) / eased, rub, rub)
             limit = grip * (pushed - slack * slid)
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
-            slid = np.where(limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid)
+            slid = np.where(
+                limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
+            )
             force = np.where(grips, force, limit)
             stop = step * brake / mass
             spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
@@ -476,7 +519,7 @@ def _pulleys(
 class _Ledger:
     """Energy given and where it goes, at the mean of old and new speeds."""
 
-    def __init__(self, chain: Chain, step: float, start: Start) -> None:
+    def __init__(self, chain: Chain, step: float, start: Beginning) -> None:
         self.chain, self.dt = chain, step
         self.rows = np.arange(chain.end.size)
         names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")
@@ -502,7 +545,10 @@ class _Ledger:
         for name, power in (
             ("lift", np.einsum("sn,sn->s", self.chain.weight, mean)),
             ("friction", np.einsum("sn,sn->s", friction, mean)),
-            ("damping", self.chain.retardation * np.einsum("sn,sn,sn->s", self.chain.stiffness, spread, spread)),
+            (
+                "damping",
+                self.chain.retardation * np.einsum("sn,sn,sn->s", self.chain.stiffness, spread, spread),
+            ),
             ("take-up", -np.where(self.chain.winch[0] > 0.0, tight, self.chain.held) * apart),
         ):
             self.sums[name] += self.dt * power
@@ -510,7 +556,9 @@ class _Ledger:
     def _stored(self, speed: Array, rims: Array, tension: Array) -> tuple[Array, Array]:
         apart = speed[self.rows, self.chain.end] - speed[:, 0]
         mass = np.where(np.isinf(self.chain.carriage), 0.0, self.chain.carriage)
-        moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum("sd,sd->s", self.chain.rim, rims**2)
+        moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum(
+            "sd,sd->s", self.chain.rim, rims**2
+        )
         k = self.chain.stiffness
         elastic = np.divide(tension**2, k, out=np.zeros_like(k), where=k > 0.0).sum(axis=1)
         return 0.5 * (moving + mass * apart**2), 0.5 * elastic

@@ -16,13 +16,23 @@ from conveyor.laws.resistance.defaults import Default
 from conveyor.require import require, require_positive
 
 BELT_RETARDATION: Final = Default(
-    0.1, 0.03, 0.3, "damping of the belt lengthwise, Kelvin and Voigt; a loss factor of 0.05 at 0.5 rad/s", True
+    0.1,
+    0.03,
+    0.3,
+    "damping of the belt lengthwise, Kelvin and Voigt; a loss factor of 0.05 at 0.5 rad/s",
+    True,
 )  # [s]
 MOTOR_SLIP: Final = Default(0.02, 0.005, 0.05, "slip of motor and coupling at rated torque", True)  # [-]
 TORQUE_LIMIT: Final = Default(1.6, 1.3, 2.2, "largest torque of a motor over the rated one", True)  # [-]
-INITIAL_TORQUE: Final = Default(0.3, 0.1, 0.5, "torque at which soft starters and couplings begin", True)  # [-]
+INITIAL_TORQUE: Final = Default(
+    0.3, 0.1, 0.5, "torque at which soft starters and couplings begin", True
+)  # [-]
 PULLEY_INERTIA: Final = Default(
-    0.6, 0.5, 0.8, "rotating mass of a pulley at its rim over its mass; 0.5 of a disc, 1 of a thin shell", True
+    0.6,
+    0.5,
+    0.8,
+    "rotating mass of a pulley at its rim over its mass; 0.5 of a disc, 1 of a thin shell",
+    True,
 )  # [-]
 
 
@@ -91,7 +101,7 @@ def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
         "S": np.where(x < 0.5, 2.0 * x**2, 1.0 - 2.0 * (1.0 - x) ** 2),
     }
     require(shape in made, "shape", shape, "linear, cosine or S is needed")
-    return made[shape]
+    return np.asarray(made[shape], dtype=float)
 
 
 STEEPEST: Final = {"linear": 1.0, "cosine": 0.5 * math.pi, "S": 2.0}

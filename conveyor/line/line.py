@@ -585,7 +585,16 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
     winch = None if given.winch_speed is None else (si(given.winch_speed), si(given.winch_band))
-    return TakeUpUnit(given.kind, spot, tension, given.reeving, given.strands, si(given.reserve), si(given.carriage_mass), winch)
+    return TakeUpUnit(
+        given.kind,
+        spot,
+        tension,
+        given.reeving,
+        given.strands,
+        si(given.reserve),
+        si(given.carriage_mass),
+        winch,
+    )
 
 
 def _cema(factors: Cema | None) -> CemaFactors | None:

@@ -55,7 +55,7 @@ class Happening:
 
 
 @dataclass(frozen=True)
-class Scene:
+class ScenarioUnit:
     """A scenario: friction over the computed one [-], duration [s] or None, temperature of the covers [K] or None."""
 
     name: str
@@ -67,7 +67,7 @@ class Scene:
     starter: StarterUnit | None
 
     @classmethod
-    def of(cls, scenario: Scenario, conveyor: Conveyor) -> Scene:
+    def of(cls, scenario: Scenario, conveyor: Conveyor) -> ScenarioUnit:
         """Return the SI view."""
         names = conveyor.drive.names
         happenings = [

@@ -37,10 +37,11 @@ class Conveyor(ConveyorParts):
 
     def _case_problems(self) -> Iterator[Problem]:
         """Every section that a case or a scenario loads exists, and every drive that a scenario names."""
-        for field, named in (("cases", self.cases), ("scenarios", self.scenarios)):
-            for i, case in enumerate(named):
-                for j, name in enumerate(case.sections):
-                    yield from self.route.section_problem((field, i, "sections", j), name)
+        named = [("cases", i, case.sections) for i, case in enumerate(self.cases)]
+        named += [("scenarios", i, scenario.sections) for i, scenario in enumerate(self.scenarios)]
+        for field, i, sections in named:
+            for j, name in enumerate(sections):
+                yield from self.route.section_problem((field, i, "sections", j), name)
         yield from scenario_problems(self.scenarios, self.drive.names)
 
     @property

@@ -225,7 +225,9 @@ class TakeUp(Model):
             message = f"got {text(self.mass)} and tension {text(self.tension)}; give one of the two"
             problems.append(Problem(("mass",), message))
         if self.winch_speed is not None and self.kind != "winch":
-            problems.append(Problem(("winch_speed",), f'given with kind "{self.kind}"; remove it, or set kind to "winch"'))
+            problems.append(
+                Problem(("winch_speed",), f'given with kind "{self.kind}"; remove it, or set kind to "winch"')
+            )
         refuse("TakeUp", problems)
         return self
 

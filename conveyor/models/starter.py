@@ -37,7 +37,11 @@ class Starter(Model):
     def _of_its_kind(self) -> Self:
         problems = []
         if self.kind != "inverter" and self.stop_time is not None:
-            problems.append(Problem(("stop_time",), f"given with kind {self.kind}: only an inverter leads a stop; remove it"))
+            problems.append(
+                Problem(
+                    ("stop_time",), f"given with kind {self.kind}: only an inverter leads a stop; remove it"
+                )
+            )
         if self.kind == "direct" and self.time is not None:
             problems.append(Problem(("time",), "given with kind direct: nothing is led; remove it"))
         if self.kind not in {"soft starter", "fluid coupling"} and self.initial_torque is not None:

@@ -62,10 +62,15 @@ def _map(figure: Figure, axis: Axes, found: Followed, system: System) -> None:
         length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
     )
     if float(tension.min()) < 0.0 < float(tension.max()):
-        axis.contour(length(distance[cells]), record.times[kept], tension, levels=[0.0], colors="red", linewidths=1.0)
+        axis.contour(
+            length(distance[cells]), record.times[kept], tension, levels=[0.0], colors="red", linewidths=1.0
+        )
     axis.axvline(float(length(found.line.loop.way[found.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    axis.set(xlabel=length.beside("distance from the head, return strand first"), ylabel=unit("duration", system).beside("time"))
+    axis.set(
+        xlabel=length.beside("distance from the head, return strand first"),
+        ylabel=unit("duration", system).beside("time"),
+    )
     grouped(axis.xaxis)
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
     figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
@@ -75,12 +80,18 @@ def _envelope(axis: Axes, found: Followed, system: System) -> None:
     force, length = unit("force", system, large=True), unit("length", system, large=True)
     order, distance = found.round_loop
     x, record = length(distance), found.record
-    axis.fill_between(x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15)
-    for k, (name, values) in enumerate((("highest", record.highest), ("lowest", record.lowest), ("at the begin", record.tensions[0]))):
+    axis.fill_between(
+        x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15
+    )
+    for k, (name, values) in enumerate(
+        (("highest", record.highest), ("lowest", record.lowest), ("at the begin", record.tensions[0]))
+    ):
         axis.plot(x, force(values[order]), color=colour(k), label=name)
     axis.axhline(0.0, color="0.6", linewidth=0.8)
     axis.axvline(float(length(found.line.loop.way[found.line.count])), color="0.8", zorder=0)
-    axis.set(xlabel=length.beside("distance from the head, return strand first"), ylabel=force.beside("tension"))
+    axis.set(
+        xlabel=length.beside("distance from the head, return strand first"), ylabel=force.beside("tension")
+    )
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
     plain(axis.legend(fontsize=8))
@@ -94,14 +105,47 @@ def _histories(axes: list[Axes], found: Followed, system: System) -> None:
     for d, drive in enumerate(found.ride.drives):
         above.plot(time, speed(drives["belt"][kept, d]), color=colour(2 * d), label=f"belt at {drive.name}")
         if found.record.slipped[d]:
-            above.plot(time, speed(drives["rim"][kept, d]), color=colour(2 * d), linestyle=":", label=f"rim of {drive.name}")
+            above.plot(
+                time,
+                speed(drives["rim"][kept, d]),
+                color=colour(2 * d),
+                linestyle=":",
+                label=f"rim of {drive.name}",
+            )
         for k, name in enumerate(("arriving", "leaving")):
-            below.plot(time, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}")
-        below.plot(time, force(drives["motor"][kept, d]), color=colour(2 * d), linestyle="--", linewidth=0.9, label=f"motor of {drive.name}")
+            below.plot(
+                time, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
+            )
+        below.plot(
+            time,
+            force(drives["motor"][kept, d]),
+            color=colour(2 * d),
+            linestyle="--",
+            linewidth=0.9,
+            label=f"motor of {drive.name}",
+        )
     tail = _cell_at(found, float(found.line.loop.way[found.line.count]))
-    above.plot(found.record.times, speed(found.record.speeds[:, tail]), color="0.4", linewidth=0.9, label="belt at the tail")
-    below.plot(found.record.times, force(found.record.tensions[:, tail]), color="0.4", linewidth=0.9, label="at the tail")
-    below.plot(time, force(found.record.take_up["tension"][kept]), color="#B8860B", linewidth=0.9, label="at the take-up")
+    above.plot(
+        found.record.times,
+        speed(found.record.speeds[:, tail]),
+        color="0.4",
+        linewidth=0.9,
+        label="belt at the tail",
+    )
+    below.plot(
+        found.record.times,
+        force(found.record.tensions[:, tail]),
+        color="0.4",
+        linewidth=0.9,
+        label="at the tail",
+    )
+    below.plot(
+        time,
+        force(found.record.take_up["tension"][kept]),
+        color="#B8860B",
+        linewidth=0.9,
+        label="at the take-up",
+    )
     above.set(ylabel=speed.beside("speed"))
     below.set(xlabel=unit("duration", system).beside("time"), ylabel=force.beside("tension, force"))
     grouped(below.yaxis)

@@ -88,6 +88,9 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
     def drive(name: str, of: Any) -> Any:
         return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
 
+    def torque(of: Any) -> Any:
+        return lambda row: float(of(row[1].torque[:, row[2]]))
+
     def power(row: Any) -> float:
         drives = row[1].record.drives
         return float(np.max(np.abs(drives["motor"][:, row[2]] * drives["rim"][:, row[2]])))
@@ -99,15 +102,15 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
     columns = (
         _SCENARIO,
         Column("drive", "text", lambda row: row[1].ride.drives[row[2]].name, json="drive"),
-        Column("highest torque over rated", "ratio", lambda row: float(row[1].torque[:, row[2]].max()), json="torque_max"),
-        Column("lowest torque over rated", "ratio", lambda row: float(row[1].torque[:, row[2]].min()), json="torque_min"),
+        Column("highest torque over rated", "ratio", torque(np.max), json="torque_max"),
+        Column("lowest torque over rated", "ratio", torque(np.min), json="torque_min"),
         Column("highest force on the belt", "force", drive("force", np.max), json="force_max_N"),
         Column("lowest force on the belt", "force", drive("force", np.min), json="force_min_N"),
         Column("highest power at the rim", "power", power, json="power_kW"),
         Column("slip", "length", lambda row: float(row[1].record.slipped[row[2]]), json="slip_m"),
         Column("heat of slip", "heat", lambda row: float(row[1].record.heat[row[2]]), json="slip_heat_MJ"),
         Column("brake", "force", drive("holding", np.max), json="brake_N"),
-        Column("backstop", "force", lambda row: max(0.0, -float(row[1].record.drives["holding"][:, row[2]].min())), json="backstop_N"),
+        Column("backstop", "force", drive("holding", lambda force: max(0.0, -np.min(force))), json="backstop_N"),
         Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
         Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
         Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),
@@ -131,7 +134,9 @@ def scenario_tensions(found: CalculatedDynamics) -> Table:
         Column("least for sag, steady", "force", _row("least_for_sag"), json="least_for_sag_N"),
     )
     caption = "Highest and lowest tension of every section and strand, from the take-up round"
-    return Table("scenario_tensions", "Tensions", caption, columns, rows, (OnPage("tensions", caption),), named=3)
+    return Table(
+        "scenario_tensions", "Tensions", caption, columns, rows, (OnPage("tensions", caption),), named=3
+    )
 
 
 def histories(found: CalculatedDynamics) -> Table:
@@ -156,7 +161,9 @@ def histories(found: CalculatedDynamics) -> Table:
         Column("tension leaving", "force", of("leaving")),
         Column("force on the belt", "force", of("force")),
         Column("force of the motor", "force", of("motor")),
-        Column("tension at the take-up", "force", lambda row: float(row[1].record.take_up["tension"][row[2]])),
+        Column(
+            "tension at the take-up", "force", lambda row: float(row[1].record.take_up["tension"][row[2]])
+        ),
         Column("travel of the carriage", "length", lambda row: float(row[1].travel[row[2]])),
     )
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
@@ -179,11 +186,20 @@ def _drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Three figures a scenario."""
     for one in found.followed:
         for name, words, draw in (
-            ("map", "tension over place and time, white where the tail is, red where it is slack", dynamics_plots.tension_map),
+            (
+                "map",
+                "tension over place and time, white where the tail is, red where it is slack",
+                dynamics_plots.tension_map,
+            ),
             ("envelope", "highest and lowest tension round the loop", dynamics_plots.envelope),
             ("history", "speeds, and tensions at drives, tail and take-up", dynamics_plots.histories),
         ):
-            yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", partial(draw, one, system=system), "scenarios")
+            yield Drawing(
+                f"{slug(one.name)}_{name}",
+                f"{one.name}: {words}.",
+                partial(draw, one, system=system),
+                "scenarios",
+            )
 
 
 def plain(found: CalculatedDynamics) -> dict[str, Any]:
@@ -196,10 +212,17 @@ def plain(found: CalculatedDynamics) -> dict[str, Any]:
         "drives": scenario_drives(found).plain(),
         "tensions": scenario_tensions(found).plain(),
         "checks": [
-            {"key": check.key, "scenario": "" if check.case is None else check.case.text(), "subject": check.subject.text(),
-             "calculated": check.calculated, "required": check.required, "kind": check.kind, "verdict": check.verdict.lower(),
-             "why": None if check.why is None or not check.failed else check.why.text()}
+            {
+                "key": check.key,
+                "scenario": "" if check.case is None else check.case.text(),
+                "subject": check.subject.text(),
+                "calculated": check.calculated,
+                "required": check.required,
+                "kind": check.kind,
+                "verdict": check.verdict.lower(),
+                "why": None if check.why is None or not check.failed else check.why.text(),
+            }
             for check in every
         ],
         "assumptions": list(found.assumptions),
-    }  # fmt: skip
+    }

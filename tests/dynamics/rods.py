@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from conveyor.dynamics.wave import Chain, Machines, Record, Start, run
+from conveyor.dynamics.wave import Beginning, Chain, Machines, Record, run
 
 EA, LINE_MASS, LENGTH = 4.0e7, 40.0, 2000.0
 WAVE = np.sqrt(EA / LINE_MASS)  # 1000 m/s
@@ -37,7 +37,7 @@ def clamped(cells: int, *nodes: int) -> dict[str, Any]:
     return {"sticking": sticking, "friction": friction}
 
 
-def begun(chain: Chain, **changes: Any) -> Start:
+def begun(chain: Chain, **changes: Any) -> Beginning:
     """At rest under an even tension."""
     s, n = chain.stiffness.shape
     drives = np.zeros((s, chain.nodes.shape[1]))
@@ -45,7 +45,7 @@ def begun(chain: Chain, **changes: Any) -> Start:
         "speed": np.zeros((s, n + 1)), "tension": np.full((s, n), PULL), "resisting": np.zeros((s, n + 1)),
         "driving": drives, "rims": drives,
     }  # fmt: skip
-    return Start(**(parts | changes))
+    return Beginning(**(parts | changes))
 
 
 def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
@@ -56,7 +56,7 @@ def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
     )
 
 
-def follow(chain: Chain, start: Start, time: float, machines: Machines | None = None) -> Record:
+def follow(chain: Chain, start: Beginning, time: float, machines: Machines | None = None) -> Record:
     """Every step kept."""
     step = chain.longest_step
     steps = round(time / step)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, rod
 
 IMPEDANCE = WAVE * LINE_MASS
