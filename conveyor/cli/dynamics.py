@@ -42,6 +42,7 @@ _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png"
         "conveyor dynamics overland.yaml",
         'conveyor dynamics overland.yaml --scenario "start full" -o start.png',
         "conveyor dynamics overland.yaml -o starts.xlsx -o starts.html",
+        'conveyor dynamics overland.yaml --scenario "start full" --shortest-ramp',
         "conveyor dynamics overland.yaml --json | jq .scenarios",
     ),
 )
@@ -63,6 +64,12 @@ def dynamics(
     error: Annotated[
         float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
     ] = 0.01,
+    shortest_ramp: Annotated[
+        bool,
+        typer.Option(
+            "--shortest-ramp", help="Find the shortest ramp that keeps every criterion, of each scenario."
+        ),
+    ] = False,
     units: UnitsOption = None,
     force: Force = False,
     as_json: AsJson = False,
@@ -80,6 +87,10 @@ def dynamics(
     line = conveyor.load(spec, shelves=shelf or ())
     system: System = line.report.units if units is None else units.value
     chosen = _chosen(line, scenario)
+    if shortest_ramp:
+        from conveyor.dynamics.design import shortest_ramp as sought
+
+        chosen = tuple(_ramped(one, sought(line, one)[0]) for one in chosen)
     with progress(silent=quiet or as_json) as told:
         found = follow(
             line, chosen, error=error, progress=None if told is None else partial(told, "scenarios")
@@ -108,6 +119,14 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
         if name not in every:
             raise InputError(f'--scenario: got "{name}", there are: {", ".join(every)}')
     return tuple(every[name] for name in names) if names else tuple(every.values())
+
+
+def _ramped(scenario: Scenario, time: float) -> Scenario:
+    """The scenario with the ramp found, which its name tells."""
+    from conveyor.models import Starter
+
+    starter = (scenario.starter or Starter()).replace(time=f"{time:.4g} s", stop_time=f"{time:.4g} s")
+    return scenario.replace(name=f"{scenario.name}, ramp {time:.3g} s", starter=starter, duration=None)
 
 
 def _write(found: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:

@@ -129,8 +129,8 @@ class Followed:
 
     @cached_property
     def rests_at(self) -> float | None:
-        """When all drive pulleys have come to rest for good [s]; None where they have not."""
-        turning = np.abs(self.record.drives["rim"]).max(axis=1) > 0.0
+        """When the belt has come to rest for good on all drive pulleys [s]; None where it has not."""
+        turning = np.abs(self.record.drives["belt"]).max(axis=1) > 0.0
         if turning[-1]:
             return None
         return float(self.times[np.flatnonzero(turning)[-1]]) if turning.any() else 0.0
@@ -235,7 +235,9 @@ def follow(
     """
     if not 0.0 < error < 1.0:
         raise InputError(f"error = {error}: between 0 and 1 is needed")
-    rides, given = _rides(conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)))
+    rides, given = prepared_rides(
+        conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor))
+    )
     if step is not None:
         return CalculatedDynamics(conveyor, given, tuple(side_by_side(rides, step)))
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
@@ -292,7 +294,9 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
     )  # fmt: skip
 
 
-def _rides(conveyor: Conveyor, scenarios: Sequence[Scenario]) -> tuple[list[Ride], CalculatedConveyor]:
+def prepared_rides(
+    conveyor: Conveyor, scenarios: Sequence[Scenario]
+) -> tuple[list[Ride], CalculatedConveyor]:
     """Every scenario on its load; loads that several have are calculated once, all with one take-up."""
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []

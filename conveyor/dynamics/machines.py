@@ -157,9 +157,11 @@ class Ride:
             elif told.do == "power off":
                 share = np.where(now, 0.0, share)
             elif told.do == "start":
-                led = (
-                    ramp(since / unit.time, shape=unit.ramp) if unit.kind == "inverter" and unit.time else 1.0
-                )
+                led = 1.0
+                if (
+                    unit.kind == "inverter" and unit.time
+                ):  # all follow one ramp, whenever they are switched on
+                    led = ramp((times - told.at) / unit.time, shape=unit.ramp)
                 reference = np.where(now, led, reference)
                 share, brake = np.where(now, _gain(unit, since), share), np.where(now, 0.0, brake)
             else:

@@ -25,7 +25,7 @@ class Starter(Model):
     stop_time: Annotated[Time, Bounds(gt="0 s", le="1 h")] | None = None
     """Of an inverter's ramp down; time without it."""
     delay: Annotated[Time, Bounds(ge="0 s", le="10 min")] = quantity("0 s")
-    """From the command to start until this drive begins."""
+    """From the command to start until this drive is switched on; an inverter then joins the ramp that all follow."""
     initial_torque: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Of a soft starter or a coupling at the begin, over its largest; 30 % without it."""
     torque_limit: Annotated[Number, Field(ge=1, le=5)] | None = None

@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 
     from conveyor.dynamics.follow import Followed
 
-_LEVELS, _MOST = 14, 160  # shades, and points a side, of the map
-_HEIGHT, _WHOLE = 4.4, 13.0
+_LEVELS, _MOST = 14, 120  # shades, and points a side, of the map
+_POINTS = 1500  # of a history
+_HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
 
 
 def tension_map(found: Followed, *, system: System = "SI") -> Figure:
@@ -34,10 +35,17 @@ def envelope(found: Followed, *, system: System = "SI") -> Figure:
     return figure
 
 
-def histories(found: Followed, *, system: System = "SI") -> Figure:
-    """Speeds, and tensions at the drives and the take-up, over time."""
-    figure, axes = stacked(2, _HEIGHT)
-    _histories(axes, found, system)
+def speeds(found: Followed, *, system: System = "SI") -> Figure:
+    """Speeds at drives and tail over time."""
+    figure, (axis,) = stacked(1, _LOW)
+    _speeds(axis, found, system)
+    return figure
+
+
+def forces(found: Followed, *, system: System = "SI") -> Figure:
+    """Tensions at drives, tail and take-up, and forces of the motors, over time."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    _forces(axis, found, system)
     return figure
 
 
@@ -46,7 +54,8 @@ def picture(found: Followed, *, system: System = "SI") -> Figure:
     figure, axes = stacked(4, _WHOLE)
     _map(figure, axes[0], found, system)
     _envelope(axes[1], found, system)
-    _histories(axes[2:], found, system)
+    _speeds(axes[2], found, system)
+    _forces(axes[3], found, system)
     titled(figure, found.name)
     return figure
 
@@ -97,63 +106,51 @@ def _envelope(axis: Axes, found: Followed, system: System) -> None:
     plain(axis.legend(fontsize=8))
 
 
-def _histories(axes: list[Axes], found: Followed, system: System) -> None:
-    force, speed = unit("force", system, large=True), unit("speed", system)
-    kept = np.unique(np.linspace(0, found.times.size - 1, 2000).astype(int))
-    time, drives = found.times[kept], found.record.drives
-    above, below = axes
+def _speeds(axis: Axes, found: Followed, system: System) -> None:
+    speed, time = unit("speed", system), unit("duration", system)
+    kept = np.unique(np.linspace(0, found.times.size - 1, _POINTS).astype(int))
+    drives = found.record.drives
     for d, drive in enumerate(found.ride.drives):
-        above.plot(time, speed(drives["belt"][kept, d]), color=colour(2 * d), label=f"belt at {drive.name}")
-        if found.record.slipped[d]:
-            above.plot(
-                time,
-                speed(drives["rim"][kept, d]),
-                color=colour(2 * d),
-                linestyle=":",
-                label=f"rim of {drive.name}",
-            )
-        for k, name in enumerate(("arriving", "leaving")):
-            below.plot(
-                time, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
-            )
-        below.plot(
-            time,
-            force(drives["motor"][kept, d]),
+        axis.plot(
+            found.times[kept],
+            speed(drives["belt"][kept, d]),
             color=colour(2 * d),
-            linestyle="--",
-            linewidth=0.9,
-            label=f"motor of {drive.name}",
+            label=f"belt at {drive.name}",
         )
-    tail = _cell_at(found, float(found.line.loop.way[found.line.count]))
-    above.plot(
-        found.record.times,
-        speed(found.record.speeds[:, tail]),
-        color="0.4",
-        linewidth=0.9,
-        label="belt at the tail",
-    )
-    below.plot(
-        found.record.times,
-        force(found.record.tensions[:, tail]),
-        color="0.4",
-        linewidth=0.9,
-        label="at the tail",
-    )
-    below.plot(
-        time,
-        force(found.record.take_up["tension"][kept]),
-        color="#B8860B",
-        linewidth=0.9,
-        label="at the take-up",
-    )
-    above.set(ylabel=speed.beside("speed"))
-    below.set(xlabel=unit("duration", system).beside("time"), ylabel=force.beside("tension, force"))
-    grouped(below.yaxis)
-    for axis in axes:
-        plain(axis.legend(fontsize=7, ncols=2))
+        if found.record.slipped[d]:
+            rim = speed(drives["rim"][kept, d])
+            axis.plot(
+                found.times[kept], rim, color=colour(2 * d), linestyle=":", label=f"rim of {drive.name}"
+            )
+    tail = speed(found.record.speeds[:, _tail(found)])
+    axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
+    axis.set(xlabel=time.beside("time"), ylabel=speed.beside("speed"))
+    plain(axis.legend(fontsize=7))
 
 
-def _cell_at(found: Followed, distance: float) -> int:
-    """The cell at a distance from the head [m]."""
+def _forces(axis: Axes, found: Followed, system: System) -> None:
+    force, time = unit("force", system, large=True), unit("duration", system)
+    kept = np.unique(np.linspace(0, found.times.size - 1, _POINTS).astype(int))
+    drives, times = found.record.drives, found.times[kept]
+    for d, drive in enumerate(found.ride.drives):
+        for k, name in enumerate(("arriving", "leaving")):
+            axis.plot(
+                times, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
+            )
+        motor = force(drives["motor"][kept, d])
+        axis.plot(
+            times, motor, color=colour(2 * d), linestyle="--", linewidth=0.9, label=f"motor of {drive.name}"
+        )
+    tail = force(found.record.tensions[:, _tail(found)])
+    axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
+    held = force(found.record.take_up["tension"][kept])
+    axis.plot(times, held, color="#B8860B", linewidth=0.9, label="at the take-up")
+    axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
+    grouped(axis.yaxis)
+    plain(axis.legend(fontsize=7, ncols=2))
+
+
+def _tail(found: Followed) -> int:
+    """The cell at the tail."""
     order, known = found.round_loop
-    return int(order[int(np.argmin(np.abs(known - distance)))])
+    return int(order[int(np.argmin(np.abs(known - found.line.loop.way[found.line.count])))])

@@ -25,6 +25,7 @@ PARTS: Final = (
     ("warnings", "Warnings"),
     ("drives", "Drives and take-up"),
     ("tensions", "Tensions"),
+    ("figures", "Figures"),
     ("assumptions", "Assumptions"),
     ("provenance", "Provenance"),
 )
@@ -40,8 +41,8 @@ def of_dynamics(found: CalculatedDynamics, system: System) -> Contents:
         scenarios(found), scenario_drives(found), scenario_tensions(found), histories(found),
         checked(deciding(every), system), _remarks(found, every, system), provenance(fingerprint(found.conveyor)),
     )  # fmt: skip
-    speeds = ", ".join(one.name for one in found.followed)
-    about = document(found.conveyor, "Starting and stopping", system, (("scenarios", speeds),))
+    names = ", ".join(one.name for one in found.followed)
+    about = document(found.conveyor, "Starting and stopping", system, (("scenarios", names),))
     return Contents(about, parts, system, tuple(_drawings(found, system)))
 
 
@@ -183,23 +184,16 @@ def _remarks(found: CalculatedDynamics, every: tuple[Check, ...], system: System
 
 
 def _drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
-    """Three figures a scenario."""
+    """Four figures a scenario."""
     for one in found.followed:
-        for name, words, draw in (
-            (
-                "map",
-                "tension over place and time, white where the tail is, red where it is slack",
-                dynamics_plots.tension_map,
-            ),
-            ("envelope", "highest and lowest tension round the loop", dynamics_plots.envelope),
-            ("history", "speeds, and tensions at drives, tail and take-up", dynamics_plots.histories),
+        for draw, words in (
+            (dynamics_plots.tension_map, "tension over place and time; the tail is white, slack belt red"),
+            (dynamics_plots.envelope, "highest and lowest tension round the loop"),
+            (dynamics_plots.speeds, "speeds at drives and tail"),
+            (dynamics_plots.forces, "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            yield Drawing(
-                f"{slug(one.name)}_{name}",
-                f"{one.name}: {words}.",
-                partial(draw, one, system=system),
-                "scenarios",
-            )
+            name = f"{slug(one.name)}_{draw.__name__}"
+            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "figures")
 
 
 def plain(found: CalculatedDynamics) -> dict[str, Any]:
