@@ -13,7 +13,7 @@ from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
-from tests.dynamics.test_limits import MASSES, NO_RUSH, followed, ridden
+from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 from tests.loop.loop_lines import BOOSTER, DATA, data, line
 
 GRIP = 1.5
