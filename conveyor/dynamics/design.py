@@ -9,7 +9,7 @@ from conveyor.dynamics.follow import Followed, prepared_rides, side_by_side
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Conveyor, Scenario, Starter
 
-_TIMES, _ROUNDS, _CELLS = 8, 2, 200
+_TIMES, _ROUNDS, _CELLS = 8, 2, 80
 
 
 def shortest_ramp(

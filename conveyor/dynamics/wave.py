@@ -191,7 +191,7 @@ class _Extremes:
     shape: tuple[int, ...]
     block: Array = field(init=False)
     count: int = 0
-    first: int = 0
+    first: int = -1  # the state at the begin is told before the first step
 
     def __post_init__(self) -> None:
         self.block = np.empty((_BLOCK, *self.shape))
@@ -351,6 +351,7 @@ class _Motion:
 
     def followed(self) -> Record:
         """Take every step."""
+        self.extremes.tell(self.tension)
         for i in range(self.steps):
             self._step(i)
             self._keep(i)
@@ -359,11 +360,15 @@ class _Motion:
         if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
             raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
         return Record(
-            self.dt, extremes.high, extremes.low, self.dt * extremes.high_at, self.dt * extremes.low_at,
+            self.dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at),
             np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
             np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
             self.slowest, self.ledger.closed(self.speed, self.rims, self.tension),
         )  # fmt: skip
+
+    def _time(self, steps: Array) -> Array:
+        """Of a step; that of the begin is 0."""
+        return np.asarray(self.dt * np.maximum(steps, 0.0))
 
     def _step(self, i: int) -> None:
         """Speeds by forces, pulleys, friction; then tensions by speeds."""

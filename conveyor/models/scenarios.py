@@ -11,7 +11,7 @@ from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.cases import Loading
 from conveyor.models.operation import EarthTemperature
 from conveyor.models.starter import Starter
-from conveyor.units import Bounds, Fraction, Time, quantity, text
+from conveyor.units import Bounds, Fraction, Time, quantity, si, text
 
 Action = Literal["start", "ramp down", "power off", "brake"]
 
@@ -32,15 +32,10 @@ class Event(Model):
 
     @model_validator(mode="after")
     def _of_brakes(self) -> Self:
-        given = sorted(self.model_fields_set & {"over", "share"})
-        if self.do != "brake" and given:
-            refuse(
-                "Event",
-                [
-                    Problem((name,), f'given with do "{self.do}"; it is of brakes, remove it')
-                    for name in given
-                ],
-            )
+        given = {"over": si(self.over) != 0.0, "share": si(self.share) != 1.0}
+        if self.do != "brake":
+            message = f'given with do "{self.do}"; it is of brakes, remove it'
+            refuse("Event", [Problem((name,), message) for name, differs in given.items() if differs])
         return self
 
 

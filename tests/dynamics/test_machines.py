@@ -13,8 +13,8 @@ from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
-from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 from tests.loop.loop_lines import BOOSTER, DATA, data, line
+from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 
 GRIP = 1.5
 SLOW = 0.05  # of a winch: its waves, c m' v, stay within its band
@@ -62,7 +62,7 @@ def test_a_slipping_belt_bears_what_it_grips():
 
 
 def test_backstop_and_brake_hold_what_pulls_back():
-    """A belt pulled backward by its own tension stands on its backstop, or on a brake strong enough, not on a weak one."""
+    """A belt pulled backward by its own tension stands on its backstop or a strong brake, not on a weak one."""
     for backstop, force, stands in ((True, 0.0, True), (False, 60e3, True), (False, 10e3, False)):
         chain = rod(
             20, nodes=np.array([[20]]), rim=np.array([[1e3]]), grip=np.array([[1e9]]),
@@ -145,7 +145,12 @@ def test_only_an_inverter_ramps_down():
 
 
 def test_a_led_stop_comes_to_rest_at_the_end_of_its_ramp():
-    stop = {"begins": "running", "events": [{"do": "ramp down"}], "starter": {"time": "20 s"}, "duration": "30 s"}
+    stop = {
+        "begins": "running",
+        "events": [{"do": "ramp down"}],
+        "starter": {"time": "20 s"},
+        "duration": "30 s",
+    }
     found = followed(line(drive=DATA["drive"] | MASSES, route={"feeding": NO_RUSH}), stop, step=0.04)
     assert found.rests_at == pytest.approx(20.0, abs=3.0 * found.ride.loop.travel[-1])
     # of an S the way is half of that at full speed

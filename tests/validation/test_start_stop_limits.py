@@ -27,7 +27,7 @@ def ridden(conveyor, scenario):
         conveyor, conveyor.temperature, Contacts(found.line, {}, (), ()), found, without_rubber(found.line)
     )
     loop = CutLoop.of(steady)
-    scene = ScenarioUnit.of(Scenario.from_data({"name": "test", **scenario}), conveyor)
+    scene = ScenarioUnit.of(Scenario.from_data({"name": "test"} | scenario), conveyor)
     return Ride(scene, loop, loop, found.settled.setting)
 
 
