@@ -90,7 +90,7 @@ def dynamics(
     if shortest_ramp:
         from conveyor.dynamics.design import shortest_ramp as sought
 
-        chosen = tuple(_ramped(one, sought(line, one)[0]) for one in chosen)
+        chosen = tuple(_ramped(one, line, sought(line, one)[0]) for one in chosen)
     with progress(silent=quiet or as_json) as told:
         found = follow(
             line, chosen, error=error, progress=None if told is None else partial(told, "scenarios")
@@ -121,11 +121,13 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
     return tuple(every[name] for name in names) if names else tuple(every.values())
 
 
-def _ramped(scenario: Scenario, time: float) -> Scenario:
+def _ramped(scenario: Scenario, line: Conveyor, time: float) -> Scenario:
     """The scenario with the ramp found, which its name tells."""
     from conveyor.models import Starter
 
-    starter = (scenario.starter or Starter()).replace(time=f"{time:.4g} s", stop_time=f"{time:.4g} s")
+    starter = (scenario.starter or line.drive.starter or Starter()).replace(
+        time=f"{time:.4g} s", stop_time=f"{time:.4g} s"
+    )
     return scenario.replace(name=f"{scenario.name}, ramp {time:.3g} s", starter=starter, duration=None)
 
 

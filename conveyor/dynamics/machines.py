@@ -157,7 +157,7 @@ class Ride:
             elif told.do == "power off":
                 share = np.where(now, 0.0, share)
             elif told.do == "start":
-                led = 1.0
+                led: Array = np.ones_like(times)
                 if (
                     unit.kind == "inverter" and unit.time
                 ):  # all follow one ramp, whenever they are switched on
