@@ -99,7 +99,7 @@ def test_ramps_end_at_full_speed_and_are_as_steep_as_said(shape):
         ramp(x, shape="steep")
 
 
-START = {"begins": "at rest", "events": [{"do": "start"}], "duration": "8 s"}
+START = {"begins": "at rest", "events": [{"do": "start"}], "duration": "6 s"}
 
 
 @pytest.mark.parametrize(

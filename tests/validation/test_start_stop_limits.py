@@ -124,7 +124,7 @@ def test_a_very_stiff_belt_stops_as_a_rigid_one():
 @pytest.mark.parametrize(
     "scenario",
     [
-        {"begins": "at rest", "events": [{"do": "start"}], "starter": {"time": "15 s"}},
+        {"begins": "at rest", "events": [{"do": "start"}], "starter": {"time": "6 s"}},
         {"begins": "running", "events": [{"do": "power off"}, {"at": "1 s", "do": "brake"}]},
         {"begins": "at rest", "events": [{"do": "start"}], "starter": {"kind": "direct"}},
     ],
@@ -132,7 +132,7 @@ def test_a_very_stiff_belt_stops_as_a_rigid_one():
 def test_energy_is_accounted_for(scenario):
     """Motors give what belt and drives keep and what lift, friction, damping, brakes and slip take: to 1e-3."""
     drive = DATA["drive"] | MASSES | {"brake_force": "15 kN"}
-    found = followed(line(drive=drive), {**scenario, "duration": "20 s"}, step=0.02)
+    found = followed(line(drive=drive), {**scenario, "duration": "8 s"}, step=0.02)
     assert found.missing_energy < 1e-3
 
 
