@@ -35,6 +35,8 @@ SOURCES = {
 FILES = {
     "test_belt_cases": "a belt of two covers and a carcass that bends and stretches: six contacts of a separate "
     "implementation, and three methods on one belt",
+    "test_belt_waves": "waves in a rod: c m' v, reflections, periods, damping ratio, second order, a weight on a "
+    "spring; closed forms",
     "test_boundary_elements": "the paper's own route (boundary elements in real space on a graded mesh) against the "
     "spectral solver and closed forms; errors fall with the order of its elements",
     "test_closed_forms": "the oracles themselves: Hunter, Hertz, Winkler foundation, Jonkers' form; printed figures, "
@@ -48,6 +50,8 @@ FILES = {
     "test_reference_cases": "42 contacts computed elsewhere at two tolerances; the estimated errors hold",
     "test_rulmeca_cema": "the classic form of CEMA against two printed sheets of Rulmeca's program, item by item",
     "test_split_contacts": "contacts of two strips against a derivation and the grid over the range of Fig. 4",
+    "test_start_stop_limits": "starts and stops against the package's own steady tensions, quasi-static start and "
+    "rigid coasting; energy and momentum",
     "test_winkler_trends": "thin bonded layers: Winkler, the incompressible thin film, powers of the load",
 }
 HEAD = """\

@@ -44,8 +44,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "study", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet", "contact",
-    "validate", "schema",
+    "new", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet",
+    "contact", "validate", "schema",
 )  # fmt: skip
 
 app = typer.Typer(

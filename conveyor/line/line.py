@@ -18,6 +18,7 @@ from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.line import usual
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_kinds import RollKind, roll_kinds
+from conveyor.line.scenes import StarterUnit
 from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
 from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, Pulley
 from conveyor.models.checks import drive_diameter
@@ -48,6 +49,7 @@ class BeltBody:
     splice_making: Condition
     duty: Condition
     permanent_stretch: float | None
+    retardation: float | None
 
     @property
     def steel_cord(self) -> bool:
@@ -124,7 +126,8 @@ class BendPulley:
 class DriveUnit:
     """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg, radius [m].
 
-    `mass_given` says whether its rotating masses are the spec's, not typical of its power.
+    `mass_given` says whether its rotating masses are the spec's, not typical of its power; `starter` and `backstop` are
+    None where the spec says nothing.
     """
 
     name: str
@@ -137,13 +140,16 @@ class DriveUnit:
     reduced_mass: float
     mass_given: bool
     radius: float | None
+    starter: StarterUnit | None = None
+    backstop: bool | None = None
 
 
 @dataclass(frozen=True)
 class TakeUpUnit:
     """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
 
-    `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-].
+    `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
+    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-].
     """
 
     kind: str
@@ -152,6 +158,8 @@ class TakeUpUnit:
     reeving: float
     strands: int
     reserve: float
+    carriage: float = 0.0
+    winch: tuple[float, float] | None = None
 
     @property
     def keeps_length(self) -> bool:
@@ -390,6 +398,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         splice_making=carcass.splice_making,
         duty=carcass.duty,
         permanent_stretch=_known(carcass.permanent_stretch),
+        retardation=_known(carcass.retardation_time),
     )
 
 
@@ -516,7 +525,7 @@ def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: 
 
 def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
     pulleys = conveyor.drive.pulleys
-    names = ["drive", *(pulley.name for pulley in conveyor.drive.further_drives)]
+    names = conveyor.drive.names
     return tuple(
         DriveUnit(
             name=name,
@@ -529,6 +538,8 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
             reduced_mass=_reduced_mass(conveyor, pulley),
             mass_given=pulley.reduced_mass is not None or pulley.inertia is not None,
             radius=_radius(conveyor, pulley),
+            starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
+            backstop=pulley.backstop,
         )
         for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
     )
@@ -578,7 +589,17 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         # the law of take_up.take_up_mass, solved for the tension
         tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
-    return TakeUpUnit(given.kind, spot, tension, given.reeving, given.strands, si(given.reserve))
+    winch = None if given.winch_speed is None else (si(given.winch_speed), si(given.winch_band))
+    return TakeUpUnit(
+        given.kind,
+        spot,
+        tension,
+        given.reeving,
+        given.strands,
+        si(given.reserve),
+        si(given.carriage_mass),
+        winch,
+    )
 
 
 def _cema(factors: Cema | None) -> CemaFactors | None:

@@ -112,7 +112,7 @@ def take_up_duty(
     known = list(temperatures)
     warmth = max(known) - min(known)
     unit, setting, steady = line.take_up, settled.setting, (min(means), max(means))
-    stiffness, strain = _stiffness(line.belt), _expansion(line.belt) * warmth
+    stiffness, strain = belt_stiffness(line.belt), _expansion(line.belt) * warmth
     travel, change = None, None
     if stiffness is not None:
         travel = take_up_travel(
@@ -146,7 +146,7 @@ def _mass(line: Line, setting: float) -> float:
     return take_up_mass(max(setting, 0.0), reeving=unit.reeving, gravity=line.gravity, strands=unit.strands)
 
 
-def _stiffness(belt: BeltBody) -> float | None:
+def belt_stiffness(belt: BeltBody) -> float | None:
     """EA of the whole belt [N], as given or as is usual."""
     per_width = belt.stiffness
     if per_width is None and belt.strength is not None:

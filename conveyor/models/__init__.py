@@ -27,6 +27,8 @@ from conveyor.models.rubber_data import (
     WLFShift,
 )
 from conveyor.models.runs import MeasuredRun
+from conveyor.models.scenarios import Event, Scenario
+from conveyor.models.starter import Starter
 from conveyor.models.train import DrivePart
 from conveyor.models.uncertainty import Uncertainty
 
@@ -49,6 +51,7 @@ __all__ = [
     "DutyEntry",
     "EmissionFactor",
     "EnergyPrice",
+    "Event",
     "Feeding",
     "FitStatistics",
     "FurtherDrive",
@@ -66,8 +69,10 @@ __all__ = [
     "Roll",
     "Route",
     "RubberCompound",
+    "Scenario",
     "Section",
     "Source",
+    "Starter",
     "StrainDependence",
     "TableShift",
     "TakeUp",

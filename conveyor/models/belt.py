@@ -19,6 +19,7 @@ from conveyor.units import (
     Quantity,
     Speed,
     Thickness,
+    Time,
     display,
     is_kind,
     si,
@@ -80,6 +81,8 @@ class Carcass(Model):
     """Rated working tension per width, as US belts are sold: a "600 PIW" belt; instead of the strength or beside it."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
     """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
+    retardation_time: Annotated[Time, Bounds(ge="0 s", le="10 s")] | None = None
+    """Damping of the belt lengthwise, force = stiffness (strain + time x its rate), for scenarios; 0.1 s without it."""
     permanent_stretch: Annotated[Fraction, Bounds(ge="0 %", le="10 %")] | None = None
     """Lasting elongation over the belt's life; 0.1 % of steel cord and 0.75 % of others without it."""
     splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None

@@ -12,6 +12,7 @@ from conveyor.models.cases import LoadCase, named_once
 from conveyor.models.checks import conflicts, cross_sections
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
+from conveyor.models.scenarios import Scenario, scenario_problems
 from conveyor.models.uncertainty import Uncertainty
 
 
@@ -20,6 +21,8 @@ class Conveyor(ConveyorParts):
 
     cases: Annotated[tuple[LoadCase, ...], Field(max_length=100)] = ()
     """Load cases to calculate beside the conveyor as given."""
+    scenarios: Annotated[tuple[Scenario, ...], Field(max_length=50)] = ()
+    """Starts and stops that `conveyor dynamics` follows through time; standard ones without."""
     uncertainty: Uncertainty | None = None
     """Ranges of what is not known exactly."""
     report: Report = Report()
@@ -33,10 +36,13 @@ class Conveyor(ConveyorParts):
         return self
 
     def _case_problems(self) -> Iterator[Problem]:
-        """Every section that a case loads exists."""
-        for i, case in enumerate(self.cases):
-            for j, name in enumerate(case.sections):
-                yield from self.route.section_problem(("cases", i, "sections", j), name)
+        """Every section that a case or a scenario loads exists, and every drive that a scenario names."""
+        named = [("cases", i, case.sections) for i, case in enumerate(self.cases)]
+        named += [("scenarios", i, scenario.sections) for i, scenario in enumerate(self.scenarios)]
+        for field, i, sections in named:
+            for j, name in enumerate(sections):
+                yield from self.route.section_problem((field, i, "sections", j), name)
+        yield from scenario_problems(self.scenarios, self.drive.names)
 
     @property
     def cross_sections(self) -> tuple[float, float] | None:

@@ -10,8 +10,9 @@ from typing import Annotated, Any, Final, Self
 from pydantic import ConfigDict, Field, model_validator
 
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
-from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
+from conveyor.models.starter import Starter
 from conveyor.models.train import PRODUCT_TOLERANCE, DrivePart, product, with_efficiency
 from conveyor.units import (
     Acceleration,
@@ -58,6 +59,11 @@ class DrivePulley(Model):
     """Speed of the motor over that of the pulley, i; needed beside inertia."""
     pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
     """Diameter of its pulley, for torques and inertia; without it that of route.pulleys at its place."""
+    starter: Starter | None = None
+    """How its motors are started, for scenarios; led by an inverter without it, or direct where drive has a torque
+    curve or factor and no start factor."""
+    backstop: Switch | None = None
+    """Whether it cannot turn backward, for scenarios; without it the first drive of a belt that would roll back."""
 
     @model_validator(mode="after")
     def _placed(self) -> Self:
@@ -139,6 +145,11 @@ class Drive(DrivePulley):
     def knows_mains(self) -> bool:
         """Whether the train has a part between mains and motor shaft."""
         return any(part.side == "mains" for part in self.train)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the drives are called, the first one first."""
+        return ("drive", *(pulley.name for pulley in self.further_drives))
 
     @property
     def certain_friction(self) -> float:

@@ -207,6 +207,12 @@ class TakeUp(Model):
     """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
     reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
     """Travel kept beyond what is computed, over it."""
+    carriage_mass: Annotated[Mass, Bounds(ge="0 kg", le="1000 t")] = quantity("0 kg")
+    """What moves with the carriage beside the weight, for scenarios."""
+    winch_speed: Annotated[Speed, Bounds(gt="0 m/s", le="10 m/s")] | None = None
+    """Of the carriage on its winch, for scenarios; without it a winch keeps its pull whatever happens."""
+    winch_band: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(0.1, "fraction")
+    """Of the tension, up and down, within which the winch rests."""
 
     @model_validator(mode="after")
     def _one_setting(self) -> Self:
@@ -219,6 +225,10 @@ class TakeUp(Model):
         elif self.mass is not None and self.tension is not None:
             message = f"got {text(self.mass)} and tension {text(self.tension)}; give one of the two"
             problems.append(Problem(("mass",), message))
+        if self.winch_speed is not None and self.kind != "winch":
+            problems.append(
+                Problem(("winch_speed",), f'given with kind "{self.kind}"; remove it, or set kind to "winch"')
+            )
         refuse("TakeUp", problems)
         return self
 

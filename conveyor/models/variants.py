@@ -69,6 +69,23 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
     return conveyor.replace(**changes) if changes else conveyor
 
 
+def slowed(conveyor: Conveyor, share: float) -> Conveyor:
+    """The conveyor at a share of its belt speed with the bulk that lies on it at full speed [-]."""
+    speed = scaled(conveyor.belt.speed, share)
+    points = [
+        point if si(point.speed) <= si(speed) else point.replace(speed=speed)
+        for point in conveyor.route.feeding_points
+    ]
+    route = conveyor.route
+    if points:
+        route = route.replace(feeding=points[0], further_feeding=points[1:])
+    return conveyor.replace(
+        belt=conveyor.belt.replace(speed=speed),
+        material=conveyor.material.replace(flow=scaled(conveyor.material.flow, share)),
+        route=route,
+    )
+
+
 def _loaded(section: Section, case: LoadCase) -> Section:
     loaded = {
         "full": True,

@@ -1,0 +1,151 @@
+"""`conveyor dynamics`: starts and stops followed through time."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from conveyor.cli.app import (
+    AsJson,
+    Force,
+    Quiet,
+    Shelves,
+    Spec,
+    UnitsOption,
+    app,
+    examples,
+    json_text,
+    print_text,
+    progress,
+    say,
+)
+from conveyor.cli.outputs import Outputs
+from conveyor.errors import InputError
+from conveyor.files import marks
+
+if TYPE_CHECKING:
+    from conveyor.dynamics.follow import CalculatedDynamics
+    from conveyor.models import Conveyor, Scenario
+    from conveyor.report.columns import Contents
+    from conveyor.units import System
+
+_KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png": marks.FIGURE, ".svg": marks.FIGURE,
+          ".pdf": marks.FIGURE}  # fmt: skip
+
+
+@app.command(
+    short_help="Starting and stopping through time: waves in the belt.",
+    epilog=examples(
+        "conveyor dynamics overland.yaml",
+        'conveyor dynamics overland.yaml --scenario "start full" -o start.png',
+        "conveyor dynamics overland.yaml -o starts.xlsx -o starts.html",
+        'conveyor dynamics overland.yaml --scenario "start full" --shortest-ramp',
+        "conveyor dynamics overland.yaml --json | jq .scenarios",
+    ),
+)
+def dynamics(
+    spec: Spec,
+    scenario: Annotated[
+        list[str] | None,
+        typer.Option("--scenario", "-s", metavar="NAME", help="Only this one; may be repeated."),
+    ] = None,
+    output: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
+        ),
+    ] = None,
+    error: Annotated[
+        float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
+    ] = 0.01,
+    shortest_ramp: Annotated[
+        bool,
+        typer.Option(
+            "--shortest-ramp", help="Find the shortest ramp that keeps every criterion, of each scenario."
+        ),
+    ] = False,
+    units: UnitsOption = None,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    shelf: Shelves = None,
+) -> None:
+    """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
+    to = Outputs(spec, force=force)
+    for path in output or ():
+        to.file("--output", path, *_KINDS, kind=_KINDS.get(path.suffix.lower(), ""))
+    import conveyor
+    from conveyor.dynamics.follow import follow
+    from conveyor.report.dynamics_tables import of_dynamics, plain
+
+    line = conveyor.load(spec, shelves=shelf or ())
+    system: System = line.report.units if units is None else units.value
+    chosen = _chosen(line, scenario)
+    if shortest_ramp:
+        from conveyor.dynamics.design import shortest_ramp as sought
+
+        chosen = tuple(_ramped(one, line, sought(line, one)[0]) for one in chosen)
+    with progress(silent=quiet or as_json) as told:
+        found = follow(
+            line, chosen, error=error, progress=None if told is None else partial(told, "scenarios")
+        )
+    contents = of_dynamics(found, system)
+    figures = json_text(plain(found))
+    for path in output or ():
+        _write(found, contents, path, to)
+    written = to.save()
+    if as_json:
+        print_text(figures)
+    elif not quiet:
+        from conveyor.cli.dynamics_tables import show
+
+        show(contents)
+        if written:
+            say("", *written)
+
+
+def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
+    """The scenarios asked for."""
+    from conveyor.dynamics.follow import standard_scenarios
+
+    every = {one.name: one for one in line.scenarios or standard_scenarios(line)}
+    for name in names or ():
+        if name not in every:
+            raise InputError(f'--scenario: got "{name}", there are: {", ".join(every)}')
+    return tuple(every[name] for name in names) if names else tuple(every.values())
+
+
+def _ramped(scenario: Scenario, line: Conveyor, time: float) -> Scenario:
+    """The scenario with the ramp found, which its name tells."""
+    from conveyor.models import Starter
+
+    starter = (scenario.starter or line.drive.starter or Starter()).replace(
+        time=f"{time:.4g} s", stop_time=f"{time:.4g} s"
+    )
+    return scenario.replace(name=f"{scenario.name}, ramp {time:.3g} s", starter=starter, duration=None)
+
+
+def _write(found: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
+    """Make a file of the kind its name says; of several scenarios a figure each."""
+    from conveyor.report import dynamics_tables, excel
+    from conveyor.report import html as page
+    from conveyor.report.columns import slug
+    from conveyor.report.dynamics_plots import picture
+    from conveyor.report.plots import drawn
+
+    ending = path.suffix.lower()
+    if ending == ".xlsx":
+        to.add("workbook", path, excel.files(contents, path, {}))
+    elif ending in {".html", ".htm"}:
+        to.add("page", path, {path: page.build(contents, dynamics_tables.PARTS).encode()})
+    else:
+        several = len(found.followed) > 1
+        for one in found.followed:
+            at = path.with_stem(f"{path.stem}_{slug(one.name)}") if several else path
+            to.add("figure", at, {at: drawn(picture(one, system=contents.system), at)})

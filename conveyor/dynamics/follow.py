@@ -1,0 +1,381 @@
+"""Scenarios of a conveyor followed through time, side by side, until their peaks hold."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.dynamics.loop import SPEEDS, Cells, CutLoop
+from conveyor.dynamics.machines import Ride, machines, prepared
+from conveyor.dynamics.wave import Record, run
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, PULLEY_INERTIA, TORQUE_LIMIT
+from conveyor.line.line import Line
+from conveyor.line.scenes import ScenarioUnit
+from conveyor.models import Conveyor, LoadCase, Scenario
+from conveyor.models.variants import slowed, with_case, with_temperature
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.studies.states import load_states
+from conveyor.units import from_si
+
+Array = NDArray[np.float64]
+
+ERROR: Final = 0.01
+"""Error of the peaks asked for without a word [-]."""
+_CELLS = 100  # of the longest belt at first
+_REFINED = 4  # times at most
+_COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A scenario and what happened.
+
+    Attributes
+    ----------
+    ride : Ride
+        The scenario on its belt.
+    cells : Cells
+        How the belt was cut.
+    record : Record
+        Of it alone: without the axis of scenarios.
+    error : float or None
+        Estimate of the error of the highest and lowest tension over the highest [-]; None where the step was given.
+    """
+
+    ride: Ride
+    cells: Cells
+    record: Record
+    error: float | None
+
+    @property
+    def name(self) -> str:
+        """Of the scenario."""
+        return self.ride.scene.name
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.ride.loop.line
+
+    @cached_property
+    def times(self) -> Array:
+        """Every step [s]."""
+        return np.asarray(self.record.step * np.arange(len(self.record.take_up["tension"])), dtype=float)
+
+    @cached_property
+    def middles(self) -> Array:
+        """Distance of every cell from the take-up [m]."""
+        return np.asarray(0.5 * (self.cells.at[:-1] + self.cells.at[1:]))
+
+    @property
+    def highest(self) -> float:
+        """Tension [N]."""
+        return float(self.record.highest.max())
+
+    @property
+    def lowest(self) -> float:
+        """Tension [N]."""
+        return float(self.record.lowest.min())
+
+    def place(self, i: int) -> str:
+        """Where a cell is, in words: section and strand."""
+        at = int(np.searchsorted(self.ride.loop.way, self.middles[i], side="right")) - 1
+        stretch = self.line.loop.stretches[self.ride.loop.order[at]]
+        return f"{stretch.section}, {stretch.strand}"
+
+    @cached_property
+    def round_loop(self) -> tuple[NDArray[np.int_], Array]:
+        """Cells as the belt meets them from the head, return strand first, and their distance from it [m]."""
+        loop, ways = self.ride.loop, self.line.loop.way
+        distance = (self.middles + ways[loop.order[0]]) % ways[-1]
+        order = np.argsort(distance)
+        return order, distance[order]
+
+    def stretches(self) -> Iterator[tuple[int, slice]]:
+        """Every stretch of `line.loop` and its cells; at least one."""
+        for i, k in enumerate(self.ride.loop.order.tolist()):
+            low, high = np.searchsorted(self.middles, self.ride.loop.way[i : i + 2])
+            low = min(int(low), self.middles.size - 1)
+            yield k, slice(low, max(int(high), low + 1))
+
+    @cached_property
+    def torque(self) -> Array:
+        """Of every motor over its rated one [-], shape (steps, d)."""
+        return np.asarray(self.record.drives["motor"] / self.ride.rated)
+
+    @cached_property
+    def travel(self) -> Array:
+        """Of the take-up's carriage, away from the belt positive [m], every step."""
+        return np.asarray(self.record.take_up["belt"] / self.line.take_up.strands)
+
+    @cached_property
+    def stops(self) -> bool:
+        """Whether the last thing every drive is told is to stop."""
+        told = {d: happening.do for happening in self.ride.scene.happenings for d in happening.drives}
+        return len(told) == len(self.ride.drives) and "start" not in told.values()
+
+    @cached_property
+    def belt_speed(self) -> Array:
+        """At the first drive [m/s], every step."""
+        return np.asarray(self.record.drives["belt"][:, 0])
+
+    @cached_property
+    def rests_at(self) -> float | None:
+        """When the belt has come to rest for good on all drive pulleys [s]; None where it has not."""
+        turning = np.abs(self.record.drives["belt"]).max(axis=1) > 0.0
+        if turning[-1]:
+            return None
+        return float(self.times[np.flatnonzero(turning)[-1]]) if turning.any() else 0.0
+
+    @cached_property
+    def way(self) -> float:
+        """Of the belt at the first drive [m]."""
+        return float(self.belt_speed.sum() * self.record.step)
+
+    @property
+    def missing_energy(self) -> float:
+        """What the sum of all energies lacks over the largest of them [-]."""
+        work = {name: abs(float(value)) for name, value in self.record.work.items()}
+        missing = work.pop("missing")
+        return missing / max(work.values())
+
+
+@dataclass(frozen=True, eq=False)
+class CalculatedDynamics:
+    """Scenarios of a conveyor.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        The spec.
+    given : CalculatedConveyor
+        Its steady result, the take-up at the one setting of all loads here.
+    followed : tuple of Followed
+        In order of the scenarios.
+    """
+
+    conveyor: Conveyor
+    given: CalculatedConveyor
+    followed: tuple[Followed, ...]
+
+    @cached_property
+    def assumptions(self) -> tuple[str, ...]:
+        """What the figures rest on that the spec does not say."""
+        return tuple(dict.fromkeys(_assumed(self)))
+
+
+def standard_scenarios(conveyor: Conveyor) -> tuple[Scenario, ...]:
+    """Starts full and empty, a stop by the drives, an emergency stop, power failures: what every conveyor meets."""
+    line = conveyor.drive
+    led = all(pulley.starter is None or pulley.starter.kind == "inverter" for pulley in line.pulleys)
+    direct = line.start_factor is None and (line.torque_curve or line.torque_factor is not None)
+    led = led and not (direct and line.starter is None)
+    braked = any(pulley.brake_force is not None for pulley in line.pulleys)
+    brake = [{"at": line.brake_delay, "do": "brake"}] if braked else []
+    made = [
+        ("start full", "at rest", "full", [{"do": "start"}]),
+        ("start empty", "at rest", "empty", [{"do": "start"}]),
+        *([("stop full", "running", "full", [{"do": "ramp down"}])] if led else []),
+        ("emergency stop full", "running", "full", [{"do": "power off"}, *brake]),
+        *([("power failure full, brakes fail", "running", "full", [{"do": "power off"}])] if braked else []),
+        *(
+            (f"power failure of {name}", "running", "full", [{"do": "power off", "drives": [name]}])
+            for name in line.names
+            if len(line.names) > 1
+        ),
+    ]
+    return tuple(
+        Scenario.from_data({"name": name, "begins": begins, "loading": loading, "events": events})
+        for name, begins, loading, events in made
+    )
+
+
+def follow(
+    conveyor: Conveyor,
+    scenarios: Sequence[Scenario] | None = None,
+    *,
+    error: float = ERROR,
+    step: float | None = None,
+    progress: Progress | None = None,
+) -> CalculatedDynamics:
+    """Follow scenarios through time.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    scenarios : sequence of Scenario, optional
+        Those of the spec without it, or the standard ones where it has none.
+    error : float
+        Of the highest and lowest tension over the highest, asked for [-].
+    step : float, optional
+        Travel time of a cell [s]; without it cells are halved until the peaks hold to `error`.
+    progress : callable, optional
+        Called with what is done and the whole.
+
+    Returns
+    -------
+    CalculatedDynamics
+        One result a scenario.
+
+    Raises
+    ------
+    InputError
+        A loading does not fit the belt, or an argument is outside its range.
+    NoSolutionError, RangeError
+        A load has no steady answer, the belt's stiffness is not known, or the peaks do not hold at the finest cells.
+    """
+    if not 0.0 < error < 1.0:
+        raise InputError(f"error = {error}: between 0 and 1 is needed")
+    rides, given = prepared_rides(
+        conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor))
+    )
+    if step is not None:
+        return CalculatedDynamics(conveyor, given, tuple(side_by_side(rides, step)))
+    step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
+    open_ones, found = list(range(len(rides))), dict(enumerate(side_by_side(rides, step)))
+    for _ in range(_REFINED):
+        if progress is not None:
+            progress(len(rides) - len(open_ones), len(rides))
+        step *= 0.5
+        for i, now in zip(open_ones, side_by_side([rides[i] for i in open_ones], step), strict=True):
+            found[i] = replace(now, error=_error(found[i], now))
+        open_ones = [i for i in open_ones if (found[i].error or 0.0) > error]
+        if not open_ones:
+            return CalculatedDynamics(conveyor, given, tuple(found[i] for i in range(len(rides))))
+    worst = max((found[i] for i in open_ones), key=lambda one: one.error or 0.0)
+    raise NoSolutionError(
+        f'scenario "{worst.name}": its peaks still change by {worst.error:.1%} at cells of {step:.3g} s: ask for a '
+        "larger error, or look for a drive of hardly any mass"
+    )
+
+
+def _error(coarse: Followed, fine: Followed) -> float:
+    """Of the fine one's peaks: their change at half the cells, as if of first order, which it is at pulleys."""
+    changes = (fine.highest - coarse.highest, fine.lowest - coarse.lowest)
+    return float(max(map(abs, changes)) / fine.highest)
+
+
+def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
+    """Follow scenarios of one conveyor side by side, their cells as long as a wave travels in a step [s].
+
+    Raises
+    ------
+    NoSolutionError
+        The drives have no room, a drive cannot do what it is told, or a figure is not finite.
+    """
+    cells, chain, start = prepared(list(rides), step)
+    step = _COURANT * min(step, chain.longest_step)
+    steps = math.ceil(max(ride.duration for ride in rides) / step) + 1
+    record = run(chain, machines(list(rides), start, step, steps), start, step=step)
+    return [
+        Followed(ride, one, _only(record, i, one.at.size, ride.duration), None)
+        for i, (ride, one) in enumerate(zip(rides, cells, strict=True))
+    ]
+
+
+def _only(record: Record, i: int, size: int, duration: float) -> Record:
+    """One belt of a record, its own cells, for its own time."""
+    steps, kept = math.ceil(duration / record.step) + 1, record.times <= duration
+    return Record(
+        record.step, record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
+        record.lowest_at[i, : size - 1], record.times[kept], record.tensions[kept, i, : size - 1],
+        record.speeds[kept, i, :size], {name: values[:steps, i] for name, values in record.drives.items()},
+        {name: values[:steps, i] for name, values in record.take_up.items()}, record.slipped[i], record.heat[i],
+        record.fastest[i, :size], record.slowest[i, :size], {name: v[i] for name, v in record.work.items()},
+    )  # fmt: skip
+
+
+def prepared_rides(
+    conveyor: Conveyor, scenarios: Sequence[Scenario]
+) -> tuple[list[Ride], CalculatedConveyor]:
+    """Every scenario on its load; loads that several have are calculated once, all with one take-up."""
+    loaded: dict[tuple[object, ...], Conveyor] = {}
+    keys = []
+    for scenario in scenarios:
+        temperature = ScenarioUnit.of(scenario, conveyor).temperature
+        key = (scenario.loading, scenario.sections, str(scenario.share), temperature)
+        keys.append(key)
+        if key not in loaded:
+            case = _case(conveyor, scenario)
+            made = with_case(conveyor, case)
+            if temperature is not None:
+                made = with_temperature(made, from_si(temperature, "temperature", "K"))
+            loaded[key] = made
+    given, *steady = _answers([Variant(conveyor), *map(Variant, loaded.values())], one_take_up=True)
+    setting = given.balance.settled.setting
+    slower = _answers([
+        Variant(slowed(one, share), take_up=setting)
+        for one in (conveyor, *loaded.values()) for share in SPEEDS
+    ])  # fmt: skip
+    loops = [
+        CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
+        for i, one in enumerate((given, *steady))
+    ]
+    of_key = dict(zip(loaded, loops[1:], strict=True))
+    rides = [
+        Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], setting)
+        for scenario, key in zip(scenarios, keys, strict=True)
+    ]
+    return rides, given
+
+
+def _case(conveyor: Conveyor, scenario: Scenario) -> LoadCase:
+    """What a scenario loads."""
+    loading, sections = scenario.loading, scenario.sections
+    if loading == "worst":
+        state = load_states(conveyor).state("worst")
+        if state is None:
+            raise NoSolutionError(f'scenario "{scenario.name}": no loading is worst; name the sections')
+        loading, sections = ("sections", state.loaded) if state.loaded else ("empty", ())
+    return LoadCase(name=scenario.name, loading=loading, sections=sections, share=scenario.share)
+
+
+def _answers(variants: list[Variant], *, one_take_up: bool = False) -> list[CalculatedConveyor]:
+    found = []
+    for one in calculate_many(variants, one_take_up=one_take_up):
+        if not isinstance(one, CalculatedConveyor):
+            raise one
+        found.append(one)
+    return found
+
+
+def _assumed(found: CalculatedDynamics) -> Iterator[str]:
+    line = found.given.line
+    if line.belt.retardation is None:
+        yield f"belt.carcass.retardation_time not given: {BELT_RETARDATION.value:g} s, general knowledge"
+    if line.belt.stiffness is None:
+        yield "belt.carcass.stiffness not given: the usual multiple of the strength"
+    if any(not pulley.driven for pulley in line.pulleys):
+        yield f"pulleys not driven turn like {PULLEY_INERTIA.value:.0%} of their mass, not given: general knowledge"
+    if line.take_up.kind == "slack side":
+        yield "route.take_up not given: a weight on the slack side of the drive"
+    for followed in found.followed:
+        yield from _assumed_drives(followed.ride)
+
+
+def _assumed_drives(ride: Ride) -> Iterator[str]:
+    for drive, unit in zip(ride.drives, ride.starters, strict=True):
+        values = {
+            "slip": f"{MOTOR_SLIP.value:.0%}, general knowledge",
+            "kind": unit.kind,
+            "time": f"{unit.time or 0.0:.0f} s, of the stiff belt at the start factor, by the ramp's shape",
+            "initial torque": f"{unit.initial:.0%}, general knowledge",
+        }
+        for what in unit.assumed:
+            yield f"{drive.name}: starter's {what} not given: {values[what]}"
+        if unit.limit is None and not ride.loop.line.torque_curve:
+            yield f"{drive.name}: torque limit not given: {TORQUE_LIMIT.value:g} x rated, general knowledge"
+        if drive.power is None:
+            yield f"{drive.name}: installed power not given: motors rated for the largest steady force"
+        if not drive.mass_given:
+            yield f"{drive.name}: rotating masses not given: typical of its power"
+    if ride.assumed_backstop:
+        yield f"{ride.drives[0].name}: backstop not given: one is assumed, the loaded belt would roll back"

@@ -1,0 +1,281 @@
+"""The loop of a steady result, cut open at the take-up: what lies and acts along it, and its cells of equal travel."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
+from conveyor.laws.waves import PULLEY_INERTIA, wave_speed
+from conveyor.line.line import Line
+from conveyor.line.places import Spot, Stand
+from conveyor.loop.take_up import belt_stiffness
+from conveyor.pipeline import CalculatedConveyor
+
+Array = NDArray[np.float64]
+
+SPEEDS = (0.1, 0.5)
+"""Speeds over the steady one at which the resistances are computed beside it [-]."""
+_WITH_SPEED = frozenset({"acceleration", "loading_skirts"})
+"""Forces of bulk that is fed in proportion to the belt's speed."""
+
+
+@dataclass(frozen=True)
+class _Lump:
+    """What stands at one place: distance [m], mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
+
+    at: float
+    mass: float = 0.0
+    friction: float = 0.0
+    square: float = 0.0
+    weight: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class CutLoop:
+    """A loaded belt from behind its take-up round to it again.
+
+    Attributes
+    ----------
+    steady : CalculatedConveyor
+        Its steady result.
+    way : ndarray, shape (2n + 1,)
+        Distance of every boundary of stretches [m].
+    order : ndarray of int, shape (2n,)
+        Which stretch of `line.loop` lies between them.
+    mass, weight, stuck : ndarray, shape (2n,)
+        Of every stretch: mass [kg], slope resistance [N], what rolls resist more at rest [N].
+    friction : ndarray, shape (3, 2n)
+        Of every stretch f0, f1, f2 of f0 + f1 v + f2 v² [N].
+    lumps : tuple
+        What stands at places.
+    drives : ndarray, shape (d,)
+        Distance of the drives [m].
+    stiffness : float
+        EA [N].
+    """
+
+    steady: CalculatedConveyor
+    way: Array
+    order: NDArray[np.int_]
+    mass: Array
+    weight: Array
+    stuck: Array
+    friction: Array
+    lumps: tuple[_Lump, ...]
+    drives: Array
+    stiffness: float
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.steady.line
+
+    @cached_property
+    def travel(self) -> Array:
+        """Time in which a wave comes to every boundary [s]."""
+        each = [
+            length / wave_speed(self.stiffness, line_mass=mass / length)
+            for length, mass in zip(np.diff(self.way).tolist(), self.mass.tolist(), strict=True)
+        ]
+        return np.concatenate([np.zeros(1), np.cumsum(each)])
+
+    @classmethod
+    def of(cls, steady: CalculatedConveyor, slower: Sequence[CalculatedConveyor] = ()) -> CutLoop:
+        """Cut open the loop of a steady result.
+
+        Parameters
+        ----------
+        steady : CalculatedConveyor
+            At full speed.
+        slower : sequence of CalculatedConveyor
+            The same at `SPEEDS` of it; without them the resistances do not change with speed.
+
+        Raises
+        ------
+        NoSolutionError
+            The belt's stiffness is not known.
+        """
+        line, settled = steady.line, steady.balance.settled
+        stiffness = belt_stiffness(line.belt)
+        if stiffness is None:
+            raise NoSolutionError(
+                "the belt's stiffness is not known: give belt.carcass.stiffness or belt.carcass.strength"
+            )
+        ways, count = line.loop.way, 2 * line.count
+        cut, after = _cut(line, pulls=settled.force >= 0.0)
+        first = cut.boundary % count
+        order = (first + np.arange(count)) % count
+        friction, weight = _along(steady)
+        stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * next(
+            np.asarray(force.newtons) for force in steady.balance.along if force.key == "idler_rotation"
+        )
+        whole = float(ways[-1])
+
+        def distance(spot: Spot) -> float:
+            at = float(ways[spot.boundary % count] - ways[first]) % whole
+            before = (spot.boundary, spot.stand) <= (cut.boundary, cut.stand) if after else spot < cut
+            if at == 0.0 and (before if spot.boundary == cut.boundary else spot.boundary > cut.boundary):
+                return whole
+            return at
+
+        return cls(
+            steady=steady,
+            way=np.concatenate([np.zeros(1), np.cumsum(line.loop.length[order])]),
+            order=order,
+            mass=line.loop.mass[order],
+            weight=_turned(weight, line)[order],
+            stuck=_turned(stuck, line)[order],
+            friction=_over_speed(line.speed, [_along(one)[0] for one in slower], friction, line)[:, order],
+            lumps=tuple(_lumps(steady, distance)),
+            drives=np.array([distance(drive.spot) for drive in line.drives]),
+            stiffness=stiffness,
+        )
+
+    def cells(self, step: float) -> Cells:
+        """Cut into cells that a wave crosses in a step or little longer, drives at their ends.
+
+        Parameters
+        ----------
+        step : float
+            [s].
+
+        Raises
+        ------
+        NoSolutionError
+            The step is too long for the number of drives.
+        """
+        arriving = _apart(np.interp(self.drives, self.way, self.travel), float(self.travel[-1]), step)
+        stations = [0.0, *sorted(arriving), float(self.travel[-1])]
+        times = [np.zeros(1)]
+        for start, stop in itertools.pairwise(stations):
+            pieces = max(1, math.floor((stop - start) / step * (1.0 + 1e-9)))  # rounding of the quotient
+            if stop > start:
+                times.append(start + (stop - start) * np.arange(1, pieces + 1) / pieces)
+        time = np.concatenate(times)
+        at = np.interp(time, self.travel, self.way)
+
+        def lumped(values: Array) -> Array:
+            """Half of what lies along each cell to each of its ends."""
+            cell = np.diff(np.interp(at, self.way, np.concatenate([np.zeros(1), np.cumsum(values)])))
+            return np.asarray(0.5 * (np.append(cell, 0.0) + np.append(0.0, cell)))
+
+        mass, weight, stuck = lumped(self.mass), lumped(self.weight), lumped(self.stuck)
+        friction = np.stack([lumped(part) for part in self.friction])
+        for lump in self.lumps:
+            i = min(int(np.searchsorted(at, lump.at, side="right")) - 1, at.size - 2)
+            share = (lump.at - at[i]) / (at[i + 1] - at[i])
+            for k, part in ((i, 1.0 - share), (i + 1, share)):
+                mass[k] += part * lump.mass
+                weight[k] += part * lump.weight
+                friction[0, k] += part * lump.friction
+                friction[2, k] += part * lump.square
+        nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)
+        for end, beside in ((0, 1), (-1, -2)):  # masses beside the take-up bear no friction
+            if end % at.size not in nodes:
+                friction[:, beside] += friction[:, end]
+                stuck[beside] += stuck[end]
+                friction[:, end], stuck[end] = 0.0, 0.0
+        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """A loop cut into cells: places of its masses [m], shape (n + 1,); the rest as in `wave.Chain`, of one belt."""
+
+    at: Array
+    mass: Array
+    stiffness: Array
+    weight: Array
+    friction: Array
+    stuck: Array
+    nodes: NDArray[np.int_]
+
+    def resisting(self, speed: float, friction: float) -> Array:
+        """Friction of every mass at a speed [N]."""
+        return np.asarray(
+            friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
+        )
+
+
+def _cut(line: Line, *, pulls: bool) -> tuple[Spot, bool]:
+    """Where the take-up stands, and whether behind what else stands at that spot: else the slack side of the drives."""
+    if line.take_up.spot is not None:
+        return line.take_up.spot, True
+    spot = line.drives[0].spot
+    return Spot(spot.boundary, Stand(spot.stand)), pulls
+
+
+def _turned(values: Array, line: Line) -> Array:
+    """From carry strand, return strand to the order of the loop."""
+    return np.roll(values, line.count)
+
+
+def _along(found: CalculatedConveyor) -> tuple[Array, Array]:
+    """Friction and slope resistance of every stretch [N]."""
+    friction, weight = np.zeros(2 * found.line.count), np.zeros(2 * found.line.count)
+    for force in found.balance.along:
+        if force.certain:
+            weight = weight + force.newtons
+        else:
+            friction = friction + force.newtons
+    return friction, weight
+
+
+def _over_speed(speed: float, slower: Sequence[Array], full: Array, line: Line) -> Array:
+    """The parabola through the friction at three speeds, shape (3, 2n); constant where only one is known."""
+    if not slower:
+        return np.stack([_turned(full, line), np.zeros_like(full), np.zeros_like(full)])
+    powers = np.vander(speed * np.array([*SPEEDS, 1.0]), 3, increasing=True)
+    return np.asarray(
+        np.linalg.solve(powers, np.stack([_turned(one, line) for one in (*slower, full)])), dtype=float
+    )
+
+
+def _lumps(found: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iterator[_Lump]:
+    """Forces at places, and the pulleys that no drive turns."""
+    speed = found.line.speed
+    for force in found.balance.singles:
+        if force.spot is None:
+            continue
+        at = distance(force.spot)
+        if force.kind == "lift":
+            yield _Lump(at, weight=force.total)
+        elif force.key in _WITH_SPEED:
+            yield _Lump(at, square=force.total / speed**2)
+        else:
+            yield _Lump(at, friction=force.total)
+    for pulley in found.line.pulleys:
+        if not pulley.driven:
+            yield _Lump(distance(pulley.spot), mass=PULLEY_INERTIA.value * pulley.mass)
+
+
+def _apart(times: Array, whole: float, step: float) -> list[float]:
+    """Times of the drives, those at one place and those beside the take-up a step apart.
+
+    Raises
+    ------
+    NoSolutionError
+        There is no room for them.
+    """
+    found = [0.0 if t < 0.5 * step else whole if t > whole - 0.5 * step else float(t) for t in times]
+    order = sorted(range(len(found)), key=lambda i: found[i])
+    for k, i in enumerate(order):
+        least = found[order[k - 1]] + step if k else step
+        found[i] = found[i] if k == 0 and found[i] == 0.0 else max(found[i], least)
+    latest = whole
+    for i in reversed(order):
+        if found[i] > latest - step and latest == whole and found[i] != whole:
+            latest = whole if found[i] > whole - 0.5 * step else whole - step
+        found[i] = min(found[i], latest)
+        latest = found[i] - step
+    if found and min(found) < 0.0:
+        raise NoSolutionError("the belt is too short for waves between its drives: a rigid belt will do")
+    return found

@@ -1,0 +1,317 @@
+"""Motors, brakes and take-up of scenarios over time, and how a belt begins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.dynamics.loop import Cells, CutLoop
+from conveyor.dynamics.wave import SPEED_POINTS, Beginning, Chain, Machines
+from conveyor.errors import NoSolutionError
+from conveyor.laws.motion import start_force, typical_reduced_mass
+from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
+from conveyor.line.line import DriveUnit
+from conveyor.line.scenes import ScenarioUnit, StarterUnit
+
+Array = NDArray[np.float64]
+
+_TOP = 1.2  # motors' limits are tabled to this over full speed, and held beyond
+_AFTER = 3.0  # round trips of a wave that a belt is followed after all has happened
+
+
+@dataclass(frozen=True, eq=False)
+class Ride:
+    """A scenario on a loaded belt, ready to be followed.
+
+    Attributes
+    ----------
+    scene : ScenarioUnit
+        What happens.
+    loop : CutLoop
+        The belt with its bulk.
+    given : CutLoop
+        The belt as its spec loads it: settings of the starters are made for it.
+    setting : float
+        What the take-up is set to [N].
+    """
+
+    scene: ScenarioUnit
+    loop: CutLoop
+    given: CutLoop
+    setting: float
+
+    @property
+    def drives(self) -> tuple[DriveUnit, ...]:
+        """Of the conveyor."""
+        return self.loop.line.drives
+
+    @cached_property
+    def starters(self) -> tuple[StarterUnit, ...]:
+        """Of every drive, with a time where one is needed."""
+        return tuple(self._starter(drive) for drive in self.drives)
+
+    def _starter(self, drive: DriveUnit) -> StarterUnit:
+        line = self.loop.line
+        unit = self.scene.starter or drive.starter
+        if unit is None:
+            direct = line.start_factor is None and bool(line.torque_curve)
+            unit = StarterUnit("direct" if direct else "inverter", "S", None, None, 0.0, 1.0, None,
+                               MOTOR_SLIP.value, ("kind", "slip"))  # fmt: skip
+        if unit.kind == "direct" or unit.time is not None:
+            return unit
+        rigid = self.given.steady.motions.start.time
+        if rigid is None:
+            raise NoSolutionError(f'drive "{drive.name}" does not reach full speed: give its starter a time')
+        time = rigid * STEEPEST[unit.ramp] if unit.kind == "inverter" else rigid
+        return StarterUnit(unit.kind, unit.ramp, time, unit.stop_time or time, unit.delay, unit.initial, unit.limit,
+                           unit.slip, (*unit.assumed, "time"))  # fmt: skip
+
+    @cached_property
+    def rated(self) -> Array:
+        """Rated force of the motors at the belt [N]; where not given the largest steady one of loaded belt or spec."""
+        line, found = self.loop.line, []
+        for drive in self.drives:
+            if drive.power is None:
+                largest = max(
+                    abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force)
+                )
+                found.append(max(drive.share, 1.0 / len(self.drives)) * largest)
+            else:
+                found.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
+                                         rated_belt_speed=line.speed))  # fmt: skip
+        return np.array(found)
+
+    @cached_property
+    def rims(self) -> Array:
+        """Rotating masses of the drives at the belt [kg]; typical of the rated force where nothing is given."""
+        line = self.loop.line
+        return np.array([
+            drive.reduced_mass
+            or typical_reduced_mass(force * line.speed / line.efficiency, belt_speed=line.speed)
+            for drive, force in zip(self.drives, self.rated.tolist(), strict=True)
+        ])  # fmt: skip
+
+    @cached_property
+    def backstops(self) -> NDArray[np.bool_]:
+        """Which drives cannot turn backward; the first one where the spec names none and the belt would roll back."""
+        if all(drive.backstop is None for drive in self.drives):
+            rolls = self.loop.steady.motions.rolls_back and self.loop.steady.motions.brake_to_hold > 0.0
+            return np.array([rolls and i == 0 for i in range(len(self.drives))])
+        return np.array([bool(drive.backstop) for drive in self.drives])
+
+    @property
+    def assumed_backstop(self) -> bool:
+        """Whether a backstop is there that the spec does not name."""
+        return bool(self.backstops.any()) and all(drive.backstop is None for drive in self.drives)
+
+    @cached_property
+    def duration(self) -> float:
+        """As given, or until the last ramp is over or the rigid belt would rest, and some round trips more [s]."""
+        if self.scene.duration is not None:
+            return self.scene.duration
+        settled = self.loop.steady.balance.settled
+        friction = self.scene.friction * (settled.force - self.loop.weight.sum()) + self.loop.weight.sum()
+        mass = self.loop.mass.sum() + self.rims.sum()
+        coasting = mass * self.loop.line.speed / friction if friction > 0.0 else 60.0
+        last = 0.0
+        for happening in self.scene.happenings:
+            starters = [self.starters[d] for d in happening.drives]
+            takes = {
+                "start": max(unit.delay + (unit.time or coasting) for unit in starters),
+                "ramp down": max(unit.stop_time or 0.0 for unit in starters),
+                "power off": 1.2 * coasting,
+                "brake": 1.2 * coasting,
+            }[happening.do]
+            last = max(last, happening.at + takes)
+        return last + _AFTER * float(self.loop.travel[-1])
+
+    def over_time(self, times: Array) -> tuple[Array, Array, Array]:
+        """Reference over no-load speed, share of the limit, brake force, each (steps, d).
+
+        Raises
+        ------
+        NoSolutionError
+            A drive without an inverter is told to ramp down.
+        """
+        columns = [self._of_drive(d, times) for d in range(len(self.drives))]
+        reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*columns, strict=True))
+        return reference, share, brake
+
+    def _of_drive(self, d: int, times: Array) -> tuple[Array, Array, Array]:
+        """The same of one drive; what it is told later stands."""
+        unit, force = self.starters[d], self.loop.line.brakes[d]
+        reference = np.full(times.size, float(self.scene.running))
+        share, brake = reference, force * (1.0 - reference)
+        for told in self.scene.happenings:
+            if d not in told.drives:
+                continue
+            since = times - told.at - (unit.delay if told.do == "start" else 0.0)
+            now = since >= 0.0
+            if told.do == "brake":
+                grown = np.clip(since / told.over, 0.0, 1.0) if told.over else 1.0
+                brake = np.where(now, told.share * force * grown, brake)
+            elif told.do == "power off":
+                share = np.where(now, 0.0, share)
+            elif told.do == "start":
+                led: Array = np.ones_like(times)
+                if (
+                    unit.kind == "inverter" and unit.time
+                ):  # all follow one ramp, whenever they are switched on
+                    led = ramp((times - told.at) / unit.time, shape=unit.ramp)
+                reference = np.where(now, led, reference)
+                share, brake = np.where(now, _gain(unit, since), share), np.where(now, 0.0, brake)
+            else:
+                time = self._stop_time(d)
+                led = float(np.interp(told.at, times, reference)) * (
+                    1.0 - ramp(since / time, shape=unit.ramp)
+                )
+                reference = np.where(now, led, reference)
+                over = since > time  # then the power is off and the brake, where there is one, on
+                share, brake = np.where(over, 0.0, share), np.where(over, force, brake)
+        return reference, share, brake
+
+    def _stop_time(self, d: int) -> float:
+        unit = self.starters[d]
+        if unit.kind != "inverter" or unit.stop_time is None:
+            raise NoSolutionError(
+                f'scenario "{self.scene.name}": drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot '
+                'ramp down; say "power off", or give it a starter'
+            )
+        return unit.stop_time
+
+    def limits(self) -> Array:
+        """Largest force of every motor over speed [N], shape (d, points)."""
+        line = self.loop.line
+        over = _TOP * np.linspace(0.0, 1.0, SPEED_POINTS)
+        curve = line.torque_curve or ((0.0, TORQUE_LIMIT.value), (1.0, TORQUE_LIMIT.value))
+        torque = np.interp(over, *np.transpose(curve))
+        most = max(value for _, value in curve)
+        each = [
+            (unit.limit or most) * np.ones_like(over) if unit.kind == "inverter"
+            else np.minimum(torque, unit.limit or math.inf)
+            for unit in self.starters
+        ]  # fmt: skip
+        return np.asarray(self.rated[:, None] * np.array(each))
+
+
+def _gain(unit: StarterUnit, since: Array) -> Array:
+    """Share of the motor's torque that its starter lets through."""
+    if unit.kind in {"direct", "inverter"} or unit.time is None:
+        return np.ones_like(since)
+    x = np.clip(since / unit.time, 0.0, 1.0)
+    if unit.kind == "star-delta":
+        return np.where(x < 1.0, 1.0 / 3.0, 1.0)
+    if unit.kind == "fluid coupling":
+        return unit.initial + (1.0 - unit.initial) * x
+    root = math.sqrt(unit.initial)  # torque is as the square of the voltage
+    return np.asarray((root + (1.0 - root) * x) ** 2)
+
+
+def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginning]:
+    """Belts of scenarios side by side, those of fewer cells filled up with idle ones; and how they begin."""
+    cells = [ride.loop.cells(step) for ride in rides]
+    most = max(one.at.size for one in cells)
+
+    def filled(parts: list[Array], rest: float, size: int) -> Array:
+        return np.array([
+            np.pad(part, [(0, 0)] * (part.ndim - 1) + [(0, size - part.shape[-1])], constant_values=rest)
+            for part in parts
+        ])  # fmt: skip
+
+    line = rides[0].loop.line
+    unit, friction = line.take_up, np.array([ride.scene.friction for ride in rides])
+    begun = [_begin(ride, one) for ride, one in zip(rides, cells, strict=True)]
+    held = np.array([tension[0] for _, tension, _ in begun])
+    weight = (
+        0.0
+        if unit.kind in {"winch", "fixed", "screw", "locked winch"}
+        else unit.reeving / (unit.strands * line.gravity)
+    )
+    carriage = np.inf if unit.keeps_length else weight * held + unit.carriage / unit.strands**2
+    speed, band = unit.winch or (0.0, 0.0)
+    chain = Chain(
+        mass=filled([one.mass for one in cells], 1.0, most),
+        stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
+        retardation=BELT_RETARDATION.value if line.belt.retardation is None else line.belt.retardation,
+        weight=filled([one.weight for one in cells], 0.0, most),
+        friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
+        sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
+        end=np.array([one.at.size - 1 for one in cells]),
+        nodes=np.array([one.nodes for one in cells]),
+        rim=np.array([ride.rims for ride in rides]),
+        grip=np.array([[math.expm1(drive.friction * drive.wrap_angle) for drive in ride.drives] for ride in rides]),
+        backstop=np.array([ride.backstops for ride in rides]),
+        held=held,
+        carriage=np.broadcast_to(carriage, held.shape),
+        winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
+    )  # fmt: skip
+    moving = np.array([[line.speed * ride.scene.running] for ride in rides])
+    start = Beginning(
+        speed=moving * filled([np.ones(one.at.size) for one in cells], 0.0, most),
+        tension=filled([tension[1:] for _, tension, _ in begun], 0.0, most - 1),
+        resisting=filled([resisting for resisting, _, _ in begun], 0.0, most),
+        driving=np.array([driving for _, _, driving in begun]),
+        rims=moving * np.ones_like(chain.rim),
+    )
+    return cells, chain, start
+
+
+def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
+    """Friction, tensions (of the take-up, then of every cell) and forces of the drives in balance [N].
+
+    At rest friction holds the belt as far as it can, everywhere by the same share of its own, but more where the belt
+    would be slack; the first drive holds what is left, by its brake or backstop.
+    """
+    line, friction = ride.loop.line, ride.scene.friction
+    shares = np.array([drive.share for drive in ride.drives])
+    if ride.scene.running:
+        resisting = cells.resisting(line.speed, friction)
+        driving = shares * float(resisting.sum() + cells.weight.sum())
+    else:
+        most = friction * (cells.resisting(line.speed, 1.0) + cells.stuck)
+        share = -float(cells.weight.sum()) / float(most.sum())
+        resisting = most * min(1.0, max(-1.0, share))
+        resisting = _taut(ride.setting, resisting, most, cells.weight)
+        driving = np.zeros_like(shares)
+        driving[0] = float(resisting.sum() + cells.weight.sum())
+    against = resisting + cells.weight
+    against[cells.nodes] -= driving
+    along = np.concatenate([np.zeros(1), np.cumsum(against)[:-1]])
+    tension = ride.setting + along
+    if line.take_up.keeps_length:  # it holds the mean of the loop
+        length = np.diff(cells.at)
+        tension = tension - float(along[1:] @ length) / float(length.sum())
+    return resisting, tension, driving
+
+
+def _taut(setting: float, resisting: Array, most: Array, weight: Array) -> Array:
+    """Friction at rest that keeps the belt from being slack, where it can [N]."""
+    tension = setting + np.cumsum(resisting + weight)[:-1]
+    for i in range(1, tension.size):
+        tension[i] = max(tension[i], 0.0, tension[i - 1] + weight[i] - most[i])
+    for i in range(tension.size - 2, -1, -1):
+        tension[i] = max(tension[i], tension[i + 1] - weight[i + 1] - most[i + 1])
+    held = np.append(np.diff(tension, prepend=setting) - weight[:-1], resisting[-1])
+    return np.asarray(np.clip(held, -most, most))
+
+
+def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Machines:
+    """Motors and brakes of scenarios over time; a motor runs steadily where the drives begin to run."""
+    line = rides[0].loop.line
+    times = np.asarray(step * np.arange(steps), dtype=float)
+    tables = [ride.over_time(times) for ride in rides]
+    reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*tables, strict=True))
+    rated = np.array([ride.rated for ride in rides])
+    slip = np.array([[unit.slip for unit in ride.starters] for ride in rides])
+    slope = rated / (slip * line.speed)
+    steady = np.array([
+        [drive.share * ride.loop.steady.balance.settled.force for drive in ride.drives] for ride in rides
+    ])  # fmt: skip
+    running = np.array([[ride.scene.running] for ride in rides])
+    level = line.speed + np.where(running, start.driving, steady) / slope
+    limits = np.array([ride.limits() for ride in rides])
+    return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed)

@@ -1,0 +1,578 @@
+"""The wave equation of belts between two ends of a take-up, many side by side; numbers only.
+
+A belt is cut into cells of equal travel time: springs between masses, friction on the masses. Tensions stand at whole
+steps, speeds between them (leapfrog), so at a step of one travel time of a cell an even belt without damping is solved
+exactly, and nothing is damped that the belt does not damp. The damping T = k (Δu + τ Δu̇) is taken at the mean of old
+and new speeds: one tridiagonal system a step, stable at any τ. Friction is a set-valued force: what a mass would need
+to stand still, limited to what there is; so nothing chatters where the motion turns. The same holds for the grip of a
+belt on its driven pulley, for brakes and for backstops.
+
+Source: derived (Newton, Hooke, Kelvin and Voigt); leapfrog, its stability (Courant, Friedrichs, Lewy 1928) and the
+projection of friction are textbook numerics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dpttrf, dpttrs
+
+from conveyor.errors import NoSolutionError
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int_]
+
+_BLOCK = 32  # steps between two looks for extremes
+SPEED_POINTS = 65  # points of the motors' limits over speed
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """Belts side by side, shape (s, n + 1) a mass, (s, n) a cell; cells behind a belt's own end stay idle.
+
+    Attributes
+    ----------
+    mass : ndarray
+        Of belt, bulk and rolls [kg].
+    stiffness : ndarray
+        k = EA/Δs of a cell [N/m]; 0 of an idle one.
+    retardation : float
+        τ of Kelvin and Voigt [s].
+    weight : ndarray
+        Force of gravity against the running direction [N].
+    friction : ndarray, shape (3, s, n + 1)
+        Force at a speed, f0 + f1 |v| + f2 v² [N].
+    sticking : ndarray
+        Force up to which a mass at rest stays there [N].
+    end : ndarray of int, shape (s,)
+        Mass right before the take-up; mass 0 is right behind it.
+    nodes : ndarray of int, shape (s, d)
+        Masses on driven pulleys, all of them different.
+    rim : ndarray, shape (s, d)
+        Rotating mass of each drive reduced to the belt [kg].
+    grip : ndarray, shape (s, d)
+        e^(μ α) - 1 of each driven pulley [-].
+    backstop : ndarray of bool, shape (s, d)
+        Whether a pulley cannot turn backward.
+    held : ndarray, shape (s,)
+        Tension that the take-up gives at rest [N]; masses beside it bear no friction.
+    carriage : ndarray, shape (s,)
+        Its mass over the square of its strands [kg]; infinite where it is fixed.
+    winch : ndarray, shape (2, s)
+        Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-].
+    """
+
+    mass: Array
+    stiffness: Array
+    retardation: float
+    weight: Array
+    friction: Array
+    sticking: Array
+    end: Integers
+    nodes: Integers
+    rim: Array
+    grip: Array
+    backstop: NDArray[np.bool_]
+    held: Array
+    carriage: Array
+    winch: Array
+
+    @property
+    def longest_step(self) -> float:
+        """Step up to which the leapfrog is stable, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
+        pull = 2.0 * (np.pad(self.stiffness, ((0, 0), (1, 0))) + np.pad(self.stiffness, ((0, 0), (0, 1))))
+        return float(2.0 / np.sqrt((pull / self.mass).max()))
+
+    def resisting(self, speed: Array) -> Array:
+        """Friction of every mass at a speed [N]."""
+        size = np.abs(speed)
+        return np.asarray(self.friction[0] + size * (self.friction[1] + size * self.friction[2]))
+
+
+@dataclass(frozen=True, eq=False)
+class Machines:
+    """Motors and brakes of the drives over time, shape (steps, s, d), and over speed.
+
+    A motor gives the force `slope` (`reference` - v) on the belt [N], limited to `share` times its limit at the speed.
+
+    Attributes
+    ----------
+    slope : ndarray, shape (s, d)
+        Of the line on which a motor runs steadily [N s/m].
+    reference : ndarray, shape (steps, s, d)
+        Speed of the pulley's rim at no load [m/s].
+    share : ndarray, shape (steps, s, d)
+        Of the limit that is switched on [-]; 0 without power.
+    brake : ndarray, shape (steps, s, d)
+        Force of the brakes at the belt [N].
+    limits : ndarray, shape (s, d, 65)
+        Largest force over the speed from 0 to `top` [N].
+    top : float
+        [m/s].
+    """
+
+    slope: Array
+    reference: Array
+    share: Array
+    brake: Array
+    limits: Array
+    top: float
+
+    def limit(self, speed: Array) -> Array:
+        """Largest force at a speed [N], shape (s, d)."""
+        over = np.clip(np.abs(speed) / self.top, 0.0, 1.0) * (SPEED_POINTS - 1)
+        low = np.minimum(over.astype(int), SPEED_POINTS - 2)
+        first = np.take_along_axis(self.limits, low[:, :, None], axis=2)[:, :, 0]
+        second = np.take_along_axis(self.limits, low[:, :, None] + 1, axis=2)[:, :, 0]
+        return np.asarray(first + (over - low) * (second - first))
+
+
+@dataclass(frozen=True, eq=False)
+class Beginning:
+    """Where belts begin: speeds and tensions, friction that acts, forces of the drives on the belt [m/s, N]."""
+
+    speed: Array
+    tension: Array
+    resisting: Array
+    driving: Array
+    rims: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """What happened.
+
+    Attributes
+    ----------
+    step : float
+        Of the calculation [s].
+    highest, lowest, highest_at, lowest_at : ndarray, shape (s, n)
+        Extreme tensions of every cell [N], and when [s].
+    times, tensions : ndarray, shape (m,), (m, s, n)
+        Samples of the tension [N].
+    speeds : ndarray, shape (m, s, n + 1)
+        Samples of the belt's speed [m/s].
+    drives : dict of str to ndarray, shape (steps, s, d)
+        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions, "holding"
+        force of brake and backstop.
+    take_up : dict of str to ndarray, shape (steps, s)
+        Its "tension" [N] and the "belt" it has taken in [m].
+    slipped, heat : ndarray, shape (s, d)
+        Way of the rim over the belt [m], and what it heats [J].
+    fastest, slowest : ndarray, shape (s, n + 1)
+        Highest and lowest acceleration of every mass over a sample [m/s²].
+    work : dict of str to ndarray, shape (s,)
+        Energy that motors gave and where it is, J; "missing" is what the sum lacks.
+    """
+
+    step: float
+    highest: Array
+    lowest: Array
+    highest_at: Array
+    lowest_at: Array
+    times: Array
+    tensions: Array
+    speeds: Array
+    drives: dict[str, Array]
+    take_up: dict[str, Array]
+    slipped: Array
+    heat: Array
+    fastest: Array
+    slowest: Array
+    work: dict[str, Array]
+
+
+@dataclass(eq=False)
+class _Extremes:
+    """Highest and lowest of what is told step by step, and at which step."""
+
+    shape: tuple[int, ...]
+    block: Array = field(init=False)
+    count: int = 0
+    first: int = -1  # the state at the begin is told before the first step
+
+    def __post_init__(self) -> None:
+        self.block = np.empty((_BLOCK, *self.shape))
+        self.high, self.low = np.full(self.shape, -np.inf), np.full(self.shape, np.inf)
+        self.high_at, self.low_at = np.zeros(self.shape), np.zeros(self.shape)
+
+    def tell(self, values: Array) -> None:
+        self.block[self.count] = values
+        self.count += 1
+        if self.count == _BLOCK:
+            self.look()
+
+    def look(self) -> None:
+        if self.count == 0:
+            return
+        block = self.block[: self.count]
+        for extreme, best, at, better in (
+            (block.argmax(axis=0), self.high, self.high_at, np.greater),
+            (block.argmin(axis=0), self.low, self.low_at, np.less),
+        ):
+            found = np.take_along_axis(block, extreme[None], axis=0)[0]
+            new = better(found, best)
+            best[new] = found[new]
+            at[new] = (self.first + extreme)[new]
+        self.first += self.count
+        self.count = 0
+
+
+class _Solver:
+    """One step's linear system: masses, damping, the take-up between both ends; pulleys' responses beside it."""
+
+    def __init__(self, chain: Chain, step: float) -> None:
+        s, n = chain.stiffness.shape
+        self.rows = np.arange(s)
+        self.end = chain.end
+        damping = 0.5 * step * chain.retardation * chain.stiffness
+        diagonal = chain.mass.copy()
+        diagonal[:, :-1] += damping
+        diagonal[:, 1:] += damping
+        beside = np.zeros((s, n + 1))
+        beside[:, :-1] = -damping
+        self.lower, self.off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
+        if info != 0:
+            raise NoSolutionError("the masses of the belt must be positive")
+        ends = np.zeros((s, n + 1))
+        ends[self.rows, self.end] = 1.0
+        ends[:, 0] -= 1.0
+        self.pair = self._banded(ends)
+        own = self._apart(self.pair)
+        stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
+        finite = np.where(stiff, 0.0, chain.carriage)
+        self.kappa = np.where(stiff, 1.0 / own, finite / (1.0 + finite * own))
+        self.stiff = stiff
+        count = chain.nodes.shape[1]
+        self.columns, self.of_take_up = np.zeros((s, count, n + 1)), np.zeros((s, count))
+        for d in range(count):
+            unit = np.zeros((s, n + 1))
+            unit[self.rows, chain.nodes[:, d]] = 1.0
+            column = self._banded(unit)
+            self.of_take_up[:, d] = self.kappa * self._apart(column)
+            self.columns[:, d] = column - self.pair * self.of_take_up[:, d, None]
+        self.answer = np.take_along_axis(self.columns, chain.nodes[:, :, None], axis=2)[:, :, 0]
+
+    def _banded(self, right: Array) -> Array:
+        found, _ = dpttrs(self.lower, self.off, right.ravel())
+        return np.asarray(found).reshape(right.shape)
+
+    def _apart(self, speed: Array) -> Array:
+        """How much faster the belt runs into the take-up than out of it."""
+        return np.asarray(speed[self.rows, self.end] - speed[:, 0])
+
+    def change(self, impulse: Array, before: Array, wanted: Array) -> tuple[Array, Array]:
+        """Change of all speeds by impulses [m/s], and the impulse that the take-up's tension lacks [N s]."""
+        change = self._banded(impulse)
+        apart = self._apart(change)
+        apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
+        lacking = self.kappa * apart
+        return change - self.pair * lacking[:, None], lacking
+
+
+def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samples: int = 300) -> Record:
+    """Follow belts through time.
+
+    Parameters
+    ----------
+    chain : Chain
+        The belts.
+    machines : Machines
+        Motors and brakes; as many steps as they have.
+    start : Beginning
+        Speeds, tensions and forces at the begin.
+    step : float
+        Of time [s], at most `chain.longest_step`.
+    samples : int
+        Samples kept of all tensions, about so many.
+
+    Raises
+    ------
+    NoSolutionError
+        The step is too long, or a figure is not finite.
+    """
+    if step > chain.longest_step * (1.0 + 1e-9):  # rounding of the quotient
+        raise NoSolutionError(f"a step of {step:.4g} s is unstable: at most {chain.longest_step:.4g} s")
+    return _Motion(chain, machines, start, step, samples).followed()
+
+
+class _Motion:
+    """Belts in motion: what changes from step to step, and what is kept of it."""
+
+    def __init__(self, chain: Chain, machines: Machines, start: Beginning, step: float, samples: int) -> None:
+        self.chain, self.machines, self.dt = chain, machines, step
+        self.steps = machines.reference.shape[0]
+        self.every = max(1, self.steps // samples)
+        self.solver, self.ledger = _Solver(chain, step), _Ledger(chain, step, start)
+        self._set_up()
+        s, n = chain.stiffness.shape
+        self.speed, self.tension = start.speed, start.tension
+        self.stretching = np.diff(start.speed, axis=1)
+        self.strained = start.tension + self.tau_k * self.stretching
+        self.resisting = start.resisting * self.loose
+        self.driving, self.rims = start.driving, start.rims
+        self.rubbing = start.resisting[self.rows, self.at]
+        self.pulled, self.taken = chain.held, np.zeros(s)
+        self.extremes = _Extremes((s, n))
+        names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
+        self.drives = {name: np.zeros((self.steps, *chain.nodes.shape)) for name in names}
+        self.take_up = {name: np.zeros((self.steps, s)) for name in ("tension", "belt")}
+        self.slipped, self.heat = np.zeros(chain.nodes.shape), np.zeros(chain.nodes.shape)
+        self.fastest, self.slowest = np.zeros((s, n + 1)), np.zeros((s, n + 1))
+        self.sampled = start.speed
+        self.kept: list[tuple[float, Array, Array]] = []
+
+    def _set_up(self) -> None:
+        """What stays the same: places, compliances, friction at rest."""
+        chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
+        self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
+        self.at = at = chain.nodes
+        self.loose = np.ones_like(chain.mass)
+        self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
+        self.over_mass, self.under_mass = self.loose * step / chain.mass, self.loose * chain.mass / step
+        self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
+        self.tau_k, self.k_step = chain.retardation * chain.stiffness, step * chain.stiffness
+        self.first, self.last = (
+            at == 0,
+            at == chain.end[:, None],
+        )  # beside the take-up pulleys bear its tension
+        self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
+        self.softer = self.k_step + self.tau_k
+        of_take_up = self.solver.of_take_up / (self.solver.answer * step)
+        self.yields = (
+            np.where(self.first, -of_take_up, self.softer[self.rows, self.before]),
+            np.where(self.last, of_take_up, self.softer[self.rows, self.behind]),
+        )
+        self.here = np.where(
+            self.first | self.last, 1.0, 0.5
+        )  # of what lies on a pulley's mass, on either side
+
+    def followed(self) -> Record:
+        """Take every step."""
+        self.extremes.tell(self.tension)
+        for i in range(self.steps):
+            self._step(i)
+            self._keep(i)
+        self.extremes.look()
+        extremes, kept = self.extremes, self.kept
+        if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
+            raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
+        return Record(
+            self.dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at),
+            np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
+            np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
+            self.slowest, self.ledger.closed(self.speed, self.rims, self.tension),
+        )  # fmt: skip
+
+    def _time(self, steps: Array) -> Array:
+        """Of a step; that of the begin is 0."""
+        return np.asarray(self.dt * np.maximum(steps, 0.0))
+
+    def _step(self, i: int) -> None:
+        """Speeds by forces, pulleys, friction; then tensions by speeds."""
+        chain = self.chain
+        wanted = np.zeros_like(self.taken)
+        if np.any(chain.winch[0]):
+            wanted = chain.winch[0] * _winding(self.pulled / chain.held - 1.0, chain.winch[1])
+        change, lacking = self.solver.change(self.dt * self._acting(), self.speed, wanted)
+        new, rolling = self.speed + change, chain.resisting(self.speed)
+        if self.at.size:
+            new, lacking = self._driven(i, new, lacking, rolling)
+        free = new + self.resisting * self.over_mass
+        allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
+        rubbed = np.minimum(np.maximum(free, -allowed), allowed)
+        new = free - rubbed
+        self.resisting = rubbed * self.under_mass
+        self.pulled = chain.held - lacking / self.dt
+        self.ledger.belts(self.speed, new, self.resisting, self.pulled)
+        earlier, self.stretching = self.stretching, np.diff(new, axis=1)
+        self.shown = self.tension + self.tau_k * (0.5 * (earlier + self.stretching))
+        self.speed = new
+        self.tension = self.tension + self.k_step * self.stretching
+        self.strained = self.tension + self.tau_k * self.stretching
+
+    def _acting(self) -> Array:
+        """Force on every mass, friction and drives as they were."""
+        acting = -self.chain.weight - self.resisting
+        acting[:, 1:] -= self.strained
+        acting[:, :-1] += self.strained
+        acting[:, 0] -= self.chain.held
+        acting[self.one, self.chain.end] += self.chain.held
+        acting[self.rows, self.at] += self.driving - self.rubbing
+        return acting
+
+    def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
+        """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
+        chain, solver, rows, at = self.chain, self.solver, self.rows, self.at
+        at_nodes, going = self.speed[rows, at], new[rows, at]
+        coming = self.tension + self.softer * np.diff(new, axis=1)
+        lying = self.here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
+        tight = (chain.held - lacking / self.dt)[:, None]
+        arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
+        leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
+        moved = _pulleys(
+            chain, self.machines, i, step=self.dt, answer=solver.answer, rim=self.rims,
+            free=going - solver.answer * self.dt * (self.driving - self.rubbing),
+            arriving=arriving - self.yields[0] * going, leaving=leaving + self.yields[1] * going,
+            yields=self.yields, friction=np.where(at_nodes == 0.0, self.stuck, rolling[rows, at]),
+        )  # fmt: skip
+        push = (moved.belt - going) / solver.answer
+        for name, values in self.drives.items():
+            values[i] = getattr(moved, name)
+        over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
+        self.slipped = self.slipped + np.abs(over)
+        self.heat = self.heat + over * moved.force
+        self.ledger.drives(self.rims, at_nodes, moved)
+        self.driving, self.rubbing, self.rims = moved.force, moved.friction, moved.rim
+        new = new + np.einsum("sd,sdn->sn", push, solver.columns)
+        return new, lacking + (solver.of_take_up * push).sum(axis=1)
+
+    def _keep(self, i: int) -> None:
+        """Note extremes, samples, and what the take-up does."""
+        self.extremes.tell(self.shown)
+        self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
+        self.take_up["tension"][i], self.take_up["belt"][i] = self.pulled, self.taken
+        if i % self.every == 0:
+            self.kept.append((i * self.dt, self.shown.astype(np.float32), self.speed.astype(np.float32)))
+            if i:
+                change = (self.speed - self.sampled) / (self.every * self.dt)
+                self.fastest, self.slowest = (
+                    np.maximum(change, self.fastest),
+                    np.minimum(change, self.slowest),
+                )
+            self.sampled = self.speed
+
+
+def _winding(over: Array, band: Array) -> Array:
+    """1 where a winch takes in, -1 where it pays out, 0 within its band."""
+    return np.asarray(np.where(over < -band, 1.0, np.where(over > band, -1.0, 0.0)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Moved:
+    """A driven pulley after a step: forces on the belt, of motor, brake and friction of the belt there [N], speeds."""
+
+    force: Array
+    motor: Array
+    holding: Array
+    friction: Array
+    rim: Array
+    belt: Array
+    arriving: Array
+    leaving: Array
+    grips: NDArray[np.bool_]
+
+
+def _rest(free: Array, forward: Array, backward: Array) -> Array:
+    """Speed that friction leaves of a free one: it takes up to `forward` off, or adds up to `backward`."""
+    return free - np.minimum(np.maximum(free, -backward), forward)
+
+
+def _pulleys(
+    chain: Chain, machines: Machines, i: int, *, step: float, answer: Array, rim: Array, free: Array,
+    arriving: Array, leaving: Array, yields: tuple[Array, Array], friction: Array,
+) -> _Moved:  # fmt: skip
+    """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
+
+    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; the tensions are those at no
+    speed there, and `yields` what a speed adds before and takes off behind. They are those at the end of the step:
+    earlier ones would make a slipping belt unstable, whose slack side tells its force.
+    """
+    most = machines.share[i] * machines.limit(rim)
+    brake, back, grip = machines.brake[i], chain.backstop, chain.grip
+    on = most > 0.0
+    slope = np.where(on, machines.slope, 0.0)
+    base = slope * machines.reference[i]
+    for tried in range(2):
+        mass = chain.rim + 0.5 * step * slope
+        alone = (chain.rim * rim + step * (base - 0.5 * slope * rim)) / mass
+        together = 1.0 / answer + mass
+        stop = step * (brake + friction) / together
+        common = _rest((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
+        force = (common - free) / (answer * step) + np.sign(common) * friction
+        forward = force > grip * np.maximum(leaving - yields[1] * common, 0.0)
+        backward = force < -grip * np.maximum(arriving + yields[0] * common, 0.0)
+        grips = ~(forward | backward)
+        belt, turned = common, common
+        if not grips.all():
+            pushed, slack = np.where(forward, leaving, -arriving), np.where(forward, yields[1], yields[0])
+            eased = 1.0 + answer * step * grip * slack
+            rub = answer * step * friction / eased
+            slid = _rest((free + answer * step * grip * pushed) / eased, rub, rub)
+            limit = grip * (pushed - slack * slid)
+            limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
+            slid = np.where(
+                limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
+            )
+            force = np.where(grips, force, limit)
+            stop = step * brake / mass
+            spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
+            belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
+        motor = base - 0.5 * slope * (turned + rim)
+        beyond = np.abs(motor) > most
+        if tried or not beyond.any():
+            break
+        base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
+    return _Moved(
+        force, motor, mass * (alone - turned) / step - force, force - (belt - free) / (answer * step), turned,
+        belt, arriving + yields[0] * belt, leaving - yields[1] * belt, grips,
+    )  # fmt: skip
+
+
+class _Ledger:
+    """Energy given and where it goes, at the mean of old and new speeds."""
+
+    def __init__(self, chain: Chain, step: float, start: Beginning) -> None:
+        self.chain, self.dt = chain, step
+        self.rows = np.arange(chain.end.size)
+        names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")
+        self.sums = {name: np.zeros(chain.end.size) for name in names}
+        self.first = self._stored(start.speed, start.rims, start.tension)
+
+    def drives(self, rims: Array, belt: Array, moved: _Moved) -> None:
+        """Add the work of a step at the driven pulleys, from their speeds and the belt's before it."""
+        rim, at = 0.5 * (rims + moved.rim), 0.5 * (belt + moved.belt)
+        for name, power in (
+            ("motors", moved.motor * rim),
+            ("friction", moved.friction * at),
+            ("brakes", moved.holding * rim),
+            ("slip", moved.force * (rim - at)),
+        ):
+            self.sums[name] += self.dt * power.sum(axis=1)
+
+    def belts(self, before: Array, now: Array, friction: Array, tight: Array) -> None:
+        """Add the work of a step all along the belts."""
+        mean = 0.5 * (before + now)
+        apart = mean[self.rows, self.chain.end] - mean[:, 0]
+        spread = np.diff(mean, axis=1)
+        for name, power in (
+            ("lift", np.einsum("sn,sn->s", self.chain.weight, mean)),
+            ("friction", np.einsum("sn,sn->s", friction, mean)),
+            (
+                "damping",
+                self.chain.retardation * np.einsum("sn,sn,sn->s", self.chain.stiffness, spread, spread),
+            ),
+            ("take-up", -np.where(self.chain.winch[0] > 0.0, tight, self.chain.held) * apart),
+        ):
+            self.sums[name] += self.dt * power
+
+    def _stored(self, speed: Array, rims: Array, tension: Array) -> tuple[Array, Array]:
+        apart = speed[self.rows, self.chain.end] - speed[:, 0]
+        mass = np.where(np.isinf(self.chain.carriage), 0.0, self.chain.carriage)
+        moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum(
+            "sd,sd->s", self.chain.rim, rims**2
+        )
+        k = self.chain.stiffness
+        elastic = np.divide(tension**2, k, out=np.zeros_like(k), where=k > 0.0).sum(axis=1)
+        return 0.5 * (moving + mass * apart**2), 0.5 * elastic
+
+    def closed(self, speed: Array, rims: Array, tension: Array) -> dict[str, Array]:
+        """Every sum, and what they lack."""
+        kinetic, elastic = (
+            last - first for last, first in zip(self._stored(speed, rims, tension), self.first, strict=True)
+        )
+        made = dict(self.sums) | {"kinetic": kinetic, "elastic": elastic}
+        spent = sum((value for name, value in made.items() if name != "motors"), np.zeros_like(kinetic))
+        return made | {"missing": made["motors"] - spent}

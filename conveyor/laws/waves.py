@@ -1,0 +1,108 @@
+"""Waves along the belt: their speed, and the ramps that keep them small.
+
+Sources: d'Alembert for a rod; the ramps as A. Harrison (1 - cos) and L. K. Nordell (two parabolas) are cited for in the
+trade; their papers were not read.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.laws.resistance.defaults import Default
+from conveyor.require import require, require_positive
+
+BELT_RETARDATION: Final = Default(
+    0.1,
+    0.03,
+    0.3,
+    "damping of the belt lengthwise, Kelvin and Voigt; a loss factor of 0.05 at 0.5 rad/s",
+    True,
+)  # [s]
+MOTOR_SLIP: Final = Default(0.02, 0.005, 0.05, "slip of motor and coupling at rated torque", True)  # [-]
+TORQUE_LIMIT: Final = Default(1.6, 1.3, 2.2, "largest torque of a motor over the rated one", True)  # [-]
+INITIAL_TORQUE: Final = Default(
+    0.3, 0.1, 0.5, "torque at which soft starters and couplings begin", True
+)  # [-]
+PULLEY_INERTIA: Final = Default(
+    0.6,
+    0.5,
+    0.8,
+    "rotating mass of a pulley at its rim over its mass; 0.5 of a disc, 1 of a thin shell",
+    True,
+)  # [-]
+
+
+def wave_speed(stiffness: float, *, line_mass: float) -> float:
+    """Speed of tension waves along a belt, c = sqrt(EA/m').
+
+    Parameters
+    ----------
+    stiffness : float
+        EA of the whole belt [N], positive.
+    line_mass : float
+        m' of belt, bulk and rolls [kg/m], positive.
+
+    Returns
+    -------
+    float
+        c [m/s].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Of a taut belt: sag between the rolls makes it slower. The belt's own speed is left out, below 1 % of c.
+
+    Examples
+    --------
+    >>> wave_speed(40e6, line_mass=40.0)
+    1000.0
+    """
+    require_positive(stiffness=stiffness, line_mass=line_mass)
+    return math.sqrt(stiffness / line_mass)
+
+
+def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
+    """Speed over full speed of a led start: x, (1 - cos πx)/2, or 2x² and 1 - 2(1 - x)².
+
+    Parameters
+    ----------
+    share : float or array_like
+        x, time over the time of the ramp [-]; held at both ends.
+    shape : {"linear", "cosine", "S"}
+        Jumps of the acceleration, none of it, or even steps of it.
+
+    Returns
+    -------
+    ndarray
+        Speed over full speed [-].
+
+    Raises
+    ------
+    InputError
+        Another shape.
+
+    Examples
+    --------
+    >>> [ramp([0.0, 0.25, 0.5, 1.0], shape=shape).round(3).tolist() for shape in ("linear", "cosine", "S")]
+    [[0.0, 0.25, 0.5, 1.0], [0.0, 0.146, 0.5, 1.0], [0.0, 0.125, 0.5, 1.0]]
+    """
+    x = np.clip(np.asarray(share, dtype=float), 0.0, 1.0)
+    made = {
+        "linear": x,
+        "cosine": 0.5 * (1.0 - np.cos(np.pi * x)),
+        "S": np.where(x < 0.5, 2.0 * x**2, 1.0 - 2.0 * (1.0 - x) ** 2),
+    }
+    require(shape in made, "shape", shape, "linear, cosine or S is needed")
+    return np.asarray(made[shape], dtype=float)
+
+
+STEEPEST: Final = {"linear": 1.0, "cosine": 0.5 * math.pi, "S": 2.0}
+"""Highest acceleration of a ramp over its mean one [-]."""

@@ -1,0 +1,156 @@
+"""Figures of starting and stopping: matplotlib figures returned, never shown or saved."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from conveyor.report.plots import colour, grouped, plain, stacked, titled
+from conveyor.units import System
+from conveyor.units.presentation import unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from conveyor.dynamics.follow import Followed
+
+_LEVELS, _MOST = 14, 120  # shades, and points a side, of the map
+_POINTS = 1500  # of a history
+_HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
+
+
+def tension_map(found: Followed, *, system: System = "SI") -> Figure:
+    """Tension over place and time."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    _map(figure, axis, found, system)
+    return figure
+
+
+def envelope(found: Followed, *, system: System = "SI") -> Figure:
+    """Highest and lowest tension over the place, and that at the begin."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    _envelope(axis, found, system)
+    return figure
+
+
+def speeds(found: Followed, *, system: System = "SI") -> Figure:
+    """Speeds at drives and tail over time."""
+    figure, (axis,) = stacked(1, _LOW)
+    _speeds(axis, found, system)
+    return figure
+
+
+def forces(found: Followed, *, system: System = "SI") -> Figure:
+    """Tensions at drives, tail and take-up, and forces of the motors, over time."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    _forces(axis, found, system)
+    return figure
+
+
+def picture(found: Followed, *, system: System = "SI") -> Figure:
+    """All of them on one sheet."""
+    figure, axes = stacked(4, _WHOLE)
+    _map(figure, axes[0], found, system)
+    _envelope(axes[1], found, system)
+    _speeds(axes[2], found, system)
+    _forces(axes[3], found, system)
+    titled(figure, found.name)
+    return figure
+
+
+def _map(figure: Figure, axis: Axes, found: Followed, system: System) -> None:
+    force, length = unit("force", system, large=True), unit("length", system, large=True)
+    order, distance = found.round_loop
+    record = found.record
+    kept = np.unique(np.linspace(0, record.times.size - 1, _MOST).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _MOST).astype(int))
+    tension = force(record.tensions[np.ix_(kept, order[cells])])
+    shaded = axis.contourf(
+        length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
+    )
+    if float(tension.min()) < 0.0 < float(tension.max()):
+        axis.contour(
+            length(distance[cells]), record.times[kept], tension, levels=[0.0], colors="red", linewidths=1.0
+        )
+    axis.axvline(float(length(found.line.loop.way[found.line.count])), color="white", linewidth=0.8)
+    axis.grid(visible=False)
+    axis.set(
+        xlabel=length.beside("distance from the head, return strand first"),
+        ylabel=unit("duration", system).beside("time"),
+    )
+    grouped(axis.xaxis)
+    beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
+    figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
+
+
+def _envelope(axis: Axes, found: Followed, system: System) -> None:
+    force, length = unit("force", system, large=True), unit("length", system, large=True)
+    order, distance = found.round_loop
+    x, record = length(distance), found.record
+    axis.fill_between(
+        x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15
+    )
+    for k, (name, values) in enumerate(
+        (("highest", record.highest), ("lowest", record.lowest), ("at the begin", record.tensions[0]))
+    ):
+        axis.plot(x, force(values[order]), color=colour(k), label=name)
+    axis.axhline(0.0, color="0.6", linewidth=0.8)
+    axis.axvline(float(length(found.line.loop.way[found.line.count])), color="0.8", zorder=0)
+    axis.set(
+        xlabel=length.beside("distance from the head, return strand first"), ylabel=force.beside("tension")
+    )
+    for scaled in (axis.xaxis, axis.yaxis):
+        grouped(scaled)
+    plain(axis.legend(fontsize=8))
+
+
+def _speeds(axis: Axes, found: Followed, system: System) -> None:
+    speed, time = unit("speed", system), unit("duration", system)
+    kept = np.unique(np.linspace(0, found.times.size - 1, _POINTS).astype(int))
+    drives = found.record.drives
+    for d, drive in enumerate(found.ride.drives):
+        axis.plot(
+            found.times[kept],
+            speed(drives["belt"][kept, d]),
+            color=colour(2 * d),
+            label=f"belt at {drive.name}",
+        )
+        if found.record.slipped[d]:
+            rim = speed(drives["rim"][kept, d])
+            axis.plot(
+                found.times[kept], rim, color=colour(2 * d), linestyle=":", label=f"rim of {drive.name}"
+            )
+    tail = speed(found.record.speeds[:, _tail(found)])
+    axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
+    axis.set(xlabel=time.beside("time"), ylabel=speed.beside("speed"))
+    plain(axis.legend(fontsize=7))
+
+
+def _forces(axis: Axes, found: Followed, system: System) -> None:
+    force, time = unit("force", system, large=True), unit("duration", system)
+    kept = np.unique(np.linspace(0, found.times.size - 1, _POINTS).astype(int))
+    drives, times = found.record.drives, found.times[kept]
+    for d, drive in enumerate(found.ride.drives):
+        for k, name in enumerate(("arriving", "leaving")):
+            axis.plot(
+                times, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
+            )
+        motor = force(drives["motor"][kept, d])
+        axis.plot(
+            times, motor, color=colour(2 * d), linestyle="--", linewidth=0.9, label=f"motor of {drive.name}"
+        )
+    tail = force(found.record.tensions[:, _tail(found)])
+    axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
+    held = force(found.record.take_up["tension"][kept])
+    axis.plot(times, held, color="#B8860B", linewidth=0.9, label="at the take-up")
+    axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
+    grouped(axis.yaxis)
+    plain(axis.legend(fontsize=7, ncols=2))
+
+
+def _tail(found: Followed) -> int:
+    """The cell at the tail."""
+    order, known = found.round_loop
+    return int(order[int(np.argmin(np.abs(known - found.line.loop.way[found.line.count])))])

@@ -1,0 +1,222 @@
+"""Every table of starts and stops, declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from operator import attrgetter, itemgetter
+from typing import Any, Final
+
+import numpy as np
+
+from conveyor.checks import Check, deciding
+from conveyor.dynamics.answers import checks_of, peaks
+from conveyor.dynamics.follow import CalculatedDynamics, Followed
+from conveyor.report import dynamics_plots
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, slug
+from conveyor.report.result_schema import SCHEMA_VERSION
+from conveyor.report.tables import Remark, checked, document, provenance
+from conveyor.spec import fingerprint
+from conveyor.units import System
+
+PARTS: Final = (
+    ("scenarios", "Scenarios"),
+    ("checks", "Checks"),
+    ("warnings", "Warnings"),
+    ("drives", "Drives and take-up"),
+    ("tensions", "Tensions"),
+    ("figures", "Figures"),
+    ("assumptions", "Assumptions"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page."""
+_SAMPLES = 200  # rows of histories of a scenario
+_SCENARIO = Column("scenario", "text", itemgetter(0), json="scenario")
+
+
+def of_dynamics(found: CalculatedDynamics, system: System) -> Contents:
+    """Every table of the scenarios of a conveyor in a unit system."""
+    every = checks_of(found)
+    parts = (
+        scenarios(found), scenario_drives(found), scenario_tensions(found), histories(found),
+        checked(deciding(every), system), _remarks(found, every, system), provenance(fingerprint(found.conveyor)),
+    )  # fmt: skip
+    names = ", ".join(one.name for one in found.followed)
+    about = document(found.conveyor, "Starting and stopping", system, (("scenarios", names),))
+    return Contents(about, parts, system, tuple(_drawings(found, system)))
+
+
+def _row(get: str) -> Any:
+    """Of a row that begins with its scenario."""
+    return lambda row: attrgetter(get)(row[1])
+
+
+def scenarios(found: CalculatedDynamics) -> Table:
+    """One row a scenario."""
+
+    def peak(one: Followed, *, high: bool) -> tuple[float, str]:
+        i = int(one.record.highest.argmax() if high else one.record.lowest.argmin())
+        return float((one.record.highest_at if high else one.record.lowest_at)[i]), one.place(i)
+
+    def col(label: str, kind: str, get: Any, json: str) -> Column:
+        return Column(label, kind, get, json=json)
+
+    columns = (
+        col("scenario", "text", attrgetter("name"), "scenario"),
+        col("followed for", "duration", lambda r: float(r.times[-1]), "duration_s"),
+        col("highest tension", "force", attrgetter("highest"), "highest_tension_N"),
+        col("at", "duration", lambda r: peak(r, high=True)[0], "highest_at_s"),
+        col("in", "text", lambda r: peak(r, high=True)[1], "highest_in"),
+        col("lowest tension", "force", attrgetter("lowest"), "lowest_tension_N"),
+        Column("at", "duration", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
+        Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
+        col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
+        col("comes to rest", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
+        col("way", "length", attrgetter("way"), "way_m"),
+        Column("error of the peaks", "share", attrgetter("error"), None, json="error"),
+        Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
+        Column("cells", "count", lambda r: r.middles.size, None, json="cells"),
+        Column("step", "time", lambda r: r.record.step, None, json="step_s"),
+    )  # fmt: skip
+    caption = "Starts and stops; distance is that of the belt at the first drive"
+    return Table("scenarios", "Scenarios", caption, columns, found.followed, (OnPage("scenarios", caption),))
+
+
+def scenario_drives(found: CalculatedDynamics) -> Table:
+    """One row a scenario and drive, with the take-up."""
+    rows = [(one.name, one, d) for one in found.followed for d in range(len(one.ride.drives))]
+
+    def drive(name: str, of: Any) -> Any:
+        return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
+
+    def torque(of: Any) -> Any:
+        return lambda row: float(of(row[1].torque[:, row[2]]))
+
+    def power(row: Any) -> float:
+        drives = row[1].record.drives
+        return float(np.max(np.abs(drives["motor"][:, row[2]] * drives["rim"][:, row[2]])))
+
+    def take_up(get: Any, of: Any) -> Any:
+        return lambda row: float(of(get(row[1])))
+
+    pull = lambda one: one.record.take_up["tension"]  # noqa: E731 two words for one figure
+    columns = (
+        _SCENARIO,
+        Column("drive", "text", lambda row: row[1].ride.drives[row[2]].name, json="drive"),
+        Column("highest torque over rated", "ratio", torque(np.max), json="torque_max"),
+        Column("lowest torque over rated", "ratio", torque(np.min), json="torque_min"),
+        Column("highest force on the belt", "force", drive("force", np.max), json="force_max_N"),
+        Column("lowest force on the belt", "force", drive("force", np.min), json="force_min_N"),
+        Column("highest power at the rim", "power", power, json="power_kW"),
+        Column("slip", "length", lambda row: float(row[1].record.slipped[row[2]]), json="slip_m"),
+        Column("heat of slip", "heat", lambda row: float(row[1].record.heat[row[2]]), json="slip_heat_MJ"),
+        Column("brake", "force", drive("holding", np.max), json="brake_N"),
+        Column("backstop", "force", drive("holding", lambda force: max(0.0, -np.min(force))), json="backstop_N"),
+        Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
+        Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
+        Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),
+        Column("carriage, in", "length", take_up(attrgetter("travel"), np.min), json="carriage_in_m"),
+    )  # fmt: skip
+    caption = "Drives and take-up; brake and backstop as they act at the belt, the carriage against its begin"
+    return Table("scenario_drives", "Drives", caption, columns, rows, (OnPage("drives", caption),), named=2)
+
+
+def scenario_tensions(found: CalculatedDynamics) -> Table:
+    """One row a scenario and stretch: highest and lowest tension and when."""
+    rows = [(one.name, peak) for one in found.followed for peak in peaks(one)]
+    columns = (
+        _SCENARIO,
+        Column("section", "text", _row("section"), json="section"),
+        Column("strand", "text", _row("strand"), json="strand"),
+        Column("highest tension", "force", _row("highest"), json="highest_N"),
+        Column("at", "duration", _row("highest_at"), json="highest_at_s"),
+        Column("lowest tension", "force", _row("lowest"), json="lowest_N"),
+        Column("at", "duration", _row("lowest_at"), json="lowest_at_s", key="lowest_at"),
+        Column("least for sag, steady", "force", _row("least_for_sag"), json="least_for_sag_N"),
+    )
+    caption = "Highest and lowest tension of every section and strand, from the take-up round"
+    return Table(
+        "scenario_tensions", "Tensions", caption, columns, rows, (OnPage("tensions", caption),), named=3
+    )
+
+
+def histories(found: CalculatedDynamics) -> Table:
+    """Speeds and tensions over time, some hundred rows a scenario."""
+    rows = [
+        (one.name, one, int(i), d)
+        for one in found.followed
+        for d in range(len(one.ride.drives))
+        for i in np.unique(np.linspace(0, one.times.size - 1, _SAMPLES).astype(int))
+    ]
+
+    def of(name: str) -> Any:
+        return lambda row: float(row[1].record.drives[name][row[2], row[3]])
+
+    columns = (
+        _SCENARIO,
+        Column("drive", "text", lambda row: row[1].ride.drives[row[3]].name),
+        Column("time", "duration", lambda row: float(row[1].times[row[2]])),
+        Column("speed of the belt", "speed", of("belt")),
+        Column("speed of the rim", "speed", of("rim")),
+        Column("tension arriving", "force", of("arriving")),
+        Column("tension leaving", "force", of("leaving")),
+        Column("force on the belt", "force", of("force")),
+        Column("force of the motor", "force", of("motor")),
+        Column(
+            "tension at the take-up", "force", lambda row: float(row[1].record.take_up["tension"][row[2]])
+        ),
+        Column("travel of the carriage", "length", lambda row: float(row[1].travel[row[2]])),
+    )
+    return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
+
+
+def _remarks(found: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
+    """What fails, and what the figures rest on."""
+    warned = [
+        f"{check.case.text(system)}: {check.why.text(system)}"
+        for check in every
+        if check.failed and check.why is not None and check.case is not None
+    ]
+    said = {"warning": warned, "assumption": found.assumptions}
+    rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
+    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
+    return Table("remarks", "Checks and notes", "Remarks", columns, rows)
+
+
+def _drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
+    """Four figures a scenario."""
+    for one in found.followed:
+        for draw, words in (
+            (dynamics_plots.tension_map, "tension over place and time; the tail is white, slack belt red"),
+            (dynamics_plots.envelope, "highest and lowest tension round the loop"),
+            (dynamics_plots.speeds, "speeds at drives and tail"),
+            (dynamics_plots.forces, "tensions at drives, tail and take-up, forces of the motors"),
+        ):
+            name = f"{slug(one.name)}_{draw.__name__}"
+            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "figures")
+
+
+def plain(found: CalculatedDynamics) -> dict[str, Any]:
+    """Plain numbers for JSON; units in the keys."""
+    every = checks_of(found)
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "conveyor": found.conveyor.name,
+        "scenarios": scenarios(found).plain(),
+        "drives": scenario_drives(found).plain(),
+        "tensions": scenario_tensions(found).plain(),
+        "checks": [
+            {
+                "key": check.key,
+                "scenario": "" if check.case is None else check.case.text(),
+                "subject": check.subject.text(),
+                "calculated": check.calculated,
+                "required": check.required,
+                "kind": check.kind,
+                "verdict": check.verdict.lower(),
+                "why": None if check.why is None or not check.failed else check.why.text(),
+            }
+            for check in every
+        ],
+        "assumptions": list(found.assumptions),
+    }

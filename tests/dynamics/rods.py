@@ -1,0 +1,64 @@
+"""Even rods whose answers are known in closed form."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from conveyor.dynamics.wave import Beginning, Chain, Machines, Record, run
+
+EA, LINE_MASS, LENGTH = 4.0e7, 40.0, 2000.0
+WAVE = np.sqrt(EA / LINE_MASS)  # 1000 m/s
+PULL = 50e3
+
+
+def rod(cells: int, **changes: Any) -> Chain:
+    """A rod between the free ends that a weight without mass gives, on nothing that rubs, no pulley driven."""
+    size = LENGTH / cells
+    mass = np.full((1, cells + 1), LINE_MASS * size)
+    mass[:, [0, -1]] *= 0.5
+    parts: dict[str, Any] = {
+        "mass": mass, "stiffness": np.full((1, cells), EA / size), "retardation": 0.0,
+        "weight": np.zeros((1, cells + 1)), "friction": np.zeros((3, 1, cells + 1)),
+        "sticking": np.zeros((1, cells + 1)), "end": np.array([cells]), "nodes": np.zeros((1, 0), int),
+        "rim": np.zeros((1, 0)), "grip": np.zeros((1, 0)), "backstop": np.zeros((1, 0), bool),
+        "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((2, 1)),
+    }  # fmt: skip
+    return Chain(**(parts | changes))
+
+
+def clamped(cells: int, *nodes: int) -> dict[str, Any]:
+    """Masses that nothing moves."""
+    sticking = np.zeros((1, cells + 1))
+    sticking[:, list(nodes)] = 1e12
+    friction = np.zeros((3, 1, cells + 1))
+    friction[0] = sticking
+    return {"sticking": sticking, "friction": friction}
+
+
+def begun(chain: Chain, **changes: Any) -> Beginning:
+    """At rest under an even tension."""
+    s, n = chain.stiffness.shape
+    drives = np.zeros((s, chain.nodes.shape[1]))
+    parts = {
+        "speed": np.zeros((s, n + 1)), "tension": np.full((s, n), PULL), "resisting": np.zeros((s, n + 1)),
+        "driving": drives, "rims": drives,
+    }  # fmt: skip
+    return Beginning(**(parts | changes))
+
+
+def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
+    """No motor, no brake."""
+    over_time = np.zeros((steps, scenes, drives))
+    return Machines(
+        np.zeros((scenes, drives)), over_time, over_time, over_time, np.zeros((scenes, drives, 65)), 1.0
+    )
+
+
+def follow(chain: Chain, start: Beginning, time: float, machines: Machines | None = None) -> Record:
+    """Every step kept."""
+    step = chain.longest_step
+    steps = round(time / step)
+    given = idle(steps, chain.nodes.shape[1]) if machines is None else machines
+    return run(chain, given, start, step=step, samples=steps)

@@ -1,0 +1,127 @@
+"""`conveyor dynamics` as its user meets it: files, JSON, refusals; the shortest ramp."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from conveyor.dynamics import design
+from conveyor.dynamics import follow as following
+from conveyor.dynamics.design import shortest_ramp
+from conveyor.dynamics.follow import follow, standard_scenarios
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.models import Scenario
+from conveyor.report.dynamics_tables import of_dynamics, plain
+from conveyor.spec import from_data
+from tests.loop.loop_lines import SECOND, data, line
+from tests.test_docs import run
+from tests.validation.test_start_stop_limits import ridden
+
+STOP = {
+    "name": "power failure",
+    "begins": "running",
+    "loading": "full",
+    "events": [{"do": "power off"}],
+    "duration": "4 s",
+}
+BRAKED = STOP | {"name": "with brakes", "events": [{"do": "power off"}, {"at": "1 s", "do": "brake"}]}
+
+
+@pytest.fixture(scope="module")
+def spec(tmp_path_factory):
+    path = tmp_path_factory.mktemp("dynamics") / "line.json"
+    path.write_text(json.dumps(data() | {"scenarios": [STOP, BRAKED]}), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def rigged(monkeypatch):
+    """Loads without contacts: what they resist is a share of them."""
+
+    def rides(conveyor, scenarios):
+        made = [ridden(conveyor, one.as_data()) for one in scenarios]
+        return made, made[0].loop.steady
+
+    for module in (design, following):
+        monkeypatch.setattr(module, "prepared_rides", rides)
+
+
+def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(spec, monkeypatch):
+    names = ("starts.xlsx", "starts.html", "starts.png")
+    outputs = [word for name in names for word in ("-o", str(spec.with_name(name)))]
+    code, out, err = run(["dynamics", str(spec), *outputs, "--error", "0.05", "--json"], monkeypatch)
+    assert (code, err) == (0, "")
+    for name in ("starts.xlsx", "starts.html", "starts_power_failure.png", "starts_with_brakes.png"):
+        assert spec.with_name(name).stat().st_size > 5000
+    found = json.loads(out)
+    scenario = found["scenarios"][0]
+    assert scenario["scenario"] == "power failure"
+    assert scenario["lowest_tension_N"] < scenario["highest_tension_N"]
+    assert 0.0 <= scenario["error"] <= 0.05
+    assert abs(scenario["energy_error"]) < 1e-3
+    assert len(found["tensions"]) == 16
+    assert {"dynamic_safety", "dynamic_slack", "dynamic_grip", "dynamic_rest", "dynamic_bulk"} <= {
+        check["key"] for check in found["checks"]
+    }
+    assert "belt.carcass.retardation_time not given: 0.1 s, general knowledge" in found["assumptions"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("-s", "start"), "there are: power failure, with brakes"),
+        (("-o", "x.txt"), "its name ends in"),
+        (("--error", "2"), "between 0 and 1"),
+    ],
+)
+def test_it_refuses_in_words(spec, arguments, message, monkeypatch):
+    code, _, err = run(["dynamics", str(spec), *arguments], monkeypatch)
+    assert code == 2
+    assert message in err
+
+
+def test_standard_scenarios_fit_the_drives():
+    """Failures of one drive of several; no led stop without inverters; brakes only where there are any."""
+    one = {scenario.name for scenario in standard_scenarios(line())}
+    assert one == {"start full", "start empty", "stop full", "emergency stop full"}
+    drive = {"further_drives": [SECOND], "torque_factor": 1.4, "brake_force": "10 kN", "brake_delay": "2 s"}
+    several = {
+        scenario.name: scenario for scenario in standard_scenarios(line(drive=data()["drive"] | drive))
+    }
+    assert {"power failure of drive", "power failure of second", "power failure full, brakes fail"} <= set(
+        several
+    )
+    assert "stop full" not in several
+    assert [event.do for event in several["emergency stop full"].events] == ["power off", "brake"]
+
+
+@pytest.mark.usefixtures("rigged")
+def test_peaks_hold_and_tables_say_so():
+    """An error asked for is kept by cells half as long."""
+    conveyor = from_data(data() | {"scenarios": [STOP], "drive": data()["drive"] | {"reduced_mass": "4 t"}})
+    found = follow(conveyor, error=0.02)
+    (one,) = found.followed
+    (finer,) = follow(conveyor, step=0.25 * one.record.step).followed
+    assert one.error <= 0.02
+    assert abs(finer.highest - one.highest) <= 0.02 * finer.highest
+    assert abs(finer.lowest - one.lowest) <= 0.02 * finer.highest
+    assert {"scenarios", "scenario_drives", "scenario_tensions", "histories", "checks", "remarks"} <= set(
+        of_dynamics(found, "US").by_key
+    )
+    assert plain(found)["conveyor"] == "loop"
+
+
+@pytest.mark.usefixtures("rigged")
+def test_the_shortest_ramp_keeps_every_criterion():
+    """Shorter ones do not; without an inverter there is none."""
+    start = {"name": "start", "begins": "at rest", "loading": "full", "events": [{"do": "start"}]}
+    taut = data()["route"] | {"take_up": {"kind": "gravity", "tension": "60 kN"}}
+    conveyor = from_data(data() | {"route": taut, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
+    time, found = shortest_ramp(conveyor, Scenario.from_data(start), least=4.0, most=40.0)
+    assert 4.0 <= time < 40.0
+    assert found.ride.starters[0].time == pytest.approx(time, rel=1e-6)
+    with pytest.raises(InputError, match="needs an inverter"):
+        shortest_ramp(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}))
+    with pytest.raises(NoSolutionError, match="fails even with a ramp of 2 s"):
+        shortest_ramp(conveyor, Scenario.from_data(start), least=1.0, most=2.0)

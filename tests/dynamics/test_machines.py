@@ -1,0 +1,195 @@
+"""Motors, brakes, take-ups and pulleys, each by what it must do by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conveyor.dynamics.wave import Machines, run
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.waves import STEEPEST, ramp
+from conveyor.models import Scenario, Starter
+from conveyor.spec import from_data
+from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
+from tests.loop.loop_lines import BOOSTER, DATA, data, line
+from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
+
+GRIP = 1.5
+SLOW = 0.05  # of a winch: its waves, c m' v, stay within its band
+HEAVY = 2e6
+CELLS = 10
+SPAN = LENGTH * (CELLS - 1) / CELLS
+
+
+def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
+    """A rod clamped at its far end whose pulley is pulled back by a force that grows over a time."""
+    clamp = clamped(cells, 1)
+    chain = rod(
+        cells, nodes=np.array([[cells]]), rim=np.array([[rim]]), grip=np.array([[grip]]),
+        backstop=np.array([[False]]), **(clamp | changes),
+    )  # fmt: skip
+    step = chain.longest_step
+    share = np.clip(step * np.arange(steps) / time, 0.0, 1.0)[:, None, None]
+    driving = Machines(
+        np.array([[1e9]]), np.full((steps, 1, 1), 1e6), share, np.zeros((steps, 1, 1)),
+        np.full((1, 1, 65), force), 1.0,
+    )  # fmt: skip
+    return run(chain, driving, begun(chain), step=step, samples=steps)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7, 1.5])
+def test_a_ramp_of_force_leaves_what_the_book_says(share):
+    """One mode, a heavy drum on the rod: peak over static is 1 + |sin(pi x)/(pi x)|, x the ramp over the period."""
+    omega = np.sqrt(EA / SPAN / (HEAVY * (1.0 + 40.0 * SPAN / 3.0 / HEAVY)))
+    period, force = 2.0 * np.pi / omega, -30e3
+    steps = round((1.2 + share) * period / (LENGTH / CELLS / WAVE))
+    found = pulled(-force, steps, time=share * period)
+    tension = PULL - found.tensions[:, 0, CELLS // 2].astype(float)
+    peak = 1.0 + abs(np.sin(np.pi * share) / (np.pi * share))
+    assert np.abs(tension).max() / abs(force) == pytest.approx(peak, rel=0.01)
+
+
+def test_a_slipping_belt_bears_what_it_grips():
+    """Beyond (e^(mu alpha) - 1) T2 the belt slips; the force stays there, the tensions in Euler's ratio."""
+    found = pulled(400e3, 400, time=20.0, grip=GRIP, rim=2e6, retardation=0.5)
+    drives = {name: values[-1, 0, 0] for name, values in found.drives.items()}
+    assert found.slipped[0, 0] > 1.0
+    assert drives["force"] == pytest.approx(GRIP * drives["leaving"], rel=1e-9)
+    assert drives["arriving"] / drives["leaving"] == pytest.approx(1.0 + GRIP, rel=1e-3)
+    assert found.heat[0, 0] == pytest.approx(found.work["slip"][0], rel=0.05)
+
+
+def test_backstop_and_brake_hold_what_pulls_back():
+    """A belt pulled backward by its own tension stands on its backstop or a strong brake, not on a weak one."""
+    for backstop, force, stands in ((True, 0.0, True), (False, 60e3, True), (False, 10e3, False)):
+        chain = rod(
+            20, nodes=np.array([[20]]), rim=np.array([[1e3]]), grip=np.array([[1e9]]),
+            backstop=np.array([[backstop]]), **clamped(20, 0),
+        )  # fmt: skip
+        machines = replace(idle(400, 1), brake=np.full((400, 1, 1), force))
+        start = begun(chain, tension=np.full((1, 20), PULL + 40e3))
+        found = run(chain, machines, start, step=chain.longest_step)
+        assert bool(np.abs(found.drives["rim"]).max() == 0.0) is stands
+        if stands:
+            assert found.drives["holding"][-1, 0, 0] == pytest.approx(-40e3, rel=1e-9)
+
+
+def test_a_winch_brings_the_tension_into_its_band_and_rests():
+    """From a slack belt at its own speed, and then no further."""
+    chain = replace(rod(10, winch=np.array([[SLOW], [0.1]])), **clamped(10, 5), retardation=0.5)
+    found = follow(chain, begun(chain, tension=np.full((1, 10), 0.5 * PULL)), 80.0)
+    tension, belt = found.take_up["tension"][:, 0], found.take_up["belt"][:, 0]
+    assert tension[-1] == pytest.approx(PULL, rel=0.1)
+    assert np.ptp(belt[-100:]) < 1e-9
+    assert belt[-1] == pytest.approx(LENGTH / EA * (tension[-1] - 0.5 * PULL), rel=0.02)
+    rate = np.diff(belt) / found.step
+    assert rate.max() == pytest.approx(SLOW, rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", ["linear", "cosine", "S"])
+def test_ramps_end_at_full_speed_and_are_as_steep_as_said(shape):
+    x = np.linspace(0.0, 1.0, 20001)
+    made = ramp(x, shape=shape)
+    assert made[0] == 0.0
+    assert made[-1] == 1.0
+    assert np.gradient(made, x).max() == pytest.approx(STEEPEST[shape], rel=1e-3)
+    with pytest.raises(InputError, match="linear, cosine or S"):
+        ramp(x, shape="steep")
+
+
+START = {"begins": "at rest", "events": [{"do": "start"}], "duration": "6 s"}
+
+
+@pytest.mark.parametrize(
+    ("starter", "early", "late"),
+    [
+        ({"kind": "direct"}, 1.6, 1.6),
+        ({"kind": "star-delta", "time": "5 s"}, 1.6 / 3.0, 1.6),
+        ({"kind": "soft starter", "time": "20 s", "initial_torque": "25 %"}, 0.25 * 1.6, None),
+        ({"kind": "fluid coupling", "time": "20 s", "initial_torque": "20 %"}, 0.2 * 1.6, None),
+    ],
+)
+def test_starters_let_through_what_they_say(starter, early, late):
+    """At the first step, and after the time; by 1.6 times the rated force, the default."""
+    found = followed(line(drive=DATA["drive"] | MASSES), START | {"starter": starter}, step=0.04)
+    # beside the torque at the begin what half a step of its growth adds
+    assert found.torque[0, 0] == pytest.approx(early, rel=0.01)
+    if late is not None:
+        assert found.torque[:, 0].max() == pytest.approx(late, rel=1e-9)
+    assert "slip" in found.ride.starters[0].assumed
+
+
+def test_a_later_drive_begins_after_its_delay_and_a_failed_brake_does_not_grip():
+    """Delay of one drive; share 0 % of a brake."""
+    late = BOOSTER | MASSES | {"starter": {"time": "10 s", "delay": "4 s"}}
+    drive = DATA["drive"] | MASSES | {"starter": {"time": "10 s"}, "further_drives": [late]}
+    ride = ridden(line(drive=drive), START)
+    times = np.arange(0.0, 20.0, 0.5)
+    _, share, _ = ride.over_time(times)
+    assert np.all(share[:, 0] == 1.0)
+    assert np.all(share[:, 1] == (times >= 4.0))
+    drive = DATA["drive"] | MASSES | {"brake_force": "20 kN"}
+    brake = {"at": "2 s", "do": "brake", "over": "4 s", "share": "50 %"}
+    stop = {"begins": "running", "events": [{"do": "power off"}, brake], "duration": "30 s"}
+    _, share, force = ridden(line(drive=drive), stop).over_time(times)
+    assert np.all(share == 0.0)
+    assert force[:, 0] == pytest.approx(10e3 * np.clip((times - 2.0) / 4.0, 0.0, 1.0), rel=1e-12)
+
+
+def test_only_an_inverter_ramps_down():
+    stop = {"begins": "running", "events": [{"do": "ramp down"}], "starter": {"kind": "direct"}}
+    with pytest.raises(NoSolutionError, match="has no inverter"):
+        ridden(line(drive=DATA["drive"] | MASSES), stop).over_time(np.zeros(1))
+
+
+def test_a_led_stop_comes_to_rest_at_the_end_of_its_ramp():
+    stop = {
+        "begins": "running",
+        "events": [{"do": "ramp down"}],
+        "starter": {"time": "20 s"},
+        "duration": "30 s",
+    }
+    found = followed(line(drive=DATA["drive"] | MASSES, route={"feeding": NO_RUSH}), stop, step=0.04)
+    assert found.rests_at == pytest.approx(20.0, abs=3.0 * found.ride.loop.travel[-1])
+    # of an S the way is half of that at full speed
+    assert found.way == pytest.approx(0.5 * found.line.speed * 20.0, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"kind": "direct", "time": "10 s"}, "nothing is led"),
+        ({"kind": "star-delta", "time": "10 s", "stop_time": "5 s"}, "only an inverter"),
+        ({"kind": "inverter", "initial_torque": "20 %"}, "given with kind inverter"),
+    ],
+)
+def test_starters_refuse_what_they_do_not_have(given, message):
+    with pytest.raises(InputError, match=message):
+        Starter.from_data(given)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"events": []}, "events"),
+        ({"loading": "part load"}, "needs its share"),
+        ({"share": "50 %"}, "remove it"),
+        ({"sections": ["a"]}, "names need loading"),
+        ({"events": [{"do": "start", "share": "50 %"}]}, "it is of brakes"),
+        ({"events": [{"do": "start", "drives": ["other"]}]}, "drives are: drive"),
+        ({"loading": "sections", "sections": ["nowhere"]}, "nowhere"),
+    ],
+)
+def test_scenarios_are_refused_by_field(changes, message):
+    scenario = {"name": "x", "begins": "at rest", "events": [{"do": "start"}]} | changes
+    with pytest.raises(InputError, match=message):
+        from_data(data() | {"scenarios": [scenario]})
+
+
+def test_two_scenarios_of_one_name_are_refused():
+    one = {"name": "x", "begins": "at rest", "events": [{"do": "start"}]}
+    with pytest.raises(InputError, match="its own name"):
+        from_data(data() | {"scenarios": [one, one]})
+    assert Scenario.from_data(one).as_data()["begins"] == "at rest"
