@@ -213,8 +213,8 @@ def bootstrap(
     rows tells, the band holds how far the compromise moves with what is believed.
 
     Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
-    too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another temperature most of
-    an error of the shift takes back what it did to the curve.
+    too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another
+    temperature most of an error of the shift takes back what it did to the curve.
 
     Coverage of the truth by the 90 % band: see docs/rubber.md, and benchmarks/families.py. At its worst frequency
     it is 50 to 75 %: at the ends of the window, and in valleys of E'' between lines of a spectrum that IS discrete.
