@@ -220,9 +220,9 @@ def bootstrap(
     Each replica weighs E' against E'' anew, by `LEANING`: where they contradict each other, which no scatter of
     rows tells, the band holds how far the compromise moves with what is believed.
 
-    Of isotherms, each replica first draws the shifts from their covariance, vertical ones too where they were
-    fitted or are missing, and lays the rows out anew. It keeps these shifts: at another temperature most of
-    an error of the shift takes back what it did to the curve.
+    Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
+    too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another
+    temperature most of an error of the shift takes back what it did to the curve.
 
     Coverage of the truth by the 90 % band: see docs/rubber.md, and benchmarks/families.py. At its worst frequency
     it is 50 to 75 %: at the ends of the window, and in valleys of E'' between lines of a spectrum that IS discrete.
@@ -277,6 +277,7 @@ def bootstrap(
     generator = np.random.default_rng(seed)
     found: list[FloatArray] = []
     shifts: list[FloatArray] = []
+    pair: list[FloatArray] = []
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
@@ -284,7 +285,8 @@ def bootstrap(
         drawn = replace(rows, scale=rows.scale * lean)
         target = drawn.target * ratio[:, taken].ravel()
         if superposition is not None:
-            shift = superposition.drawn(generator)
+            pair = pair or list(superposition.drawn(generator))
+            shift = pair.pop()
             if np.any(np.diff(shift[0]) >= 0.0):
                 continue
             moved = [np.interp(at, known, change) for change in shift - superposition.shifts]

@@ -193,7 +193,7 @@ class Superposition:
         return _kept(np.log10(frequency), [one.frequency for one in self.resonances])
 
     def drawn(self, generator: np.random.Generator) -> FloatArray:
-        """Shifts that the isotherms allow as well, by their covariance.
+        """Shifts that the isotherms allow as well, by their covariance: an error, and the same of the other sign.
 
         Parameters
         ----------
@@ -203,15 +203,15 @@ class Superposition:
         Returns
         -------
         numpy.ndarray
-            log10 a_T, then log10 b_T, shape `(2, n)` [decades].
+            Both, each log10 a_T, then log10 b_T, shape `(2, 2, n)` [decades].
         """
         from scipy.interpolate import PchipInterpolator
 
         values, vectors = np.linalg.eigh(self.joint_covariance)
         error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
-        found = self.shifts + error.reshape(2, -1)
-        level = PchipInterpolator(self.temperatures, found, axis=1)(self.reference)
-        return np.asarray(found - level[:, None])
+        found = self.shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
+        level = PchipInterpolator(self.temperatures, found, axis=2)(self.reference)
+        return np.asarray(found - level[..., None])
 
 
 def superpose(
