@@ -10,6 +10,7 @@ import typer
 
 from conveyor.cli.app import (
     AsJson,
+    Changed,
     Force,
     Quiet,
     Shelves,
@@ -20,6 +21,7 @@ from conveyor.cli.app import (
     json_text,
     print_text,
     progress,
+    read_spec,
     say,
 )
 from conveyor.cli.outputs import Outputs
@@ -75,16 +77,16 @@ def dynamics(
     as_json: AsJson = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
+    changed: Changed = None,
 ) -> None:
     """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
     to = Outputs(spec, force=force)
     for path in output or ():
         to.file("--output", path, *_KINDS, kind=_KINDS.get(path.suffix.lower(), ""))
-    import conveyor
     from conveyor.dynamics.follow import follow
     from conveyor.report.dynamics_tables import of_dynamics, plain
 
-    line = conveyor.load(spec, shelves=shelf or ())
+    line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
     chosen = _chosen(line, scenario)
     if shortest_ramp:

@@ -48,7 +48,7 @@ def test_a_resonance_is_said(tmp_path: Path) -> None:
     found = fit_file(isotherms(tmp_path / "x.csv", 0.0, 0.5), Request("x", "20 degC", replicas=0))
     (line,) = (line for line in fitting.lines(found) if "left out of all isotherms" in line)
     assert "100 Hz" in line
-    assert found.frequency.size == 36
+    assert found.rows.curve[0].size == 36
     assert not any("--vertical" in line for line in fitting.lines(found))
 
 
