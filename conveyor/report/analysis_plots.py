@@ -42,7 +42,7 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     force = unit("force", system, large=True)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
-        (f"classical, f = {found.classical.friction_factor:g}", found.classical)
+        (f"ISO 5048 / DIN 22101, f = {found.classical.friction_factor:g}", found.classical)
     ]
     if found.cema is not None:
         estimates.append(("CEMA classic, given Ky", found.cema))
@@ -167,7 +167,7 @@ def rubber_at_work(
                 hatch=_HATCH[k + 1][:2],
                 edgecolor=_BAND_LINES,
                 linewidth=0,
-                label=f"{strand} rolls: nine tenths of their loss",
+                label=f"{strand} rolls: 90 % loss band",
             )
     below = figure.axes[-1]
     below.legend(fontsize=8)
@@ -241,7 +241,7 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     beyond = [result for result in found if not result.covered]
     if beyond:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
-        label = "beyond the rubber's data: not to design by"
+        label = "beyond the rubber data: not for design"
         axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
@@ -251,7 +251,7 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
 
 def _shaded(study: CalculatedCases) -> str:
     low, high = study.friction_band
-    return f"shaded: friction {low:g} to {high:g} of the computed one"
+    return f"shaded: friction factor {low:g}-{high:g}"
 
 
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final, TypeAlias
 
 from openpyxl import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
 from conveyor.files import marks
@@ -18,21 +19,22 @@ from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
-from conveyor.report.places import MOST_ROWS, Page, file_name
+from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
 
+FRONT: Final = "Summary"
+"""The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
-    "Summary": cover.summary,
     "Results": sheets.single,
-    "Defaults": sheets.stacked,
+    "Given": sheets.inputs,
     "Inputs": sheets.single,
     "Sections": sheets.wide,
-    "Resistances": sheets.resistances,
+    "Resistances": sheets.stacked,
     "Rolls": sheets.wide,
-    "Tensions": sheets.tensions,
-    "States": sheets.states,
+    "Tension diagram": sheets.tensions,
+    "Tensions": sheets.single,
+    "States": sheets.stacked,
     "Loop": sheets.stacked,
-    "Load states": sheets.stacked,
     "Load cases": sheets.stacked,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
@@ -54,14 +56,14 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Defaults", "Load states", "Load cases", "Case checks", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
-    "Summary",
+    "Results",
+    "Given",
     "Resistances",
-    "States",
     "Loop",
-    "Indentation",
+    "Load cases",
     "Rubber",
     CHECKS_AND_NOTES,
     "About",
@@ -134,9 +136,17 @@ def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Wor
     book.properties.title = legible(about.title)
     book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
+    placed: dict[str, tuple[Worksheet, TablePlace]] = {}
+    front = "governing_figures" in contents
+    if front:
+        book.create_sheet(FRONT)
     for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or (own and title not in _WHERE_ASKED):
-            sheet = book.create_sheet(title)
-            fills.get(title, sheets.stacked)(Page(sheet, contents, stem))
-            print_set_up(sheet, header, paper=about.paper, portrait=title in _PORTRAIT)
+            page = Page(book.create_sheet(title), contents, stem, placed)
+            fills.get(title, sheets.stacked)(page)
+            last = page.print_only()
+            print_set_up(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
+    if front:  # its charts are of the tables of the others
+        cover.summary(Page(book[FRONT], contents, stem), placed)
+        print_set_up(book[FRONT], header, book[FRONT].max_row, paper=about.paper, portrait=True)
     return book

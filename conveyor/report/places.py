@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
+from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -19,6 +20,10 @@ SHOWN_ROWS: Final = 100
 """Rows that stand for a table too long."""
 _FILTERED_ROWS: Final = 20
 """Rows beyond which a table has buttons to filter it."""
+CHART_ROWS: Final = 20
+"""Rows that a chart takes."""
+_CHART_SPAN, _LEAST_SPAN = 7, 4
+"""Columns that a chart, and notes, take on paper."""
 _NAMES: Final = 56  # characters of a name on one line
 
 
@@ -73,11 +78,14 @@ class Page:
         Tables of the report.
     stem : str
         Name of the workbook without its ending, for files beside it.
+    placed : dict
+        Every table that stands in the workbook: its sheet and its place there.
     """
 
     sheet: Worksheet
     contents: Contents
     stem: str
+    placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
@@ -95,6 +103,7 @@ class Page:
             shown = replace(part, rows=part.rows[:SHOWN_ROWS])
         last = table(self.sheet, shown, self.contents.system, top, column, widest=widest)
         place = TablePlace(top, last, column, tuple(each.key for each in part.columns), whole)
+        self.placed[key] = self.sheet, place
         if whole:
             define(self.sheet, f"table_{key}", place.cells)
             if part.links:
@@ -114,21 +123,45 @@ class Page:
             self.sheet.auto_filter.ref = place.cells
         return place
 
-    def stacked(self, keys: Iterable[str], row: int = 1) -> dict[str, TablePlace]:
-        """Write tables under one another, those that there are, each with its note; where each stands."""
+    def stacked(self, keys: Iterable[str], row: int = 1, *, widest: int = _NAMES) -> dict[str, TablePlace]:
+        """Write tables under one another, those that there are, each with its note; where each stands.
+
+        What is not printed stands below all that is.
+        """
         places = {}
-        for key in keys:
-            if key in self.contents:
-                places[key] = self.place(key, row)
-                row = places[key].last + (2 if self.contents[key].foot else 1)
-                note = self.contents[key].note
-                if note:
-                    put(self.sheet.cell(row + 1, 1), note, GREY)
-                    row += 2
+        there = [key for key in keys if key in self.contents]
+        for key in sorted(there, key=lambda key: not self.contents[key].printed):
+            places[key] = self.place(key, row, widest=widest)
+            row = places[key].last + (2 if self.contents[key].foot else 1)
+            note = self.contents[key].note
+            if note:
+                put(self.sheet.cell(row + 1, 1), note, GREY)
                 row += 2
+            row += 2
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
 
     def below(self, place: TablePlace, keys: Iterable[str]) -> None:
         """Write further tables below one, under one another."""
         self.stacked(keys, place.last + 4)
+
+    def print_only(self) -> int:
+        """Print what is to be printed, hide a sheet that holds nothing of it; the last row that is printed."""
+        here = {key: place for key, (sheet, place) in self.placed.items() if sheet is self.sheet}
+        corners = [coordinate_to_tuple(chart.anchor) for chart in vars(self.sheet)["_charts"]]
+        printed = {key: place for key, place in here.items() if self.contents[key].printed}
+        if here and not printed and not corners:
+            self.sheet.sheet_state = "hidden"
+            return self.sheet.max_row
+        rows = [self.sheet.max_row, *(row + CHART_ROWS for row, _ in corners)]
+        last = min([max(rows), *(here[key].header - 3 for key in here.keys() - printed.keys())])
+        columns = [self._last_printed(key, place) for key, place in printed.items()]
+        columns += [column + _CHART_SPAN for _, column in corners]
+        if len(printed) < len(here) or columns:
+            self.sheet.print_area = f"A1:{get_column_letter(max([*columns, _LEAST_SPAN]))}{max(1, last)}"
+        return last
+
+    def _last_printed(self, key: str, place: TablePlace) -> int:
+        """Last column of a table that paper has; a table that only files and sheets have is printed whole."""
+        shown = sum(column.page is not None for column in self.contents[key].on_sheet().columns)
+        return place.first_column + shown - 1 if self.contents[key].page else place.last_column

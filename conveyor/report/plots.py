@@ -231,7 +231,10 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
             key=lambda scene: float(getattr(scene, over)),
         )
         at, motor = along([getattr(scene, over) for scene in mine]), power([scene.motor for scene in mine])
-        axis.plot(at, motor, color=colour(k), marker=".", label=compound.name)
+        inside = np.array([(compound.name, scene.temperature) not in beyond for scene in mine])
+        if not inside.all():
+            axis.plot(at, motor, color=colour(k), linestyle=":", linewidth=1)
+        axis.plot(at, np.where(inside, motor, np.nan), color=colour(k), marker=".", label=compound.name)
         low = [s.motor_low for s in mine if s.motor_low is not None]
         high = [s.motor_high for s in mine if s.motor_high is not None]
         if mine and len(low) == len(mine):
@@ -253,6 +256,21 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
     plain(axis.legend(fontsize=8))
     grouped(axis.yaxis)
+    return figure
+
+
+def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
+    """Difference of the motor power to a base's in per cent, a dot a compound with its band."""
+    figure, (axis,) = stacked(1, 1.4 + 0.36 * len(rows))
+    for i, (_, change, (low, high)) in enumerate(rows):
+        if low is not None and high is not None:
+            axis.plot([100.0 * low, 100.0 * high], [i, i], color=colour(0), linewidth=2.5, alpha=0.5)
+        axis.plot(100.0 * change, i, "o", color=colour(0), markersize=7)
+    axis.set_yticks(range(len(rows)), [name for name, *_ in rows], parse_math=False)
+    axis.axvline(0.0, color="0.3", linewidth=0.8)
+    axis.invert_yaxis()
+    axis.margins(y=0.15)
+    axis.set_xlabel(f"difference of mean motor power to {base} in %", parse_math=False)
     return figure
 
 
@@ -322,9 +340,7 @@ def compared_loss_tangents(
     chosen = min(common, key=lambda t: abs(t - own))
     rows = [row.excited for row in comparison.coverage if row.temperature == chosen]
     band = min(low for low, _ in rows), max(high for _, high in rows)
-    return loss_tangents(
-        comparison.compounds, chosen, {"nine tenths of the rolls' loss": band}, system=system
-    )
+    return loss_tangents(comparison.compounds, chosen, {"90 % loss band of the rolls": band}, system=system)
 
 
 def master_curve(
@@ -338,6 +354,18 @@ def master_curve(
     low, high = _WIDEST if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
+    if data is not None:
+        for beyond in (
+            np.geomspace(low / 10.0**_DECADES_BEYOND, low, _POINTS),
+            np.geomspace(high, high * 10.0**_DECADES_BEYOND, _POINTS),
+        ):
+            past = 2.0 * np.pi * beyond
+            for axis, values, k in (
+                (above, modulus(series.storage(past)), 0),
+                (above, modulus(series.loss(past)), 1),
+                (below, series.tan_delta(past), 2),
+            ):
+                axis.plot(beyond, values, color=colour(k), linestyle=":", linewidth=1)
     above.plot(f, modulus(series.storage(omega)), color=colour(0), label="E'")
     above.plot(f, modulus(series.loss(omega)), color=colour(1), label="E''")
     below.plot(f, series.tan_delta(omega), color=colour(2), label="tan δ")

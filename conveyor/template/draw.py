@@ -74,7 +74,7 @@ class Book:
                     self._table(drawn, sheets)
         self._how_to(self.book.worksheets[0], every)
         for sheet in self.book.worksheets:
-            print_set_up(sheet, self.title)
+            print_set_up(sheet, self.title, sheet.max_row)
         self.rules.draw(self.book)
         return self.book
 

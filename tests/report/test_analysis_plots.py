@@ -14,6 +14,7 @@ from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
+from conveyor.line.line import Line
 from conveyor.report.loop_plots import route_profile
 from conveyor.report.plots import master_curve, stacked
 from conveyor.report.svg import inline, restyle
@@ -116,7 +117,7 @@ def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
         spans = {p.get_label(): p for p in axis.patches if isinstance(p, Rectangle)}
         assert len(spans) == 2
         for strand in ("carry", "return"):
-            span = spans[f"{strand} rolls: nine tenths of their loss"]
+            span = spans[f"{strand} rolls: 90 % loss band"]
             low, high = result.contacts.excited_band(strand)
             assert (span.get_x(), span.get_x() + span.get_width()) == pytest.approx((low, high))
         assert len({p.get_hatch() for p in spans.values()}) == 2
@@ -207,8 +208,8 @@ def test_a_master_curve_is_that_of_the_series(line):
 
 def test_a_level_route_is_drawn_with_room_above_and_below(line):
     level = [(50.0 * i, 0.0) for i in range(len(line.route.sections) + 1)]
-    (axis,) = route_profile(line, level).axes
+    (axis,) = route_profile(line, Line.of(line), level).axes
     low, high = axis.get_ylim()
     assert low == -high
-    (axis,) = route_profile(line, [*level[:-1], (level[-1][0], 30.0)]).axes
+    (axis,) = route_profile(line, Line.of(line), [*level[:-1], (level[-1][0], 30.0)]).axes
     assert axis.get_ylim()[1] > -axis.get_ylim()[0]

@@ -199,7 +199,7 @@ def test_comparison_is_on_the_resistances_sheet(book, overland):
 
 HEADERS = {
     "Inputs": ["field", "as entered", "SI value", "SI unit", "given by"],
-    "Tensions": ["place", "distance from drive [m]", "tension [N]", "least for sag [N]"],
+    "Tensions": ["place", "distance from drive [m]", "tension [N]", "minimum tension (sag) [N]"],
 }  # fmt: skip
 
 

@@ -58,13 +58,13 @@ def test_governing_cases_are_the_extremes_of_the_table(cases):
     table = cases.table
     by_figure = {row.figure: row for row in cases.governing}
     columns = {
-        "largest motor power, friction high": ("motor power, 1 x friction [kW]", "max", 1e3),
-        "least motor power, friction low": ("motor power, 0.6 x friction [kW]", "min", 1e3),
-        "largest belt tension": ("largest tension [N]", "max", 1.0),
-        "least belt tension": ("smallest tension [N]", "min", 1.0),
-        "largest tension asked of the take-up": ("take-up tension asked for [N]", "max", 1.0),
-        "largest roll load": ("largest roll load [N]", "max", 1.0),
-        "largest indentation": ("indentation [N]", "max", 1.0),
+        "maximum motor power": ("motor power, 1 x friction [kW]", "max", 1e3),
+        "minimum motor power": ("motor power, 0.6 x friction [kW]", "min", 1e3),
+        "maximum belt tension": ("maximum tension [N]", "max", 1.0),
+        "minimum belt tension, steady": ("minimum tension, steady [N]", "min", 1.0),
+        "required take-up tension": ("required take-up tension [N]", "max", 1.0),
+        "maximum roll load": ("largest roll load [N]", "max", 1.0),
+        "maximum indentation": ("indentation [N]", "max", 1.0),
     }
     for figure, (column, which, unit) in columns.items():
         row = by_figure[figure]
@@ -169,7 +169,7 @@ def test_tornado_and_band(line):
     )
     data = json.loads(json.dumps(found.to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(effects[0].motor_high / 1e3)
-    assert [row["combined by"] for row in data["band"]] == ["root of squares", "Latin hypercube, first order"]
+    assert [row["combined by"] for row in data["band"]] == ["root sum of squares", "Latin hypercube, first order"]
     assert [row["motor power, high [kW]"] for row in data["band"]] == pytest.approx(
         [found.uncertainty.band[1] / 1e3, found.uncertainty.sampled[1] / 1e3], rel=1e-15
     )
