@@ -130,11 +130,14 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
     return chart
 
 
-def tension(sheet: Worksheet, place: TablePlace) -> ScatterChart:
+def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
     """Tension in every state, and the least for the sag, against the way round the loop; a state that fails in red."""
     states = [key for key in place.keys[1:] if key != "distance_from_head"]
     title = "Tension round the loop, from the head along the return strand and back"
-    words = _head(sheet, place.header, place.column("distance_from_head")), "tension"
+    words = (
+        _head(sheet, place.header, place.column("distance_from_head")),
+        spelled("tension", "force", system),
+    )
     chart = _curves(sheet, place, "distance_from_head", states, title=title, words=words)
     for series, key in zip(chart.series, states, strict=True):
         if FAILS in _head(sheet, place.header, place.column(key)):

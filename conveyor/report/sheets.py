@@ -60,7 +60,7 @@ def tensions(page: Page) -> None:
         if FAILS in str(head.value):
             head.fill = VERDICTS["FAIL"].fill
     if place.whole:
-        sheet.add_chart(charts.tension(sheet, place), f"A{row}")
+        sheet.add_chart(charts.tension(sheet, place, page.contents.system), f"A{row}")
 
 
 def uncertainty(page: Page) -> None:

@@ -38,10 +38,10 @@ def failed(checks_of):
 def test_example_passes(line, all_of):
     assert failed(all_of) == []
     motor = conveyor.analyse(line).balance.power.motor
-    assert all_of["motor power, drive"].found == f"{motor / 1e3:.1f} kW"
+    assert all_of["motor power, drive"].found == f"{motor / 1e3:.0f} kW"
     assert all_of["motor power, drive"].verdict == "pass"
     rubber = all_of["rubber, carry"]  # of the shelf's constructed covers
-    assert (rubber.asked, rubber.verdict) == ("a measured compound", "not checked")
+    assert (rubber.asked, rubber.verdict) == ("a measured compound required", "not checked")
 
 
 def test_a_measured_rubber_is_held_to_its_data():
@@ -73,7 +73,7 @@ def test_data_cover_the_excited_band_where_they_reach_beyond_both_its_ends(low, 
 
 def test_us_units(line):
     of = found(line, "US")["motor power, drive"]
-    assert of.found == f"{conveyor.analyse(line).balance.power.motor / 745.699872:.1f} hp"  # 550 ft lbf/s
+    assert of.found == f"{conveyor.analyse(line).balance.power.motor / 745.699872:.0f} hp"  # 550 ft lbf/s
     assert of.asked == "at most 300 hp"
 
 
@@ -98,13 +98,13 @@ def test_us_units(line):
             "carcass",
             {"rating": "60 PIW"},
             "belt tension per width, steady",
-            "the belt is rated for 10.51 N/mm",
+            "the belt is rated for 10.5 N/mm",
         ),
         (
             "take-up",
             {"kind": "gravity", "tension": "15 kN"},
             "take-up tension (sag, carry, incline, steady)",
-            "asks for 26",
+            "requires 26",
         ),
     ],
 )
@@ -185,7 +185,7 @@ def test_downhill_without_brake_does_not_stop():
 def test_brakes_that_hold():
     of = found(conveyor.load(SPECS / "downhill_brakes.yaml"))
     assert failed(of) == []
-    assert of["holding brake, loaded belt"].found == "190,000 N"
+    assert of["holding brake, loaded belt"].found == "190 kN"
     assert {
         "convex curve, brow, carry: no strip slack",
         "concave curve, hollow, carry: empty belt stays down",

@@ -38,8 +38,8 @@ def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
     assert table["required safety [-]"] == pytest.approx(8.0)
     pulleys = tables.pulleys(OF_DUTY).frame()
     assert pulleys["diameter [mm]"].tolist() == pytest.approx([630.0, 500.0])
-    assert pulleys["least [mm]"].tolist() == pytest.approx([725.0, 456.75])
-    assert pulleys["of the series [mm]"].tolist() == pytest.approx([800.0, 500.0])
+    assert pulleys["minimum [mm]"].tolist() == pytest.approx([725.0, 456.75])
+    assert pulleys["standard size [mm]"].tolist() == pytest.approx([800.0, 500.0])
     assert pulleys["large enough"].tolist() == [False, True]
 
 
