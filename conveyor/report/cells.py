@@ -203,8 +203,12 @@ def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
 def _ask(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
     """Mark cells that the reader is to fill in."""
     for i in range(at[0], at[0] + count):
-        cell = sheet.cell(i, at[1])
-        cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
+        ask(sheet.cell(i, at[1]))
+
+
+def ask(cell: Cell | MergedCell) -> None:
+    """Mark a cell that the reader may fill in or change."""
+    cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
 
 
 def _worded(value: Any, infinite: str = INFINITE) -> Any:

@@ -93,13 +93,15 @@ class Figure:
     value : float, str, tuple or None
         SI; several where the table has several columns of values; None where it is not known.
     on : str
-        Where it is shown beside its table, words of: tile (page), large, cover, notebook.
+        Where it is shown beside its table, words of: tile (page), large (cover), notebook; input: to be changed.
     json : str
         Path in `to_dict`, with points; left out there without.
     key : str
         Name that others link to it by; without it made of the label.
     us : str
         Symbol that US reports call it by, behind the label.
+    formula : str
+        What the workbook calculates it by, of names of figures; its value stands beside.
     """
 
     label: str
@@ -109,6 +111,7 @@ class Figure:
     json: str = ""
     key: str = ""
     us: str = ""
+    formula: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))

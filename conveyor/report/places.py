@@ -6,13 +6,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Final
 
+from openpyxl.cell.cell import Cell
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
 from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import GREY, HEADING, put, table, total
-from conveyor.report.columns import Contents, Table
+from conveyor.report.cells import GREY, HEADING, ask, put, table, total
+from conveyor.report.columns import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000
 """Rows of a table that a sheet takes: beyond them a workbook takes seconds to write and to open."""
@@ -80,12 +81,15 @@ class Page:
         Name of the workbook without its ending, for files beside it.
     placed : dict
         Every table that stands in the workbook: its sheet and its place there.
+    live : dict
+        Values of formulas, by sheet and cell.
     """
 
     sheet: Worksheet
     contents: Contents
     stem: str
     placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
+    live: dict[tuple[str, str], float] = field(default_factory=dict)
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
@@ -110,9 +114,18 @@ class Page:
                 letter = get_column_letter(place.column("value"))
                 for i, figure in enumerate(part.rows, start=top + 1):
                     define(self.sheet, figure.key, f"{letter}{i}")
+                    self._changing(self.sheet[f"{letter}{i}"], figure)
             if part.foot:
                 total(self.sheet, last + 1, part, self.contents.system)
         return place
+
+    def _changing(self, cell: Cell, figure: Figure) -> None:
+        """Mark what a reader may change; write what follows from it as a formula, its value kept for saving."""
+        if "input" in figure.on.split():
+            ask(cell)
+        if figure.formula:
+            self.live[self.sheet.title, cell.coordinate] = float(str(cell.value))
+            cell.value = f"={figure.formula}"
 
     def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> TablePlace:
         """Write the one table of a sheet: its header stays in view and is printed on each page."""

@@ -52,7 +52,8 @@ from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
-from conveyor.report.verdict import AS_GIVEN, governing_figures
+from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
+from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.defaults import PowerRange, power_range
@@ -107,6 +108,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         vertical_curves(analysis),
         convergence(analysis),
         *studied,
+        what_if(analysis, studies, maximum_motor_power(analysis, studies)),
         contact_solutions(analysis),
         indentation(analysis),
         rubber(analysis),

@@ -63,6 +63,11 @@ def _asked(found: CalculatedConveyor) -> float:
     return max(map(found.balance.frame.motor, found.drive_forces), key=abs)
 
 
+def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
+    """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
+    return max((_asked(load.found) for load in _loads(a, studies)), key=abs)
+
+
 def _place(found: CalculatedConveyor, state: MotionState, tension: float) -> str:
     """Where round the loop a tension of a state is."""
     for drive in state.drives:

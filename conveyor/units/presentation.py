@@ -41,7 +41,8 @@ _SAME: Final = {
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
-    "heat": _Kind("MJ", ",.3f"), "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
+    "heat": _Kind("MJ", ",.3f"),
+    "emission factor": _Kind("kg/kWh", ".3f"), "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
@@ -66,7 +67,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
     },
 }  # fmt: skip
-_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "a": 1.0,
+_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
     "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048,
 }  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
@@ -223,7 +224,8 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
     (897.5, 68.0, 'EUR')
     """
     if kind.startswith(MONEY):
-        return Unit(kind.removeprefix(MONEY), ",.0f")
+        currency = kind.removeprefix(MONEY)
+        return Unit(currency, ",.4f" if "/" in currency else ",.0f")
     found = _KINDS[system][kind]
     label, digits = found.large if large and found.large else (found.unit, found.digits)
     exact = system == "SI" or _KINDS["SI"][kind].unit == label

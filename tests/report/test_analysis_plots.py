@@ -12,9 +12,9 @@ from matplotlib.patches import Rectangle
 import conveyor
 from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
+from conveyor.line.line import Line
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
-from conveyor.line.line import Line
 from conveyor.report.loop_plots import route_profile
 from conveyor.report.plots import master_curve, stacked
 from conveyor.report.svg import inline, restyle

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import zipfile
 from datetime import date
-from operator import itemgetter
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -15,11 +14,9 @@ import pytest
 from openpyxl.utils import get_column_letter
 
 import conveyor
+from conveyor.analysis import studies
 from conveyor.errors import InputError
-from conveyor.report import charts
 from conveyor.report.cells import LONGEST
-from conveyor.report.columns import Column, Table
-from conveyor.report.places import TablePlace
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
@@ -127,11 +124,36 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book, overland):
     )  # bars; x and y of the tensions and the sag, the profile and what stands along it, 2 moduli of 2 compounds
 
 
-def test_no_formula_and_no_error_cell(book):
-    for sheet in openpyxl.load_workbook(book):
+def test_formulas_are_those_to_play_with_and_no_cell_is_an_error(book):
+    read = openpyxl.load_workbook(book)
+    results = [name for name, at in read.defined_names.items() if name.startswith("what_if_")]
+    there = {read.defined_names[name].attr_text.rpartition("!")[2].replace("$", "") for name in results}
+    for sheet in read:
         for row in sheet.iter_rows():
             for cell in row:
-                assert cell.data_type not in {"f", "e"}, (sheet.title, cell.coordinate, cell.value)
+                assert cell.data_type != "e", (sheet.title, cell.coordinate, cell.value)
+                live = cell.data_type == "f"
+                assert not live or (sheet.title == "Results" and cell.coordinate in there), cell.coordinate
+
+
+def test_formulas_have_their_values_beside_them(overland, tmp_path):
+    """As a spreadsheet saves them, so that viewers read figures; the formula over the cells named gives the same."""
+    priced = overland.conveyor.replace(
+        operation={"hours_per_year": "6000 h", "price": "0.1 EUR/kWh", "emission": "0.4 kg/kWh", "emission_source": "x",
+                   "duty": [{"hours": "6000 h", "share": "100 %"}]}
+    )  # fmt: skip
+    found = conveyor.analyse(priced)
+    path = found.to_excel(tmp_path / "priced.xlsx", studies(priced, found))
+    values, formulas = (openpyxl.load_workbook(path, data_only=shown) for shown in (True, False))
+
+    def cell(book, name):
+        return book["Results"][book.defined_names[name].attr_text.rpartition("!")[2].replace("$", "")].value
+
+    known = {name: cell(values, name) for name in values.defined_names if name.startswith("what_if_")}
+    live = {name: str(cell(formulas, name)) for name in known if str(cell(formulas, name)).startswith("=")}
+    assert set(live) == {"what_if_cost", "what_if_carbon_dioxide", "what_if_required_rated_power"}
+    for name, formula in live.items():
+        assert eval(formula[1:], {}, known) == pytest.approx(known[name], rel=1e-12)  # noqa: S307 our own
 
 
 @pytest.mark.parametrize(

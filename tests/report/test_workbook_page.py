@@ -35,7 +35,7 @@ STATES = {
 def _named_unit(name):
     found = re.match(r"^(.*) \[([^\]]*)\]$", name)
     words, unit = (found[1], found[2]) if found else (name, "")
-    return words, "currency" if re.fullmatch("[A-Z]{3}", unit) else unit
+    return words, re.sub("^[A-Z]{3}(?=$|/)", "currency", unit)
 
 
 def _column(key, name):
