@@ -121,9 +121,11 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
                 content += [_drawn(drawing) for drawing in drawings]
             made = _table(shown.on_page(place), place.caption, contents.system)
             content.append(made if place.printed else folded(place.caption, made))
-        if any(place.printed for place in places) and shown.note:
+        if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
-    return Part(name, heading, joined(content))
+    every = [place for shown in contents.parts for place in shown.page if place.part == name]
+    folded_only = bool(every) and not any(place.printed for place in every) and name not in _OWN
+    return Part(name, heading, joined(content), printed=not folded_only)
 
 
 def _table(shown: Table, caption: str, system: System) -> Html:

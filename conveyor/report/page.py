@@ -25,11 +25,12 @@ _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("ope
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the page: its identifier, its heading, what is in it."""
+    """A part of the page: its identifier, its heading, what is in it, whether paper has it."""
 
     name: str
     heading: str
     content: Html
+    printed: bool = True
 
 
 def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") -> Html:
@@ -226,6 +227,7 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, 
             element("h2", part.heading, id=part.name),
             part.content,
             aria_labelledby=part.name,
+            class_=None if part.printed else "unprinted",
         )
         for part in parts
     ]

@@ -118,10 +118,10 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .rows td::before, .rows th[data-label]::before { content: attr(data-label); color: var(--muted); text-align: left;
     font-weight: 400; }
 }
-@page { margin: 12mm 12mm 14mm; @bottom-right { content: counter(page) " / " counter(pages);
+@page { margin: 10mm 11mm 12mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
 @media print {
-  html { font-size: 8.5pt; line-height: 1.25; }
+  html { font-size: 8pt; line-height: 1.22; }
   h1 { font-size: 16pt; }
   h2 { font-size: 11pt; margin: .9rem 0 .3rem; padding-top: .2rem; }
   h3 { margin: .6rem 0 .2rem; }
@@ -132,7 +132,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .tiles > div { padding: .2rem .4rem; }
   .tiles dd { font-size: 11pt; }
   .beside { flex-wrap: nowrap; }
-  details { display: none; }
+  details, .unprinted { display: none; }
   li { margin: 0; }
   body { max-width: none; padding: 0; }
   nav { display: none; }
@@ -144,9 +144,9 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   thead { display: table-header-group; }
   tfoot { display: table-row-group; }
   .scroll { overflow: visible; }
-  table { font-size: 7.2pt; line-height: 1.15; }
+  table { font-size: 6.9pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
-  .drawing svg { max-width: 82mm; max-height: 52mm; }
+  .drawing svg { max-width: 80mm; max-height: 47mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -1080,7 +1080,7 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
         Column("made by", "text", itemgetter(0)),
         Column("version", "text", itemgetter(1)),
     )
-    page = (OnPage("provenance", "What made these figures"),)
+    page = (OnPage("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 

@@ -42,7 +42,8 @@ _SAME: Final = {
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
     "heat": _Kind("MJ", ",.3f"),
-    "emission factor": _Kind("kg/kWh", ".3f"), "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
+    "emission factor": _Kind("kg/kWh", ".3f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
+    "years": _Kind("a", ".1f"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
