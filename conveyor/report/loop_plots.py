@@ -10,12 +10,11 @@ import numpy as np
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.settled import holds
 from conveyor.report.columns import FAILS
-from conveyor.report.plots import colour, grouped, plain, stacked, titled
+from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from conveyor.line.line import Line
@@ -85,7 +84,7 @@ def route_profile(
     axis.set(xlabel=length.beside("horizontal distance"), ylabel=length.beside("height over the tail"))
     titled(figure, conveyor.name)
     grouped(axis.xaxis)
-    _legend_once(axis)
+    keyed(axis)
     return figure
 
 
@@ -120,12 +119,5 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
     titled(figure, "Tension round the loop")
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     return figure
-
-
-def _legend_once(axis: Axes) -> None:
-    handles, labels = axis.get_legend_handles_labels()
-    once = dict(zip(labels, handles, strict=True))
-    if once:
-        axis.legend(once.values(), once.keys(), fontsize=8)

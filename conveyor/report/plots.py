@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
-    from matplotlib.legend import Legend
 
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.studies.compared import ComparedScene, Coverage
@@ -33,6 +32,7 @@ _one_at_a_time = Lock()
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
+_KEY_COLUMNS, _KEY_BELOW = 3, -0.19  # of the legend; its top, of the height of the axis
 _DECADES_BEYOND = 1.0  # of the data's window, drawn dashed
 _WIDEST = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
 
@@ -78,10 +78,17 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
         )
 
 
-def plain(legend: Legend) -> None:
-    """Take the texts of a legend as they are: a user's "$" is a dollar, not the start of a formula."""
-    for text in legend.get_texts():
-        text.set_parse_math(False)
+def keyed(axis: Axes) -> None:
+    """Name the curves below the axis, where no legend covers a point; a user's "$" is a dollar, no formula."""
+    handles, labels = axis.get_legend_handles_labels()
+    once = dict(zip(labels, handles, strict=True))
+    if once:
+        legend = axis.legend(
+            once.values(), once.keys(), fontsize=8, frameon=False, ncols=_KEY_COLUMNS, loc="upper center",
+            bbox_to_anchor=(0.5, _KEY_BELOW),
+        )  # fmt: skip
+        for text in legend.get_texts():
+            text.set_parse_math(False)
 
 
 def save(figure: Figure, path: str | Path) -> Path:
@@ -254,7 +261,7 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
             label="beyond the data",
         )
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     grouped(axis.yaxis)
     return figure
 
@@ -313,7 +320,7 @@ def loss_tangents(
         title="Loss tangent (dotted: beyond the data)",
     )
     axis.set_ylim(bottom=0.0)
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     return figure
 
 
@@ -387,5 +394,5 @@ def master_curve(
         ylabel=unit("friction").beside("tan δ"),
     )
     below.set_ylim(bottom=0.0)
-    above.legend(fontsize=8)
+    keyed(above)
     return figure
