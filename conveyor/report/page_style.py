@@ -146,7 +146,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .scroll { overflow: visible; }
   table { font-size: 6.9pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
-  .drawing svg { max-width: 80mm; max-height: 47mm; }
+  .drawing svg { max-width: 80mm; max-height: 40mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
