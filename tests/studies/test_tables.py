@@ -226,7 +226,7 @@ def test_savings_and_payback(compared):
             assert row["payback [a]"] == pytest.approx(extra / saved)
         else:
             assert math.isinf(row["payback [a]"])
-    assert base["motor power against base [-]"] == 0.0
+    assert base["difference to base [-]"] == 0.0
 
 
 def test_data_that_do_not_reach_are_said(line, tmp_path):
