@@ -105,7 +105,7 @@ def levels(found: Anchored) -> Table:
         Column("band, up", "share", lambda at: math.expm1(level.band(level.load, at)), json="band_up"),
     )  # fmt: skip
     rows = tuple(found.anchor.temperatures.tolist())
-    return Table("levels", SHEET, "Measured over calculated, nine tenths within the band", columns, rows)
+    return Table("levels", SHEET, "Measured over calculated, 90 % interval", columns, rows)
 
 
 def rows(found: Anchored) -> Table:

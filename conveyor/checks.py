@@ -23,7 +23,7 @@ from conveyor.loop.belt_duty import CurveCheck
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.units.sentences import Said, band_words, quoted, said
+from conveyor.units.sentences import Said, band_words, percent, quoted, said
 
 Verdict = Literal["pass", "FAIL", "not checked"]
 Relation = Literal["at least", "at most"]
@@ -198,7 +198,7 @@ def filling(found: CalculatedConveyor) -> Iterator[Check]:
         bulk, most = sections
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
-            found=said(f"{bulk / most:.0%} of the cross-section"),
+            found=said(f"{percent(bulk / most)} of the cross-section"),
         )  # fmt: skip
 
 
@@ -213,7 +213,7 @@ def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
         who = "the motor" if len(line.drives) == 1 else f'"{quoted(drive.name)}"'
         why = None
         if drive.power is not None:
-            why = said(f"{who} needs {{}}, installed are {{}}", (abs(power), "power"), (drive.power, "power"))
+            why = said(f"{who} needs {{}}, installed: {{}}", (abs(power), "power"), (drive.power, "power"))
         yield compared(
             "motor_power",
             f"motor power, {quoted(drive.name)}",
@@ -234,12 +234,12 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
     governing = settled.condition_name(settled.governed_by)
     for name, asked in (settled.short or {governing: settled.needed}).items():
         why = said(
-            f"the take-up holds {{}}, {quoted(name)} asks for {{}}",
+            f"the take-up holds {{}}, {quoted(name)} requires {{}}",
             (settled.setting, "force"),
             (asked, "force"),
         )
         made = compared(
-            "take_up_tension", "tension of the take-up", settled.setting, "at least", asked, "force",
+            "take_up_tension", "take-up tension", settled.setting, "at least", asked, "force",
             why=why, where=name,
         )  # fmt: skip
         yield replace(made, verdict=verdict(holds=not settled.short))
@@ -285,7 +285,7 @@ def sag(found: CalculatedConveyor) -> Iterator[Check]:
             (needed, "force"),
         )
         made = compared(
-            "sag", f"tension for sag, {strand}", tension, "at least", needed, "force",
+            "sag", f"minimum tension (sag), {strand}", tension, "at least", needed, "force",
             why=why, where=f"{section}, {running[k].name}",
         )  # fmt: skip
         yield replace(made, verdict=verdict(holds=holds(tension, needed)))
@@ -302,15 +302,15 @@ def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
             (state.smallest, "force"),
         )
         made = compared(
-            "slack_belt", "smallest tension of all states", state.smallest, "at least", 0.0, "force",
+            "slack_belt", "minimum belt tension, all states", state.smallest, "at least", 0.0, "force",
             why=why, where=state.name,
         )  # fmt: skip
-        yield replace(made, asked=said("not slack: at least 0"))
+        yield replace(made, asked=said("at least 0 (not slack)"))
 
 
 def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
     """The belt's strength over its tension in steady running; not asked of a belt given by its rating alone."""
-    duty, subject = found.belt_duty, said("safety of the belt, steady")
+    duty, subject = found.belt_duty, said("belt safety factor, steady")
     if duty.safety_steady is None and duty.rating is not None:
         return
     safety, needed = duty.safety_steady, duty.safety_needed
@@ -320,7 +320,7 @@ def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
         yield Check("belt_safety", subject, None, needed, "safety", shown, asked, "not checked")
         return
     why = said(
-        "safety of the belt {} in steady running, {} are classic (DIN 22101:1982, general knowledge)",
+        "safety of the belt {} in steady running, {} is usual (DIN 22101:1982, general knowledge)",
         (safety, "safety"),
         (needed, "number"),
     )
@@ -357,7 +357,7 @@ def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
             (found.belt_duty.largest, "force"),
         )
         yield compared(
-            "belt_breakage", "safety of the belt, all states", safety, "at least", 1.0, "safety", why=why
+            "belt_breakage", "belt safety factor, all states", safety, "at least", 1.0, "safety", why=why
         )
 
 
@@ -367,12 +367,12 @@ def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
     if duty.safety_steady is None or duty.strength_needed is None or strength is None:
         return
     why = said(
-        "the splice asks for a belt of {} (DIN 22101:2002, factors general knowledge), given are {}",
+        "the splice requires a belt of {} (DIN 22101:2002, factors general knowledge), given: {}",
         (duty.strength_needed, "belt strength"),
         (strength, "belt strength"),
     )
     yield compared(
-        "splice_strength", "strength of the belt for its splice", strength, "at least", duty.strength_needed,
+        "splice_strength", "belt strength for the splice", strength, "at least", duty.strength_needed,
         "belt strength", source="DIN 22101:2002", why=why,
     )  # fmt: skip
 
@@ -382,10 +382,10 @@ def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
     for pulley in found.belt_duty.pulleys:
         size, figures = "", [(pulley.diameter, "thickness"), (pulley.least, "thickness")]
         if pulley.next_size is not None:
-            size = ", of the series {}"
+            size = ", standard size {}"
             figures.append((pulley.next_size, "thickness"))
         name, group = quoted(pulley.name), f"DIN 22101, group {pulley.group}"
-        words = f'pulley "{name}" is {{}} in diameter, the carcass asks for {{}}{size} ({group})'
+        words = f'pulley "{name}" is {{}} in diameter, the carcass requires {{}}{size} ({group})'
         yield compared(
             "pulley_diameter", f"diameter, {name} pulley", pulley.diameter, "at least", pulley.least, "thickness",
             source=group, why=Said(words, tuple(figures)),
@@ -429,7 +429,7 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
     if start.available is not None and start.least is not None:
         if start.asked is not None:
             why = said(
-                "the motors give {} at the start (drive.torque_factor, torque_curve), {} are asked for "
+                "the motors give {} at the start (drive.torque_factor, torque_curve), {} are required "
                 f"(drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady force; "
                 "more power, torque or a softer start",
                 (start.least, "force"),
@@ -439,7 +439,7 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
         else:
             why = said(
                 "the motors give {} at least in their run-up (drive.torque_factor, torque_curve), the belt needs {}: "
-                "more  power or torque",
+                "more power or torque",
                 (start.least, "force"),
                 (found.balance.settled.force, "force"),
             )
@@ -474,19 +474,17 @@ def comes_to_rest(found: CalculatedConveyor) -> Iterator[Check]:
         )
     words = _rest(alone, moving.runaway)
     safe = alone is not None or stopped is not None
-    asked = said(
-        "a stop, least friction" if brakes == 0.0 else "a stop, or brakes that make one; least friction"
-    )
+    asked = said("a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes")
     yield Check(
-        "comes_to_rest", said("comes to rest without power and brake"), None if alone is None else alone.time, None,
+        "comes_to_rest", said("coast-down stop"), None if alone is None else alone.time, None,
         "duration", words, asked, verdict(holds=safe), why,
     )  # fmt: skip
     if brakes > 0.0:
         why = said("brakes of {} do not stop the conveyor", (brakes, "force"))
         yield Check(
-            "comes_to_rest", said("comes to rest without power, brakes on"), None if stopped is None else stopped.time,
-            None, "duration", _rest(stopped, None), said("a stop, least friction"), verdict(holds=stopped is not None),
-            why,
+            "comes_to_rest", said("coast-down stop, brakes on"), None if stopped is None else stopped.time,
+            None, "duration", _rest(stopped, None), said("a stop at minimum friction"),
+            verdict(holds=stopped is not None), why,
         )  # fmt: skip
 
 
@@ -510,19 +508,19 @@ def holding(found: CalculatedConveyor) -> Iterator[Check]:
             (moving.brake_to_hold, "force"),
         )
         made = compared(
-            "holding_brake", f"{what} that holds the loaded belt", brakes, "at least", moving.brake_to_hold, "force",
+            "holding_brake", f"holding {what}, loaded belt", brakes, "at least", moving.brake_to_hold, "force",
             found=shown, why=why,
         )  # fmt: skip
         yield made if given else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
         why = said(
-            "drive.stop_deceleration asks for brakes of {} at the belt, given are {}",
+            "drive.stop_deceleration requires brakes of {} at the belt, given: {}",
             (moving.brake_to_stop, "force"),
             (brakes, "force"),
         )
         yield compared(
-            "stopping_brake", "brakes for the deceleration wanted", brakes, "at least", moving.brake_to_stop, "force",
-            found=shown, why=why,
+            "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
+            "force", found=shown, why=why,
         )  # fmt: skip
 
 
@@ -534,26 +532,26 @@ def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
     if slip.sliding:
         where = quoted(", ".join(slip.sliding))
         why = said(
-            f'the bulk slides on the belt in section "{where}" at any speed: too steep for its friction'
+            f'the material slips on the belt in section "{where}" at any speed: too steep for its friction'
         )
         yield Check(
-            "bulk_slip", said("bulk lies on the belt"), None, None, "acceleration", said(f"slides in {where}"),
-            said("no sliding"), "FAIL", why,
+            "bulk_slip", said("no material slip in running"), None, None, "acceleration", said(f"slips in {where}"),
+            said("no slip"), "FAIL", why,
         )  # fmt: skip
         return
     hardest, fastest = found.motions.hardest
     for key, when, occurs, allowed, where in (
-        ("bulk_slip_stopping", "while stopping", -hardest, -slip.braking, slip.braking_at),
-        ("bulk_slip_start", "at the start", fastest, slip.starting, slip.starting_at),
+        ("bulk_slip_stopping", "on stopping", -hardest, -slip.braking, slip.braking_at),
+        ("bulk_slip_start", "on starting", fastest, slip.starting, slip.starting_at),
     ):
         why = said(
-            f'the bulk slides {when}: {{}}, "{quoted(where)}" allows {{}}',
+            f'the material slips {when}: {{}}, section "{quoted(where)}" allows {{}}',
             (occurs, "acceleration"),
             (allowed, "acceleration"),
         )
         yield compared(
             key,
-            f"bulk lies still {when}",
+            f"no material slip {when}",
             occurs,
             "at most",
             allowed,
@@ -568,13 +566,13 @@ def penetration(found: CalculatedConveyor) -> Iterator[Check]:
     for strand in STRANDS:
         deepest, thickness = found.contacts.deepest(strand), found.contacts.covers[strand].thickness
         why = said(
-            f"{strand} rolls press in by {deepest:.0%} of the cover ({{}}): beyond small strain, the linear law is "
-            "strained",
+            f"{strand} rolls press in by {percent(deepest)} of the cover ({{}}): beyond small strain, the linear law "
+            "is strained",
             (thickness, "thickness"),
         )
         yield Check(
             "penetration", said(f"penetration of the cover, {strand} rolls"), deepest, DEEP, "fraction",
-            said(f"{deepest:.1%} of its thickness"), said(f"at most {DEEP:.0%} (small strain)"),
+            said(f"{percent(deepest, 1)} of its thickness"), said(f"at most {percent(DEEP)} (small strain)"),
             verdict(holds=deepest <= DEEP), why, "at most",
         )  # fmt: skip
 
@@ -608,7 +606,7 @@ def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
         if compound.kind == "illustrative":
             yield Check(
                 "rubber_coverage", said(f"rubber, {strand}"), None, None, "frequency",
-                said("constructed spectrum"), said("a measured compound"), "not checked",
+                said("constructed spectrum"), said("a measured compound required"), "not checked",
             )  # fmt: skip
             continue
         yield _covering(
@@ -620,7 +618,7 @@ def _covering(
     strand: Strand, name: str, band: tuple[float, float], data: tuple[float, float] | None, at: float
 ) -> Check:
     """A band against that of the data [Hz]; the end that is nearer to theirs, or farther beyond it, decides."""
-    subject = f"rubber data cover the excited band, {strand}"
+    subject = f"rubber data over the excitation band, {strand}"
     shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
     if data is None:
         missing = "range of the data not stated"
@@ -628,9 +626,9 @@ def _covering(
             "rubber_coverage", subject, band[1], "at most", None, "frequency", found=shown, missing=missing
         )
     why = said(
-        f'compound "{name}": nine tenths of the {strand} rolls\' loss lie between '
+        f'compound "{name}": 90 % of the loss of the {strand} rolls lies between '
         f"{band[0]:.3g} and {band[1]:.3g} Hz, its data cover {data[0]:.3g} to {data[1]:.3g} Hz "
-        "at {}: the series is extrapolated, its figures are none to design by",
+        "at {}: the series is extrapolated: not for design",
         (at, "temperature"),
     )
     ends = (

@@ -58,7 +58,9 @@ class AnalysisPlots:
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
-        return loop_plots.route_profile(conveyor, boundaries(self.analysis.line), system=self._in(system))
+        return loop_plots.route_profile(
+            conveyor, self.analysis.line, boundaries(self.analysis.line), system=self._in(system)
+        )
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""

@@ -46,7 +46,7 @@ ForceKind = Literal["main", "secondary", "special", "lift"]
 
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 _SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
-_CONTACT = "viscoelastic contact of every roll (docs/method.md)"
+_CONTACT = "viscoelastic contact of every roll (see Method)"
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Pat
     plots.save(plots.power_against_temperature(comparison), folder / "compare_power.png")
     carry = result.rubber.set_index("strand").loc["carry"]
     band = (carry["excited from [Hz]"], carry["excited to [Hz]"])
-    figure = plots.loss_tangents(comparison.compounds, 293.15, {"nine tenths of the carry rolls' loss": band})
+    figure = plots.loss_tangents(comparison.compounds, 293.15, {"90 % loss band of the carry rolls": band})
     plots.save(figure, folder / "tan_delta.png")
     s120 = fit_file(
         ROOT / "materials" / "s120.dma.csv",

@@ -71,7 +71,7 @@ def names(frame: pd.DataFrame | pd.Series) -> Sequence[str]:
 def missing(columns: Sequence[str]) -> set[str]:
     found = set()
     for column in columns:
-        match = re.fullmatch(r"(.*?)(?: \[(.*)\])?", column)
+        match = re.fullmatch(r"(.*?)(?:, FAILS: [^\[]*?)?(?: \[(.*)\])?", column)
         assert match is not None
         name = re.sub(r"motor power, [\d.]+ x friction", "motor power, … x friction", match[1])
         unit = match[2] or ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -48,7 +49,7 @@ def _columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Ca
     columns[_over("mean", power)] = lambda row: _number(power, row.motor)
     if any(row.low is not None for row in ranked.rows):
         columns[_over("90 % band", power)] = band
-    columns["change"] = lambda row: "" if row.change is None else f"{row.change:+.1%}"
+    columns["change"] = lambda row: "" if row.change is None else f"{100.0 * row.change:+.1f} %"
     columns[_over("peak", power)] = lambda row: _number(power, row.peak)
     columns[_over("at", warmth)] = lambda row: (
         "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
@@ -71,4 +72,6 @@ def _number(written: Unit, given: float | None) -> str:
     if given is None:
         return ""
     value = written.shown(given)
+    if math.isinf(value):
+        return written.written(given)
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"

@@ -49,10 +49,10 @@ def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
 def show(console: Console, notes: Sequence[str]) -> None:
     """Print notes as two short lists, their lines no wider than the terminal."""
     for heading, colour, listed in zip(
-        ("see to", "the figures rest on"), ("bold yellow", "bold"), ordered(notes), strict=True
+        ("action required", "basis and limitations"), ("bold yellow", "bold"), ordered(notes), strict=True
     ):
         if listed:
-            console.print(words(f"\nnote: {heading}", style=colour))
+            console.print(words(f"\n{heading}", style=colour))
         for note in listed:
             console.print(
                 words(textwrap.fill(note, console.width - 1, initial_indent="  - ", subsequent_indent="    "))

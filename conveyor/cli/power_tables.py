@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from conveyor.cli import notes
 from conveyor.cli.terminal import console, table, words, wrapped
 from conveyor.units.presentation import headed, unit
+from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -99,7 +100,7 @@ def _forces(contents: Contents) -> Grid:
     made.add_column("share", justify="right", no_wrap=True)
     made.add_column(f"classical, f = {sums['friction_factor'][1]:g}", justify="right", no_wrap=True)
     for name, value, other in rows:
-        share = f"{value / total:.1%}" if total else ""
+        share = percent(value / total, 1) if total else ""
         beside = "" if other is None else force.said(other)
         made.add_row(name, force.said(value), share, beside, end_section=name in {"flexure", "lift"})
     made.add_section()
@@ -171,7 +172,7 @@ def _checks(screen: Console, contents: Contents) -> None:
     said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
     screen.print(words(f"checks: {said}", style="bold"))
     made, cases = table(), "case" in [column.key for column in contents["checks"].columns]
-    for heading in ("criterion", "found, asked for", "margin", *(["case"] if cases else []), ""):
+    for heading in ("check", "calculated, required", "margin", *(["case"] if cases else []), ""):
         made.add_column(
             heading, justify="right" if heading == "margin" else "left", no_wrap=heading == "margin"
         )
@@ -187,7 +188,7 @@ def _states(states: Table, system: System) -> Grid:
     made = table("load states")
     figures = {
         "motor_power": "motor",
-        "largest_tension": "largest tension",
+        "largest_tension": "max. tension",
         "take_up_tension_asked_for": "take-up",
     }
     for heading in ("state", "sections loaded", "at", *figures.values()):
@@ -201,7 +202,7 @@ def _states(states: Table, system: System) -> Grid:
 
 
 def _cases(cases: Table, system: System) -> Grid:
-    made = table("load cases that govern")
+    made = table("governing load cases")
     for heading in ("figure", "value", "case", "at"):
         made.add_column(heading, justify="right" if heading == "value" else "left")
     get = {column.key: column.get for column in cases.columns}
@@ -231,6 +232,6 @@ def _ranges(screen: Console, contents: Contents) -> None:
     )
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
-    screen.print(words("\nranges of the inputs", style="bold"))
-    said = f"motor power {low} to {high} in nine tenths of the cases; what matters first: {first}"
+    screen.print(words("\nuncertainty", style="bold"))
+    said = f"motor power {low} to {high} (90 % interval); most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

@@ -21,6 +21,10 @@ class Report(Model):
     """For whom it is calculated."""
     engineer: Name | None = None
     """Who calculated it."""
+    reviewer: Name | None = None
+    """Who checked it."""
+    approval: Name | None = None
+    """Who approved it."""
     revision: Name | None = None
     """Revision of the document."""
     units: System = "SI"

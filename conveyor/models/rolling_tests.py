@@ -74,7 +74,7 @@ class RollingTest(Model):
     law: RollingLaw | None = None
     """A law instead of rows."""
     uncertainty: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
-    """Half-width that holds nine tenths of repeated tests; 10 % without it."""
+    """Half-width of the 90 % interval of repeated tests; 10 % without it."""
     note: str = ""
     """What of it is not printed but assumed."""
 

@@ -14,7 +14,7 @@ Share = Annotated[Fraction, Bounds(ge="0 %", lt="100 %")]
 
 
 class Uncertainty(Model):
-    """Ranges of inputs, each holding nine tenths of what may be; a share is of the value in the spec, up and down."""
+    """Ranges of inputs, each a 90 % interval; a share is of the value in the spec, up and down."""
 
     roll_drag: HalfWidth | None = None
     """Of the drag of all rolls, up and down ("30 %")."""

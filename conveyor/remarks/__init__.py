@@ -15,7 +15,7 @@ from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.remarks.rolls import roll_assumptions, roll_warnings
 from conveyor.units import text
-from conveyor.units.sentences import Said, quoted, said
+from conveyor.units.sentences import Said, figure, percent, quoted, said
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
@@ -29,7 +29,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "half-space": "the cover is endlessly thick",
     }[conveyor.calculation.support]
     return (
-        "Rubber is linearly viscoelastic at the strain its data were measured at; Poisson's ratio is constant.",
+        _rubber_law(conveyor),
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
         "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
         "at the default tolerance.",
@@ -37,9 +37,45 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "Bearings of the driven pulleys (at each drive's place the most wrapped, as many as it stands for) are in the "
         "drive's efficiency; tension changes the load of the rolls on "
         "vertical curves only.",
-        f"Covers are at {text(conveyor.ambient.belt)} throughout.",
+        f"Covers are at {figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
         *_energy(conveyor),
     )
+
+
+def method(found: CalculatedConveyor) -> tuple[str, ...]:
+    """How the figures of an analysis are calculated, for readers who have the report alone."""
+    tested = any(level is not None for level in (cover.level for cover in found.contacts.covers.values()))
+    scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
+    return (
+        "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "
+        "Lubricants 7 (2019), with its errata), solved for every distinct roll with the relaxation spectrum of the "
+        f"rubber at belt speed and temperature{scaled}; numerical error at most {found.error_estimate:.0e}.",
+        "Other resistances: DIN 22101 / ISO 5048, item by item; the source stands beside every force.",
+        "Tensions: all forces are summed round the loop in steady running, starting and stopping; the take-up is set "
+        "for the grip of the drives (Eytelwein) and the sag between idlers, in every load and state together.",
+        "Load states: all sections loaded or empty in the combination that is worst for each figure; minimum friction "
+        f"is {percent(found.conveyor.drive.certain_friction)} of the calculated one where that is less favourable.",
+        "Checks: calculated against required, of all loads the least margin; the source of a limit stands beside it.",
+    )
+
+
+def _rubber_law(conveyor: Conveyor) -> str:
+    softened = list(
+        dict.fromkeys(
+            compound.name
+            for compound in compounds_by_strand(conveyor).values()
+            if compound.strain_dependence is not None and conveyor.calculation.strain != "off"
+        )
+    )
+    at = "at the strain its data were measured at"
+    if softened:
+        rest = (
+            ""
+            if len(softened) == len({c.name for c in compounds_by_strand(conveyor).values()})
+            else f", else {at}"
+        )
+        at = f"at its working strain under the rolls ({', '.join(softened)}{rest})"
+    return f"Rubber is linearly viscoelastic {at}; Poisson's ratio is constant."
 
 
 def _energy(conveyor: Conveyor) -> Iterator[str]:
@@ -85,15 +121,13 @@ def _rubber(conveyor: Conveyor) -> Iterator[Said]:
     for strand, compound in compounds_by_strand(conveyor).items():
         name = quoted(compound.name)
         if compound.kind == "illustrative":
-            yield said(
-                f'compound "{name}" is illustrative, not measured: compare with it, do not design with it'
-            )
+            yield said(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
             yield said(
                 f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"'
             )
         if compound.missing and compound.kind == "measured":
-            yield said(f'compound "{name}": not known are {quoted("; ".join(compound.missing))}')
+            yield said(f'compound "{name}": unknown: {quoted("; ".join(compound.missing))}')
 
 
 def _strain(found: CalculatedConveyor) -> Iterator[Said]:
@@ -107,9 +141,9 @@ def _strain(found: CalculatedConveyor) -> Iterator[Said]:
         if worked is not None and factors is not None:
             note = f" ({quoted(known.reference_note)})" if known.reference_note else ""
             yield said(
-                f'compound "{name}": the {strand} rolls work it at {worked.strain:.2%} strain, '
-                f"{worked.frequency:.3g} Hz: E' taken {worked.storage_factor:.3f} and E'' {worked.loss_factor:.3f} "
-                f"times those at the master curve's {text(known.reference_strain)}{note}"
+                f'compound "{name}": working strain under the {strand} rolls {percent(worked.strain, 1)} at '
+                f"{worked.frequency:.3g} Hz: E' x {worked.storage_factor:.3g}, E'' x {worked.loss_factor:.3g} of "
+                f"the master curve at {text(known.reference_strain)}{note}"
             )
             if not factors.known_at(found.temperature):
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
@@ -135,8 +169,8 @@ def _level(found: CalculatedConveyor) -> Iterator[Said]:
             anchor = level.anchor
             beyond = "" if anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             yield said(
-                f'compound "{name}": indentation of the {strand} rolls taken {contacts.level_factor(strand):.2f} times '
-                f"the theory ({-math.expm1(-half):.0%} less to {math.expm1(half):.0%} more), the level of its "
+                f'compound "{name}": indentation of the {strand} rolls {contacts.level_factor(strand):.2f} times '
+                f"the theory ({percent(math.expm1(-half))} to +{percent(math.expm1(half))}), the level of its "
                 f"rolling-resistance tests{beyond}"
             )
         elif compound.tests:
@@ -146,7 +180,7 @@ def _level(found: CalculatedConveyor) -> Iterator[Said]:
             yield said(f'compound "{name}": {why}, its rolling-resistance tests are not used')
         else:
             yield said(
-                f'compound "{name}": level not anchored: published tests of low-resistance covers lie 2 to 2.5 times '
+                f'compound "{name}": level not tested: published tests of low-resistance covers lie 2 to 2.5 times '
                 "above tyre-type small-strain data; give the compound rolling-resistance tests"
             )
     if 0.0 < found.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
@@ -169,7 +203,7 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
     line = found.line
     if line.secondary == "itemised":
         if not line.pulleys:
-            yield said("route.pulleys not given: wraps and pulley bearings are not in the figures")
+            yield said("route.pulleys not given: wraps and pulley bearings not included")
         elif line.pulleys[0].assumed:
             yield said(
                 "route.pulleys not given: a head and a tail pulley of {} assumed, the least the carcass bears (general "
@@ -181,7 +215,7 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
                 "wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard"
             )
         if not line.loading and line.flow > 0.0:
-            yield said("route.feeding not given: acceleration of the bulk and skirts are not in the figures")
+            yield said("route.feeding not given: acceleration of the material and skirts not included")
     if line.loading and line.loading[0].assumed:
         yield said(
             "route.feeding not given: bulk that lands at rest, skirts of {}, {} apart, assumed as in the worked "
@@ -190,7 +224,7 @@ def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
             (line.loading[0].skirt_width, "thickness"),
         )
     if not line.scrapers:
-        yield said("route.cleaners not given: no cleaner in the figures")
+        yield said("route.cleaners not given: cleaners not included")
     elif line.scrapers[0].assumed:
         yield said(
             f"route.cleaners not given: {line.scrapers[0].count} as wide as the belt assumed, pressed as in the worked "
@@ -202,7 +236,7 @@ def _trippers(line: Line) -> Iterator[Said]:
     for point in line.loading:
         if point.lift == 0.0:
             yield said(
-                f"tripper at the {quoted(point.place)}: tripper_lift not given or 0: no lift of its bulk in the figures"
+                f"tripper at the {quoted(point.place)}: tripper_lift not given or 0: lift of its material not included"
             )
 
 
@@ -213,8 +247,7 @@ def _calibration(conveyor: Conveyor) -> Iterator[Said]:
     factors = ", ".join(f"{name.replace('_', ' ')} x {value:g}" for name, value in given.factors.items())
     source = "no source given" if given.source is None else quoted(given.source)
     yield said(
-        f"calculation.calibration: {factors} ({source}) in forces, tensions and power; figures of single rolls are "
-        "without it"
+        f"calculation.calibration: {factors} ({source}) in forces, tensions and power, not in figures of single rolls"
     )
 
 
@@ -224,7 +257,7 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
         given = "least_friction" in drive.model_fields_set
         source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
         yield said(
-            f"drive force {{}} where only {drive.certain_friction:.0%} of the friction is certain "
+            f"drive force {{}} where only {percent(drive.certain_friction)} of the friction is certain "
             f"(drive.least_friction{source}), {{}} as computed; grip and brakes are for the former",
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),

@@ -13,7 +13,7 @@ from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
 from conveyor.line.contacts import Contacts, RollResult
-from conveyor.report.plots import colour, grouped, master_curve, plain, stacked, titled
+from conveyor.report.plots import colour, grouped, keyed, master_curve, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -42,7 +42,7 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     force = unit("force", system, large=True)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
-        (f"classical, f = {found.classical.friction_factor:g}", found.classical)
+        (f"ISO 5048 / DIN 22101, f = {found.classical.friction_factor:g}", found.classical)
     ]
     if found.cema is not None:
         estimates.append(("CEMA classic, given Ky", found.cema))
@@ -80,7 +80,7 @@ def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
     axis.grid(visible=False, axis="y")
     axis.set(xlabel=force.beside("force"), title="Resistances")
     grouped(axis.xaxis)
-    axis.legend(fontsize=8)
+    keyed(axis)
     return figure
 
 
@@ -138,7 +138,7 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
     )
     axis.margins(y=0.4)  # room for the legend above the curves
     axis.set_ylim(bottom=0.0)
-    axis.legend(fontsize=8)
+    keyed(axis)
     return figure
 
 
@@ -167,10 +167,10 @@ def rubber_at_work(
                 hatch=_HATCH[k + 1][:2],
                 edgecolor=_BAND_LINES,
                 linewidth=0,
-                label=f"{strand} rolls: nine tenths of their loss",
+                label=f"{strand} rolls: 90 % loss band",
             )
     below = figure.axes[-1]
-    below.legend(fontsize=8)
+    keyed(below)
     return figure
 
 
@@ -241,17 +241,17 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
     beyond = [result for result in found if not result.covered]
     if beyond:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
-        label = "beyond the rubber's data: not to design by"
+        label = "beyond the rubber data: not for design"
         axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     grouped(axis.yaxis)
     return figure
 
 
 def _shaded(study: CalculatedCases) -> str:
     low, high = study.friction_band
-    return f"shaded: friction {low:g} to {high:g} of the computed one"
+    return f"shaded: friction factor {low:g}-{high:g}"
 
 
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
@@ -278,5 +278,5 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     axis.grid(visible=False, axis="y")
     axis.set_xlabel(power.beside("change of the motor power"))
     titled(figure, study.conveyor.name)
-    axis.legend(fontsize=8)
+    keyed(axis)
     return figure

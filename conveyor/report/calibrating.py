@@ -40,7 +40,7 @@ def factors(found: CalculatedCalibration) -> Table:
     )
     held = ", ".join(name.replace("_", " ") for name in found.held)
     note = f"held at 1: {held}" if held else ""
-    return Table("factors", SHEET, "Factors, nine tenths within 5 to 95 %", columns, found.factors, note=note)
+    return Table("factors", SHEET, "Factors with their 90 % interval", columns, found.factors, note=note)
 
 
 def runs(found: CalculatedCalibration) -> Table:

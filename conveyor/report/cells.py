@@ -19,7 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.printable import printable
 from conveyor.report.columns import NAMED, OF_ROW, Table
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import NEVER, unit
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)
@@ -110,9 +110,11 @@ def table(
     widest : int
         Width at which a column of long text stops growing [characters].
     """
-    names = [shown.name(each, system) for each in shown.columns]
+    names = [shown.head(each, system) for each in shown.columns]
     for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
-        values = [_worded(value) for value in shown.cells(each, system)]
+        values = [
+            _worded(value, NEVER if each.kind == "years" else INFINITE) for value in shown.cells(each, system)
+        ]
         number = each.kind == OF_ROW or (each.kind != NAMED and unit(each.kind, system).label is not None)
         text = not number and all(v is None or isinstance(v, str) for v in values)
         _head(sheet.cell(row, j), name, right=not text)
@@ -201,16 +203,20 @@ def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
 def _ask(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
     """Mark cells that the reader is to fill in."""
     for i in range(at[0], at[0] + count):
-        cell = sheet.cell(i, at[1])
-        cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
+        ask(sheet.cell(i, at[1]))
 
 
-def _worded(value: Any) -> Any:
+def ask(cell: Cell | MergedCell) -> None:
+    """Mark a cell that the reader may fill in or change."""
+    cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
+
+
+def _worded(value: Any, infinite: str = INFINITE) -> Any:
     """Yes and no in words, infinity as its sign, nothing for what is not known; all else as it is."""
     if isinstance(value, bool):
         return "yes" if value else "NO"
     if isinstance(value, float):
-        return None if math.isnan(value) else value if math.isfinite(value) else INFINITE
+        return None if math.isnan(value) else value if math.isfinite(value) else infinite
     return value
 
 
@@ -260,14 +266,16 @@ def total(sheet: Worksheet, row: int, shown: Table, system: System) -> None:
         cell.border = TOTAL
 
 
-def print_set_up(sheet: Worksheet, name: str, *, paper: str = "A4", portrait: bool = False) -> None:
-    """Fitted to the width of the paper, and to one page where it stays legible; the project's name above."""
+def print_set_up(
+    sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False
+) -> None:
+    """Fitted to the width of the paper, and to one page where its rows stay legible; the project's name above."""
     sheet.page_setup.orientation = "portrait" if portrait else "landscape"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = 1
     if sheet.page_setup.fitToHeight is None:
         sheet.page_setup.fitToHeight = int(
-            sheet.max_row <= _PAGE_ROWS[sheet.page_setup.orientation]
+            last <= _PAGE_ROWS[sheet.page_setup.orientation]
         )  # 0: as many as it takes
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins

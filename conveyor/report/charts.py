@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from openpyxl.chart import BarChart, Reference, ScatterChart, Series
+from openpyxl.chart import BarChart, LineChart, Reference, ScatterChart, Series
+from openpyxl.chart.axis import ChartLines
 from openpyxl.chart.legend import Legend
 from openpyxl.chart.shapes import GraphicalProperties
 from openpyxl.chart.text import RichText, Text
@@ -16,16 +17,16 @@ from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphPrope
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import ACCENT, legible
-from conveyor.report.columns import Table
+from conveyor.report.columns import FAILS, Table
 from conveyor.report.places import TablePlace
 from conveyor.units import System
-from conveyor.units.presentation import headed
+from conveyor.units.presentation import spelled
 
-_WIDTH, _HEIGHT = 17.0, 9.0  # [cm]
+_WIDTH, _HEIGHT, _WIDE = 17.0, 9.0, 24.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
-MOST_CURVES = 12
-"""Curves that one chart of load curves shows legibly."""
+_RED = "B3261E"
+_SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
 
@@ -81,6 +82,31 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     return chart
 
 
+def differences(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
+    """Dots of the difference to the base, a compound each, with the band between its ends where there is one."""
+    chart = LineChart()
+    _dress(chart, title, "", "difference")
+    for key, symbol, size in (
+        ("motor_power_against_base", "circle", 9),
+        ("difference_low", "dash", 7),
+        ("difference_high", "dash", 7),
+    ):
+        if key in place.keys:
+            values = Reference(sheet, min_col=place.column(key), min_row=place.header, max_row=last)
+            series = Series(values, title_from_data=True)
+            series.marker.symbol, series.marker.size = symbol, size
+            series.marker.graphicalProperties = GraphicalProperties(solidFill=ACCENT)
+            series.graphicalProperties.line.noFill = True
+            series.smooth = False
+            chart.series.append(series)
+    chart.set_categories(Reference(sheet, min_col=1, min_row=place.header + 1, max_row=last))
+    chart.hiLowLines = ChartLines()
+    chart.legend = None
+    chart.x_axis.tickLblPos = "low"
+    chart.y_axis.number_format = "0 %"
+    return chart
+
+
 def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, system: System) -> ScatterChart:
     """Motor power of compounds (all columns but the first) over temperature; the speed is the table's note.
 
@@ -92,7 +118,7 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
         "temperature",
         place.keys[1:],
         title=f"Motor power at {shown.note}",
-        words=(f"belt {_head(sheet, place.header, 1)}", headed("motor power", "power", system)),
+        words=(f"belt {_head(sheet, place.header, 1)}", spelled("motor power", "power", system)),
     )
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
     chart.x_axis.tickLblPos = "low"
@@ -105,58 +131,47 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
     return chart
 
 
-def tension(sheet: Worksheet, place: TablePlace) -> ScatterChart:
-    """Tension and least tension for sag against the way round the loop."""
-    chart = _curves(
-        sheet, place, "distance_from_drive", ("tension", "least_for_sag"), title="Tension round the loop"
+def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
+    """Tension in every state, and the least for the sag, against the way round the loop; a state that fails in red."""
+    states = [key for key in place.keys[1:] if key != "distance_from_head"]
+    title = "Tension round the loop, from the head along the return strand and back"
+    words = (
+        _head(sheet, place.header, place.column("distance_from_head")),
+        spelled("tension", "force", system),
     )
+    chart = _curves(sheet, place, "distance_from_head", states, title=title, words=words)
+    for series, key in zip(chart.series, states, strict=True):
+        if FAILS in _head(sheet, place.header, place.column(key)):
+            line = series.graphicalProperties.line
+            line.solidFill, line.dashStyle, line.width = _RED, "solid", 2 * _LINE_WIDTH
     chart.x_axis.number_format = chart.y_axis.number_format = "#,##0"
+    chart.x_axis.tickLblPos = "low"
     chart.x_axis.scaling.min = 0.0
+    sized(chart, _WIDE)
     return chart
 
 
 def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
-    """Height over the horizontal distance from the tail."""
-    words = tuple(headed(name, "length", system) for name in ("horizontal distance from the tail", "height"))
-    chart = _curves(sheet, place, "horizontal", ("height",), title="Profile of the route", words=words)
-    chart.legend = None
+    """Height over the horizontal distance from the tail, with what stands along the route."""
+    words = tuple(spelled(name, "length", system) for name in ("horizontal distance from the tail", "height"))
+    first = place.keys.index("height")
+    what = place.keys[first:]
+    chart = _curves(sheet, place, "horizontal", what, title="Profile of the route", words=words)
+    for series, symbol in zip(chart.series[1:], _SYMBOLS, strict=False):
+        ink = series.graphicalProperties.line.solidFill
+        series.graphicalProperties.line.noFill = True
+        series.graphicalProperties.line.solidFill = None
+        series.marker.symbol, series.marker.size = symbol, 9
+        series.marker.graphicalProperties = GraphicalProperties(noFill=True, ln=LineProperties(solidFill=ink))
     chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "#,##0"
     chart.x_axis.tickLblPos = "low"
     chart.y_axis.crosses = "min"
     return chart
 
 
-def indentation(sheet: Worksheet, shown: Table, place: TablePlace) -> ScatterChart:
-    """Indentation against line load, a curve for each of the first blocks of rows with one label."""
-    across, up = place.column("line_load"), place.column("indentation")
-    chart = _scatter(
-        "Indentation against line load", _head(sheet, place.header, across), _head(sheet, place.header, up)
-    )
-    ends = [
-        i
-        for i, row in enumerate(shown.rows)
-        if shown.rows[i + 1 : i + 2] == () or _ends(row, shown.rows[i + 1])
-    ]
-    first = place.header + 1
-    for end in ends[:MOST_CURVES]:
-        last = place.header + 1 + end
-        loads = Reference(sheet, min_col=across, min_row=first, max_row=last)
-        label = legible(shown.rows[end][0])
-        _line(chart, Reference(sheet, min_col=up, min_row=first, max_row=last), loads, label)
-        first = last + 1
-    chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "General"
-    chart.x_axis.scaling.min = chart.y_axis.scaling.min = 0.0
-    return chart
-
-
-def _ends(row: Any, following: Any) -> bool:
-    """Whether a block of a table of curves ends with a row: another label follows, or a smaller load."""
-    return bool(row[0] != following[0] or row[1] > following[1])
-
-
 def moduli(sheet: Worksheet, name: str, place: TablePlace, system: System) -> ScatterChart:
     """E' and E'' against frequency, both axes logarithmic."""
-    words = headed("frequency", "frequency", system), headed("modulus", "pressure", system)
+    words = spelled("frequency", "frequency", system), spelled("modulus", "pressure", system)
     chart = _curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"

@@ -16,8 +16,10 @@ import pandas as pd
 
 from conveyor.models.report import Paper
 from conveyor.units import System
-from conveyor.units.presentation import Unit, headed, unit
+from conveyor.units.presentation import Unit, headed, spelled, unit
 
+FAILS: Final = "FAILS"
+"""In the name of a state of motion whose tensions are not to be had."""
 OF_ROW: Final = "of row"
 """Kind of a column whose values have the kind of their row's figure."""
 CHECKS_AND_NOTES: Final = "Checks and notes"
@@ -91,13 +93,15 @@ class Figure:
     value : float, str, tuple or None
         SI; several where the table has several columns of values; None where it is not known.
     on : str
-        Where it is shown beside its table, words of: tile (page), large, cover, notebook.
+        Where it is shown beside its table, words of: tile (page), large (cover), notebook; input: to be changed.
     json : str
         Path in `to_dict`, with points; left out there without.
     key : str
         Name that others link to it by; without it made of the label.
     us : str
         Symbol that US reports call it by, behind the label.
+    formula : str
+        What the workbook calculates it by, of names of figures; its value stands beside.
     """
 
     label: str
@@ -107,6 +111,7 @@ class Figure:
     json: str = ""
     key: str = ""
     us: str = ""
+    formula: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
@@ -122,11 +127,12 @@ class Figure:
 
 @dataclass(frozen=True)
 class OnPage:
-    """A table's place on the page: part, caption, and the name of its columns there where not all stand in it."""
+    """A table's place on the page: part, caption, its columns' name where not all stand in it; whether paper has it."""
 
     part: str
     caption: str
     view: str = ""
+    printed: bool = True
 
 
 @dataclass(frozen=True)
@@ -142,7 +148,7 @@ class Table:
     heading : str
         Words above it.
     columns : tuple of Column
-        What stands in it.
+        What stands in it; those that the page leaves out come last, and paper leaves them out too.
     rows : sequence
         What columns get their values of.
     page : tuple of OnPage
@@ -155,6 +161,8 @@ class Table:
         Leading columns that name the row.
     links : bool
         Whether its rows are figures that others link to.
+    printed : bool
+        Whether its sheet prints it; else it stands below what is printed.
     """
 
     key: str
@@ -167,12 +175,14 @@ class Table:
     foot: str = ""
     named: int = 1
     links: bool = False
+    printed: bool = True
 
     def __post_init__(self) -> None:
         kept = tuple(
             c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows)
         )
-        object.__setattr__(self, "columns", kept)
+        shown_first = tuple(sorted(kept, key=lambda column: column.page is None))
+        object.__setattr__(self, "columns", shown_first)
 
     @property
     def empty(self) -> bool:
@@ -210,6 +220,10 @@ class Table:
         """Name of a column with its unit."""
         return column.label if column.kind in {OF_ROW, NAMED} else headed(column.label, column.kind, system)
 
+    def head(self, column: Column, system: System) -> str:
+        """Name of a column as people read it."""
+        return column.label if column.kind in {OF_ROW, NAMED} else spelled(column.label, column.kind, system)
+
     def unit(self, column: Column, row: Any, system: System) -> Unit:
         """How a cell is written."""
         return unit(
@@ -243,14 +257,13 @@ class Table:
         return pd.Series(dict(zip(names, self.cells(self.columns[1], system), strict=True)), name=name)
 
     def records(self) -> list[dict[str, Any]]:
-        """Rows as plain SI data under the names of the columns; figures beside their units."""
+        """Rows as plain SI data under the names of the columns, or what JSON calls them; figures beside their units."""
         cells: dict[str, list[Any]] = {}
         for column in self.columns:
             if column.sheet:
                 named = column.kind == NAMED
-                cells[self.name(column, "SI")] = (
-                    [row.label for row in self.rows] if named else self.cells(column, "SI")
-                )
+                name = self.name(replace(column, label=column.json or column.label), "SI")
+                cells[name] = [row.label for row in self.rows] if named else self.cells(column, "SI")
             if column.kind == OF_ROW:
                 cells["unit"] = [row.unit("SI").label for row in self.rows]
         return [{name: _known(values[i]) for name, values in cells.items()} for i in range(len(self.rows))]
@@ -262,7 +275,7 @@ class Table:
 
 
 def _known(value: Any) -> Any:
-    return None if isinstance(value, float) and math.isnan(value) else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def figures(
@@ -304,8 +317,6 @@ class ReportHead:
         The spec's SHA-256.
     paper : str
         To print on.
-    own_speed : float
-        Of its belt [m/s].
     facts : tuple of (str, str)
         What stands below the title.
     """
@@ -315,7 +326,6 @@ class ReportHead:
     said: dict[str, str]
     fingerprint: str
     paper: Paper
-    own_speed: float
     facts: tuple[tuple[str, str], ...] = ()
 
     @property

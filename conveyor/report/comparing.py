@@ -154,15 +154,25 @@ class Ranked:
         return None if not self.motor or not self.base else self.motor / self.base - 1.0
 
     @property
+    def band(self) -> tuple[float | None, float | None]:
+        """Ends of the band of its power against the base's [-]."""
+        if not self.base:
+            return None, None
+        low, high = (None if end is None else end / self.base - 1.0 for end in (self.low, self.high))
+        return low, high
+
+    @property
     def saving(self) -> float | None:
         """Cost of the base less its own [currency a year]."""
         return None if self.cost is None or self.before is None else self.before - self.cost
 
     @property
     def payback(self) -> float | None:
-        """Extra cost over saving [a]; None where nothing is saved."""
+        """Extra cost over saving [a]; never, infinite, where nothing is saved; None where either is not known."""
         saved = self.saving
-        return None if self.extra is None or saved is None or saved <= 0.0 else self.extra / saved
+        if self.extra is None or saved is None:
+            return None
+        return self.extra / saved if saved > 0.0 else math.inf
 
 
 def ranking(comparison: CalculatedComparison) -> Table:
@@ -181,7 +191,16 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("mean motor power", "power", attrgetter("motor"), sparse=True),
         Column("mean motor power, low", "power", attrgetter("low"), sparse=True),
         Column("mean motor power, high", "power", attrgetter("high"), sparse=True),
-        Column("motor power against base", "share", attrgetter("change"), sparse=True),
+        Column(
+            "difference to base",
+            "share",
+            attrgetter("change"),
+            json="motor power against base",
+            sparse=True,
+            key="motor_power_against_base",
+        ),
+        Column("difference, low", "share", lambda row: row.band[0], sparse=True),
+        Column("difference, high", "share", lambda row: row.band[1], sparse=True),
         Column("peak motor power", "power", attrgetter("peak"), sparse=True),
         Column("at temperature", "temperature", attrgetter("temperature"), sparse=True),
         Column("energy per year", "energy", lambda row: _joule(row.energy), sparse=True),
@@ -192,8 +211,8 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("not compared", "text", attrgetter("why"), sparse=True),
     )
     heading, page = (
-        "Ranking, the least mean power of each speed first",
-        (OnPage("ranking", "The least mean power first"),),
+        "Ranking by mean motor power, lowest first at each speed",
+        (OnPage("ranking", "Ranking by mean motor power, lowest first"),),
     )
     return Table("ranking", "Ranking", heading, columns, rows, page)
 
@@ -287,9 +306,9 @@ def coverage(comparison: CalculatedComparison) -> Table:
         *bands(attrgetter("excited"), lambda row: row.data or (None, None)),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
-    heading = "Frequencies that hold nine tenths of the loss, against the compounds' data"
-    page = (OnPage("coverage", "What the rolls excite, and what the data hold"),)
-    note = "NO in the last column: the rolls ask for frequencies beyond the data."
+    heading = "90 % loss band of the rolls against the data of the compounds"
+    page = (OnPage("coverage", "Excitation band of the rolls, and range of the data"),)
+    note = "NO: the excitation band reaches beyond the data."
     return Table("coverage", "Coverage", heading, columns, comparison.coverage, page, note)
 
 
@@ -332,7 +351,7 @@ def compounds(comparison: CalculatedComparison) -> Table:
         Column("strain", "text", lambda compound: compound.strain or "not stated"),
         Column("origin", "text", attrgetter("source.origin")),
         Column("licence", "text", attrgetter("source.licence")),
-        Column("not known", "text", lambda c: "; ".join(c.missing) or "nothing listed"),
+        Column("unknown", "text", lambda c: "; ".join(c.missing) or "nothing listed"),
     )
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 
@@ -348,6 +367,15 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
     """The figures of the page."""
     if not comparison.scenes:
         return
+    ranked = [row for row in ranking(comparison).rows if row.change is not None]
+    if len(ranked) > 1:
+        shown = [(_named(row, comparison, system), row.change, row.band) for row in ranked]
+        yield Drawing(
+            "differences",
+            f"Difference of the mean motor power to {comparison.base}, with the 90 % band where it is known.",
+            lambda: plots.differences(shown, comparison.base),
+            "ranking",
+        )
     speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
     if len({scene.temperature for scene in comparison.scenes}) > 1:
         at = unit("speed", system).brief(plots.drawn_speed(comparison))
@@ -369,10 +397,16 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         )
     yield Drawing(
         "tangents",
-        "Loss tangents, dotted beyond the data; shaded: what the rolls excite.",
+        "Loss tangents, dotted beyond the data; shaded: 90 % loss band of the rolls.",
         lambda: plots.compared_loss_tangents(comparison, system=system),
         "loss-tangents",
     )
+
+
+def _named(row: Ranked, comparison: CalculatedComparison, system: System) -> str:
+    """A compound, with its speed where there are several."""
+    several = len({scene.speed for scene in comparison.scenes}) > 1
+    return f"{row.compound}, {unit('speed', system).brief(row.speed)}" if several else row.compound
 
 
 def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
@@ -468,7 +502,7 @@ def turned(comparison: CalculatedComparison) -> list[str]:
             by_order: dict[tuple[str, ...], list[float]] = {}
             for warmth, row in shared.items():
                 by_order.setdefault(tuple(s.compound for s in row), []).append(celsius(warmth))
-            orders = (f"{_listed(warm)} degC: {' < '.join(order)}" for order, warm in by_order.items())
+            orders = (f"{_listed(warm)} °C: {' < '.join(order)}" for order, warm in by_order.items())
             lines.append(
                 f"the ranking turns with the temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
             )

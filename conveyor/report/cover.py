@@ -1,20 +1,20 @@
-"""The workbook's cover: one printed page of what a conveyor is, what it needs, and what it was checked for."""
+"""The workbook's first page: whether the conveyor stands, what governs it, what it is, what it was checked for."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from datetime import date
 from importlib.metadata import version
 from typing import Any, Final
 
-from openpyxl.styles import Alignment, Border, Side
+from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
 from conveyor.report.cells import (
     ACCENT,
-    BOLD,
     FIGURE,
     GREY,
     HEADING,
@@ -25,36 +25,48 @@ from conveyor.report.cells import (
     Look,
     header_row,
     put,
-    table,
 )
-from conveyor.report.columns import CHECKS_AND_NOTES, Figure, ReportHead, Table
-from conveyor.report.places import Page
-from conveyor.units.presentation import headed, unit
+from conveyor.report.columns import CHECKS_AND_NOTES, Figure, ReportHead
+from conveyor.report.places import Page, TablePlace
+from conveyor.units.presentation import Unit, spelled, unit
+from conveyor.units.sentences import DIGITS
 
 _COLUMNS: Final = "ABCDEFG"
-_WIDTHS: Final = {"A": 31, "B": 15, "C": 2, "D": 35, "E": 17, "F": 19, "G": 17}
-_FIRST: Final = ("power", "force")
-"""Kinds of figures in their order below "Tensions and power"; others follow."""
+_WIDTHS: Final = {"A": 31, "B": 18, "C": 2, "D": 33, "E": 17, "F": 25, "G": 17}
 _CHART_ROWS: Final = 14
-_HALF, _WHOLE_WIDTH, _CHART_HEIGHT = 9.2, 26.0, 7.2  # [cm]
-_SMALL, _LARGE = 10.0, 1e4  # below, one decimal is too few; beyond, a figure in large type needs none
+_CHART_WIDTHS, _CHART_HEIGHT = (11.0, 20.4), 6.4  # [cm]
 _RULE: Final = Border(bottom=Side(style="thin", color=ACCENT))
 _HAIR: Final = Border(bottom=Side(style="hair", color="A6A6A6"))
+_SIGNED: Final = ("engineer", "reviewer", "approval")
+_STANDS = Look(
+    Font(name="Calibri", size=12, bold=True, color="1E6B34"), PatternFill("solid", fgColor="E2F0E5")
+)
+_FAILS = Look(
+    Font(name="Calibri", size=12, bold=True, color="9B1C1C"), PatternFill("solid", fgColor="FDEBEB")
+)
 _ROW: Final = 15.0  # [pt]
 _GAP: Final = 7.0  # [pt]
+_LINE: Final = 118
+"""Characters of the verdict on one line."""
 
 
-def summary(page: Page) -> None:
-    """Head, what the conveyor is, key figures, tensions and power, breakdown, governing cases, checks."""
+def summary(page: Page, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:
+    """Head, verdict, what governs, the conveyor, figures as given, profile and resistances, checks.
+
+    `places` has the tables of the other sheets, for the charts.
+    """
     sheet = page.sheet
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
-    row = _head(sheet, page.contents.document)
+    row = _verdict(page, _head(sheet, page.contents.document))
+    row = _governing(page, row)
     row = _facts(page, row)
-    row = _left_open(page, _tiles(page, row))
-    row = _figures(page, row)
-    row = _picture(page, row)
-    _checked(page, row)
+    row = _tiles(page, row)
+    row = _pictures(page, row, places)
+    row = _checked(page, row)
+    hidden = [each.title for each in sheet.parent or () if each.sheet_state == "hidden"]
+    if hidden:
+        put(sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY)
     sheet.page_setup.fitToHeight = 1
     sheet.print_options.horizontalCentered = True
 
@@ -72,18 +84,54 @@ def _gap(sheet: Worksheet, row: int) -> int:
 
 
 def _head(sheet: Worksheet, about: ReportHead) -> int:
+    """Title and document block; who calculated, checked and approved it, or room to sign."""
     put(sheet["A1"], about.title, TITLE)
     sheet.row_dimensions[1].height = 24.0
     made = f"conveyor {version('conveyor')}, spec {about.fingerprint[:16]}"
     put(sheet["A2"], f"Power and tensions of a belt conveyor; {made}", GREY)
+    facts: list[tuple[str, Any]] = [(n, v) for n, v in about.said.items() if n not in _SIGNED]
+    facts += [("date", date.today()), *((name, about.said.get(name)) for name in _SIGNED)]
     row = 3
-    facts: list[tuple[str, Any]] = [*about.said.items(), ("date", date.today())]
     for k, (name, value) in enumerate(facts):
         row, column = 3 + k // 2, 1 + 3 * (k % 2)
         put(sheet.cell(row, column), name, GREY)
         put(sheet.cell(row, column + 1), value)
         sheet.cell(row, column + 1).alignment = Alignment(horizontal="left")
+        if name in _SIGNED:
+            for j in range(column + 1, 3 if column == 1 else 7):
+                sheet.cell(row, j).border = _HAIR
     return _gap(sheet, row + 1)
+
+
+def _across(sheet: Worksheet, row: int, words: str) -> None:
+    """Write words across the page, on as many lines as they take."""
+    put(sheet.cell(row, 1), words)
+    sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=len(_COLUMNS))
+    sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center", indent=1)
+    sheet.row_dimensions[row].height = (_ROW + 1.5) * (1 + len(words) // _LINE)
+
+
+def _verdict(page: Page, row: int) -> int:
+    """The verdict in a sentence, green or red."""
+    _across(page.sheet, row, page.contents["governing_figures"].note)
+    failed = any(check.verdict == "FAIL" for check in page.contents["checks"].rows)
+    cell, look = page.sheet.cell(row, 1), _FAILS if failed else _STANDS
+    cell.font, cell.fill = look.font, look.fill
+    return _gap(page.sheet, row + 1)
+
+
+def _governing(page: Page, row: int) -> int:
+    """What governs: figure, value, where and when."""
+    sheet, part = page.sheet, page.contents["governing_figures"]
+    _rule(sheet, row, part.heading)
+    for i, line in enumerate(part.rows, start=row + 1):
+        put(sheet.cell(i, 1), line.subject)
+        put(sheet.cell(i, 2), line.value)
+        put(sheet.cell(i, 4), line.where, GREY)
+        for j in range(1, 8):
+            sheet.cell(i, j).border = _HAIR
+            sheet.cell(i, j).alignment = Alignment(horizontal="left")
+    return _gap(sheet, row + 1 + len(part.rows))
 
 
 def _facts(page: Page, row: int) -> int:
@@ -94,152 +142,89 @@ def _facts(page: Page, row: int) -> int:
     for column, figures in zip((1, 4), sides, strict=True):
         for i, figure in enumerate(figures, start=row + 1):
             written = figure.unit(system)
-            shown = headed(figure.called(system), figure.kind, system), written.shown(figure.value)
-            _line(sheet, (i, column), *shown, written.pattern)
+            put(sheet.cell(i, column), spelled(figure.called(system), figure.kind, system))
+            put(sheet.cell(i, column + 1), *_three(figure, written))
+            for j in range(column, 3 if column == 1 else 8):
+                sheet.cell(i, j).border = _HAIR
+            if figure.kind == "text":
+                sheet.cell(i, column + 1).alignment = Alignment(horizontal="left")
     return _gap(sheet, row + 1 + max(map(len, sides)))
 
 
-def _line(
-    sheet: Worksheet, place: tuple[int, int], label: str, value: float | str, shown: str | None = None
-) -> None:
-    """One fact: its name and its value, over a thin line."""
-    row, column = place
-    put(sheet.cell(row, column), label)
-    put(sheet.cell(row, column + 1), value, None, shown)
-    if isinstance(value, str):
-        sheet.cell(row, column + 1).alignment = Alignment(horizontal="left", shrink_to_fit=False)
-    for j in range(column, 3 if column == 1 else 8):
-        sheet.cell(row, j).border = _HAIR
+def _three(figure: Figure, written: Unit, font: Any = None) -> tuple[Any, Any, str | None]:
+    """Value to as many digits as are known, font and number format; figures as given stand as they are."""
+    value = written.shown(figure.value)
+    if not isinstance(value, float) or written.digits.endswith("%"):
+        return value, font, None if isinstance(value, str) else written.pattern
+    digits = DIGITS if figure.on else DIGITS + 1
+    short = float(f"{value:.{digits}g}")
+    decimals = max(0, len(f"{short:.9f}".rstrip("0").partition(".")[2]))
+    return short, font, "#,##0" + ("." + "0" * decimals if decimals else "")
 
 
 def _tiles(page: Page, row: int) -> int:
-    """Key figures, large, each under its name."""
+    """Key figures as given, large, each under its name."""
     sheet, system = page.sheet, page.contents.system
     for letter in _COLUMNS:
         sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
     for letter, figure in zip("ABDEFG", page.contents.marked("large"), strict=False):
         caption, cell = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
-        put(
-            caption,
-            headed(figure.called(system).replace(" of main resistance", ""), figure.kind, system),
-            GREY,
-        )
-        put(cell, *_shown(figure, page, FIGURE, large="#,##0"))
+        written = unit(figure.kind, system, large=True)
+        name = figure.called(system).replace(" of main resistance", "")
+        put(caption, f"as given: {written.beside(name) if written.sign else name}", GREY)
+        put(cell, *_three(figure, written, FIGURE))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
         cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
     sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
-    return _gap(sheet, row + 2)
+    row += 2
+    if "defaults" in page.contents:
+        _across(sheet, row, page.contents["defaults"].note)
+        row += 1
+    return _gap(sheet, row)
 
 
-def _left_open(page: Page, row: int) -> int:
-    """The range of power that defaults leave open, and which to replace first."""
-    if "defaults" not in page.contents:
-        return row
-    put(page.sheet.cell(row, 1), page.contents["defaults"].note)
-    page.sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=len(_COLUMNS))
-    page.sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center")
-    page.sheet.row_dimensions[row].height = 2.0 * _ROW
-    return _gap(page.sheet, row + 1)
+def _pictures(page: Page, row: int, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> int:
+    """Resistances as bars, and the profile with what stands along it."""
+    made: list[Any] = []
+    if "breakdown" in places:
+        of, place = places["breakdown"]
+        rows, at = (place.header, place.last), place.first_column
+        made.append(charts.bars(of, "Resistances as given", rows, label=at, value=place.column("force")))
+    if "profile" in places:
+        of, place = places["profile"]
+        made.append(charts.profile(of, place, page.contents.system))
+    for chart, letter, width in zip(made, "AD", _CHART_WIDTHS, strict=False):
+        charts.sized(chart, width, _CHART_HEIGHT)
+        page.sheet.add_chart(chart, f"{letter}{row}")
+    return _gap(page.sheet, row + (_CHART_ROWS if made else 0))
 
 
-def _shown(figure: Figure, page: Page, font: Any = None, *, large: str = "#,##0.0") -> tuple[Any, Any, str]:
-    """Value, font and number format of a figure; small ones with more digits, large ones with as many as asked for."""
-    written = figure.unit(page.contents.system)
-    value, pattern = written.shown(figure.value), written.pattern
-    if pattern == "#,##0.0":
-        pattern = large if abs(value) >= _LARGE else "0.000" if abs(value) < _SMALL else pattern
-    return value, font, pattern
-
-
-def _figures(page: Page, row: int) -> int:
-    """Tensions and power on the left; breakdown and the classical estimate on the right."""
-    sheet, contents = page.sheet, page.contents
-    _rule(sheet, row, "Tensions and power", 1, 2)
-    rank = {kind: i for i, kind in enumerate(_FIRST)}
-    ordered = sorted(contents.marked("cover"), key=lambda figure: rank.get(figure.kind, len(rank)))
-    i = row
-    for i, figure in enumerate(ordered, start=row + 1):
-        label = (
-            f"take-up {figure.label}" if figure.key.startswith("take_up") else figure.called(contents.system)
-        )
-        value, _, pattern = _shown(figure, page)
-        name = headed(label.replace(" of the contacts", ""), figure.kind, contents.system)
-        _line(sheet, (i, 1), name, value, pattern)
-        if i == row + 1:
-            sheet.cell(i, 1).font = sheet.cell(i, 2).font = BOLD
-    _rule(sheet, row, "Resistances", 4)
-    last = _placed(page, "breakdown", row + 1)
-    part = contents["classical"]
-    put(sheet.cell(last + 1, 4), "Beside the classical estimate", BOLD)
-    last = _placed(page, "classical", last + 2)
-    put(sheet.cell(last + 1, 4), part.note, GREY)
-    return _gap(sheet, max(i, last + 1) + 1)
-
-
-def _placed(page: Page, key: str, row: int) -> int:
-    last = table(page.sheet, page.contents[key].on_sheet(), page.contents.system, row, 4)
-    page.sheet.row_dimensions[row].height = _ROW
-    return last
-
-
-def _picture(page: Page, row: int) -> int:
-    """The breakdown as a chart; beside it the cases that govern, where there are any."""
-    sheet, cases = page.sheet, page.contents.by_key.get("governing_cases")
-    breakdown = page.contents["breakdown"]
-    label = breakdown.name(breakdown.columns[0], page.contents.system)
-    first = next(i for i in range(1, row) if sheet.cell(i, 4).value == label)
-    rows = first, first + len(breakdown.rows)
-    chart = charts.bars(sheet, "Resistance breakdown", rows, label=4, value=4 + breakdown.index("force"))
-    charts.sized(chart, _WHOLE_WIDTH if cases is None else _HALF, _CHART_HEIGHT)
-    sheet.add_chart(chart, f"A{row}")
-    end = row + _CHART_ROWS
-    if cases is not None:
-        _governing(page, cases, row)
-        end = max(end, row + 2 + len(cases.rows))
-    return _gap(sheet, end)
-
-
-def _governing(page: Page, cases: Table, row: int) -> None:
-    sheet, system = page.sheet, page.contents.system
-    _rule(sheet, row, "Governing load cases", 4)
-    header_row(sheet, row + 1, 4, ("figure", "value", "case", "at"))
-    sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
-    columns = {column.key: column.get for column in cases.columns}
-    for i, figure in enumerate(cases.rows, start=row + 2):
-        written = figure.unit(system)
-        put(sheet.cell(i, 4), headed(figure.called(system), figure.kind, system))
-        sheet.cell(i, 4).alignment = Alignment(indent=1, shrink_to_fit=True)
-        put(sheet.cell(i, 5), written.shown(columns["value"](figure)), None, written.pattern)
-        put(sheet.cell(i, 6), columns["case"](figure))
-        put(sheet.cell(i, 7), unit("temperature", system).brief(columns["temperature"](figure)))
-        for j in (6, 7):  # indents hold only where the side is named
-            sheet.cell(i, j).alignment = Alignment(horizontal="left", indent=1, shrink_to_fit=True)
-        for j in range(4, 8):
-            sheet.cell(i, j).border = _HAIR
-
-
-def _checked(page: Page, row: int) -> None:
+def _checked(page: Page, row: int) -> int:
     """Of every criterion the check that governs, and all that failed; the way to the others and to the warnings."""
     sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
     _rule(sheet, row, f"Checks: {counted}")
-    header_row(sheet, row + 1, 1, ("check", "", "", "found, asked for", "margin", "case", "verdict"))
+    header_row(sheet, row + 1, 1, ("check", "", "", "calculated, required", "margin", "case", "verdict"))
     sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
     written = unit("share", system)
     shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
     i = row + 1
     for i, check in enumerate(shown, start=row + 2):
+        found = f"{check.found}, {check.asked}"
         put(sheet.cell(i, 1), check.subject)
         sheet.merged_cells.add(f"A{i}:C{i}")
-        put(sheet.cell(i, 4), f"{check.found}, {check.asked}")
+        put(sheet.cell(i, 4), found)
         put(sheet.cell(i, 5), written.shown(check.margin), None, written.pattern)
         put(sheet.cell(i, 6), check.case)
         put(sheet.cell(i, 7), check.verdict)
         for j in (1, 4, 6):
             sheet.cell(i, j).alignment = Alignment(
-                indent=0 if j == 1 else 1, horizontal="left", shrink_to_fit=True
+                indent=1, horizontal="left", vertical="top", wrap_text=j != 1, shrink_to_fit=j == 1
             )
+        sheet.cell(i, 5).alignment = Alignment(horizontal="right", vertical="top")
+        lines = max(-(-len(found) // (_WIDTHS["D"] + 1)), -(-len(check.case) // (_WIDTHS["F"] + 1)))
+        sheet.row_dimensions[i].height = _ROW * max(1, lines)
         _coloured(sheet, i, VERDICTS[check.verdict])
     if len(shown) < len(checks):
         i += 1
@@ -251,11 +236,12 @@ def _checked(page: Page, row: int) -> None:
     put(link, f"{said}: see {CHECKS_AND_NOTES}")
     link.hyperlink = Hyperlink(ref=link.coordinate, location=f"'{CHECKS_AND_NOTES}'!A1")
     link.font = LINK
+    return i + 2
 
 
 def _coloured(sheet: Worksheet, row: int, look: Look) -> None:
     verdict = sheet.cell(row, 7)
     verdict.font, verdict.fill = look.font, look.fill
-    verdict.alignment = Alignment(horizontal="center")
+    verdict.alignment = Alignment(horizontal="center", vertical="top")
     for j in range(1, 8):
         sheet.cell(row, j).border = _HAIR

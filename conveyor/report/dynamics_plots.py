@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.report.plots import colour, grouped, plain, stacked, titled
+from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -103,7 +103,7 @@ def _envelope(axis: Axes, found: Followed, system: System) -> None:
     )
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
 
 
 def _speeds(axis: Axes, found: Followed, system: System) -> None:
@@ -125,7 +125,7 @@ def _speeds(axis: Axes, found: Followed, system: System) -> None:
     tail = speed(found.record.speeds[:, _tail(found)])
     axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
     axis.set(xlabel=time.beside("time"), ylabel=speed.beside("speed"))
-    plain(axis.legend(fontsize=7))
+    keyed(axis)
 
 
 def _forces(axis: Axes, found: Followed, system: System) -> None:
@@ -147,7 +147,7 @@ def _forces(axis: Axes, found: Followed, system: System) -> None:
     axis.plot(times, held, color="#B8860B", linewidth=0.9, label="at the take-up")
     axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
     grouped(axis.yaxis)
-    plain(axis.legend(fontsize=7, ncols=2))
+    keyed(axis)
 
 
 def _tail(found: Followed) -> int:

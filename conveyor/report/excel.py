@@ -1,4 +1,4 @@
-"""The workbook: values, not formulas; native charts; nothing a user typed can become a formula."""
+"""The workbook: values, formulas only where a reader changes figures; native charts; what a user typed stays text."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final, TypeAlias
 
 from openpyxl import Workbook
+from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
 from conveyor.files import marks
@@ -18,21 +19,23 @@ from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
-from conveyor.report.places import MOST_ROWS, Page, file_name
+from conveyor.report.live import with_values
+from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
 
+FRONT: Final = "Summary"
+"""The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
-    "Summary": cover.summary,
     "Results": sheets.single,
-    "Defaults": sheets.stacked,
+    "Given": sheets.inputs,
     "Inputs": sheets.single,
     "Sections": sheets.wide,
-    "Resistances": sheets.resistances,
+    "Resistances": sheets.stacked,
     "Rolls": sheets.wide,
-    "Tensions": sheets.tensions,
-    "States": sheets.states,
+    "Tension diagram": sheets.tensions,
+    "Tensions": sheets.single,
+    "States": sheets.stacked,
     "Loop": sheets.stacked,
-    "Load states": sheets.stacked,
     "Load cases": sheets.stacked,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
@@ -54,14 +57,14 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Defaults", "Load states", "Load cases", "Case checks", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
-    "Summary",
+    "Results",
+    "Given",
     "Resistances",
-    "States",
     "Loop",
-    "Indentation",
+    "Load cases",
     "Rubber",
     CHECKS_AND_NOTES,
     "About",
@@ -99,15 +102,17 @@ def write(contents: Contents, path: Path) -> Path:
 
 def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
     """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
+    live: dict[tuple[str, str], float] = {}
     with _uncollected():
-        book, content = build(contents, path.stem, fills), BytesIO()
+        book, content = build(contents, path.stem, fills, live), BytesIO()
         try:
             book.save(content)  # by way of temporary files
         except OSError as error:
             raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
     beside = {path.with_name(file_name(path.stem, part)): csv(part.frame(contents.system)) for part in long}
-    return beside | {path: content.getvalue()}
+    values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}
+    return beside | {path: with_values(content.getvalue(), values)}
 
 
 @contextmanager
@@ -122,8 +127,13 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it.
+def build(
+    contents: Contents,
+    stem: str = "",
+    fills: Fills | None = None,
+    live: dict[tuple[str, str], float] | None = None,
+) -> Workbook:
+    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas.
 
     `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
     """
@@ -134,9 +144,17 @@ def build(contents: Contents, stem: str = "", fills: Fills | None = None) -> Wor
     book.properties.title = legible(about.title)
     book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
+    placed: dict[str, tuple[Worksheet, TablePlace]] = {}
+    front = "governing_figures" in contents
+    if front:
+        book.create_sheet(FRONT)
     for title in dict.fromkeys((*fills, *contents.sheets)):
         if title in contents.sheets or (own and title not in _WHERE_ASKED):
-            sheet = book.create_sheet(title)
-            fills.get(title, sheets.stacked)(Page(sheet, contents, stem))
-            print_set_up(sheet, header, paper=about.paper, portrait=title in _PORTRAIT)
+            page = Page(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
+            fills.get(title, sheets.stacked)(page)
+            last = page.print_only()
+            print_set_up(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
+    if front:  # its charts are of the tables of the others
+        cover.summary(Page(book[FRONT], contents, stem), placed)
+        print_set_up(book[FRONT], header, book[FRONT].max_row, paper=about.paper, portrait=True)
     return book

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
@@ -13,7 +12,7 @@ from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
 from conveyor.report.columns import Contents, Drawing, Table
-from conveyor.report.page import Part, bullets, facts, listed, page, table, tiles, verdict
+from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
 from conveyor.units import System
 
@@ -22,7 +21,6 @@ PARTS: Final = (
     ("key-figures", "Key figures"),
     ("checks", "Checks"),
     ("warnings", "Warnings"),
-    ("summary", "Summary"),
     ("resistances", "Resistances"),
     ("route", "Route and sections"),
     ("tensions", "Tensions, drives and take-up"),
@@ -34,7 +32,9 @@ PARTS: Final = (
     ("load-cases", "Load cases"),
     ("duty", "Duty of a year"),
     ("uncertainty", "Uncertainty"),
+    ("method", "Method"),
     ("assumptions", "Assumptions"),
+    ("summary", "Figures as given"),
     ("inputs", "Inputs"),
     ("provenance", "Provenance"),
 )
@@ -114,22 +114,23 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
     for shown in contents.parts:
         places = [place for place in shown.page if place.part == name]
         for place in places:
-            if place is shown.page[0]:
+            if place is shown.page[0] and shown.key != name:
                 drawings = [drawing for drawing in contents.drawings if drawing.above == shown.key]
                 if drawings and name == "rubber":
                     content.append(element("h3", shown.heading))
                 content += [_drawn(drawing) for drawing in drawings]
-            content.append(_table(shown.on_page(place), place.caption, contents.system))
-        if places and shown.note:
+            made = _table(shown.on_page(place), place.caption, contents.system)
+            content.append(made if place.printed else folded(place.caption, made))
+        if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
-    return Part(name, heading, joined(content))
+    every = [place for shown in contents.parts for place in shown.page if place.part == name]
+    folded_only = bool(every) and not any(place.printed for place in every) and name not in _OWN
+    return Part(name, heading, joined(content), printed=not folded_only)
 
 
 def _table(shown: Table, caption: str, system: System) -> Html:
     if shown.key == "checks":
-        order = ("check", "verdict", "margin", "case", "found", "asked")
-        columns = sorted(shown.columns, key=lambda c: order.index(c.key) if c.key in order else len(order))
-        return table(replace(shown, columns=tuple(columns)), caption, system, kind="checks")
+        return table(shown, caption, system, kind="checks")
     return listed(shown, caption, system) if shown.figures else table(shown, caption, system)
 
 
@@ -138,24 +139,27 @@ def _drawn(drawing: Drawing) -> Html:
 
 
 def _key_figures(contents: Contents) -> Html:
-    """What a designer looks for first: figures, and of every criterion the check that governs."""
+    """What a reader looks for first: the verdict, what governs, figures as given."""
     checks, warned = contents["checks"].rows, len(contents.lines("warning"))
     count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
     counted = joined(
         part for word, n in count.items() if n for part in (f"{n} ", verdict(word), Html("&ensp;"))
     )
-    link = element("a", f"{warned} warnings", href="#warnings")
-    content = [tiles(contents.marked("tile"), contents.system), element("p", "Checks: ", counted, " ", link)]
+    link, governs = element("a", f"{warned} warnings", href="#warnings"), contents["governing_figures"]
+    content = [
+        element("p", governs.note, class_=f"stands {'fail' if count['FAIL'] else 'pass'}"),
+        element("p", "Checks: ", counted, " ", link),
+        table(governs, governs.heading, contents.system),
+        tiles(contents.marked("tile"), contents.system),
+    ]
     if "defaults" in contents:
         content.append(element("p", contents["defaults"].note))
-    rows = [check for check in checks if check.leads or check.verdict == "FAIL"]
-    caption = "Of every criterion the least margin of all cases, and all that failed"
-    content.append(_table(replace(contents["checks"], rows=rows), caption, contents.system))
     return joined(content)
 
 
 _OWN: Final[dict[str, Callable[[Contents], Html]]] = {
     "key-figures": _key_figures,
+    "method": lambda contents: bullets(contents.lines("method")),
     "warnings": lambda contents: bullets(contents.lines("warning"), "warnings"),
     "assumptions": lambda contents: bullets(contents.lines("assumption")),
 }

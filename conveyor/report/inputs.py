@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal
 
 from conveyor.models import Conveyor, Model, RubberCompound
@@ -58,3 +59,24 @@ def _fields(place: tuple[str | int, ...], model: Model, origin: Origin, entry: A
         listed = key in held and _written(value) == held[key]
         came: Origin = "library" if listed else "spec" if given else "default"
         yield from _rows((*place, key), value, came, held.get(key))
+
+
+_ITEM = re.compile(r"\[\d+\]")
+_DEGREES = re.compile(r"\bdeg(?=[CF]?\b)")
+
+
+def gathered(rows: Iterable[Row], *, alike: bool = False) -> tuple[tuple[str, str], ...]:
+    """Rows by the part of the spec they are of: part, fields with their values; items of lists as one if alike."""
+    parts: dict[str, dict[str, list[str]]] = {}
+    for field, entered, value, *_ in rows:
+        of, _, name = field.rpartition(".")
+        if alike:
+            of = _ITEM.sub("", of)
+        known = parts.setdefault(of, {}).setdefault(_ITEM.sub("", name).replace("_", " "), [])
+        shown = "0" if value == 0.0 else _DEGREES.sub("°", entered)
+        if not alike or shown not in known:
+            known.append(shown)
+    return tuple(
+        (part or "conveyor", "; ".join(f"{name} {', '.join(values)}" for name, values in fields.items()))
+        for part, fields in parts.items()
+    )

@@ -7,41 +7,71 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.report.plots import colour, grouped, plain, stacked, titled
+from conveyor.laws.tension import grip_tension
+from conveyor.loop.settled import holds
+from conveyor.report.columns import FAILS
+from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from conveyor.line.line import Line
     from conveyor.loop.balance import Balance
     from conveyor.loop.starting import Motions
+    from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor
 
 _HEIGHT = 4.4
+_MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
+"""How what stands along the route is drawn: marker, its size, its colour."""
+_FAILS = "#B3261E"
 _ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
+def places(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
+    """Boundaries of sections, counted from the tail, at which feeding points, drives and the take-up stand."""
+    names = [section.name for section in conveyor.route.sections]
+    feeding = [0 if at.section is None else names.index(at.section) for at in conveyor.route.feeding_points]
+    n = len(names)
+    drives = [_from_tail(drive.spot.boundary, n) for drive in line.drives]
+    spot = line.take_up.spot
+    held = drives[:1] if spot is None else [_from_tail(spot.boundary, n)]
+    found = {"feeding": feeding, "drive": drives, "take-up": held}
+    return {what: tuple(dict.fromkeys(at)) for what, at in found.items() if at}
+
+
+def _from_tail(boundary: int, sections: int) -> int:
+    """Boundary of the route of a boundary of the loop, which goes from the head along the return strand and back."""
+    return abs(sections - boundary)
+
+
+def fault(line: Line, state: MotionState) -> str:
+    """What is wrong with the tensions of a state, to stand behind its name; nothing where nothing is."""
+    slips = any(
+        not holds(side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle))
+        for drive, side in zip(line.drives, state.drives, strict=True)
+    )
+    wrong = [what for what, so in (("slack belt", state.slack), ("belt slips", slips)) if so]
+    return f", {FAILS}: {', '.join(wrong)}" if wrong else ""
+
+
 def route_profile(
-    conveyor: Conveyor, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
+    conveyor: Conveyor, line: Line, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
 ) -> Figure:
     """Height over horizontal distance from the tail [m], of every boundary of sections; what is where is marked."""
     figure, (axis,) = stacked(1, _HEIGHT)
     length = unit("length", system, large=True)
     x, z = length(np.transpose(boundaries))
     axis.plot(x, z, color="#1F4E79", marker=".", zorder=2)
-    names = [section.name for section in conveyor.route.sections]
-    for point in conveyor.route.feeding_points:
-        i = 0 if point.section is None else names.index(point.section)
-        axis.plot(x[i], z[i], "v", color="#2E8B57", markersize=10, label="feeding")
-    for pulley in conveyor.drive.pulleys:
-        fixed = {"head": len(names), "tail": 0}
-        i = fixed.get(pulley.position, 0)
-        if pulley.section is not None:
-            i = names.index(pulley.section) + (1 if pulley.position == "carry" else 0)
-        axis.plot(x[i], z[i], "o", color="#C55A11", markersize=9, fillstyle="none", label="drive")
+    for what, at in places(conveyor, line).items():
+        marker, size, ink = _MARKERS[what]
+        axis.plot(
+            x[list(at)], z[list(at)], marker, color=ink, markersize=size, fillstyle="none", markeredgewidth=1.8,
+            label=what,
+        )  # fmt: skip
     for i, section in enumerate(conveyor.route.sections):
         if section.curve is not None:
             axis.plot(
@@ -54,7 +84,7 @@ def route_profile(
     axis.set(xlabel=length.beside("horizontal distance"), ylabel=length.beside("height over the tail"))
     titled(figure, conveyor.name)
     grouped(axis.xaxis)
-    _legend_once(axis)
+    keyed(axis)
     return figure
 
 
@@ -70,8 +100,13 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
-        axis.plot(x, force(y), color=colour(k), label=state.name)
-    axis.plot(way, force(np.repeat(shape.least, 2)), color="0.6", linestyle=":", label="least for sag")
+        axis.plot(x, force(y), color=colour(k), label=f"{state.name}{fault(found.line, state)}")
+        if state.slack:
+            low = force(np.minimum(y, 0.0))
+            axis.fill_between(x, low, 0.0, color=_FAILS, alpha=0.35, linewidth=0, zorder=0)
+    axis.plot(
+        way, force(np.repeat(shape.least, 2)), color="0.6", linestyle=":", label="minimum tension (sag)"
+    )
     tail = float(length(shape.way[len(shape.length) // 2]))
     axis.axvline(tail, color="0.8", zorder=0)
     axis.annotate(
@@ -84,12 +119,5 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
     titled(figure, "Tension round the loop")
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     return figure
-
-
-def _legend_once(axis: Axes) -> None:
-    handles, labels = axis.get_legend_handles_labels()
-    once = dict(zip(labels, handles, strict=True))
-    if once:
-        axis.legend(once.values(), once.keys(), fontsize=8)

@@ -16,6 +16,7 @@ from conveyor.units.presentation import unit
 
 _WIDE = 8  # columns beyond which a table is set smaller on paper
 _SHORT = 12  # rows up to which a table is kept on one page
+_BESIDE = 6  # figures up to which they stand under one another
 _NAME = 30  # characters up to which a name of a row stays on one line
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
 _NOTHING = "–"
@@ -24,11 +25,12 @@ _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("ope
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the page: its identifier, its heading, what is in it."""
+    """A part of the page: its identifier, its heading, what is in it, whether paper has it."""
 
     name: str
     heading: str
     content: Html
+    printed: bool = True
 
 
 def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") -> Html:
@@ -45,9 +47,13 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         return element(
             "tr",
             *(
-                element("th", cell, scope="row", class_=how)
+                element(
+                    "th", cell, scope="row", class_=how, data_label=_spelled(column, system) if j else None
+                )
                 if j < shown.named
-                else element("td", cell, class_="asked" if column.asked else how)
+                else element(
+                    "td", cell, class_="asked" if column.asked else how, data_label=_spelled(column, system)
+                )
                 for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True))
             ),
         )
@@ -60,7 +66,11 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         parts.append(element("tfoot", line(cells)))
     short = len(shown.rows) <= _SHORT
     return scrolling(
-        element("table", *parts), caption, wide=len(shown.columns) > _WIDE, keep=short, kind=kind
+        element("table", *parts),
+        caption,
+        wide=len(shown.columns) > _WIDE,
+        keep=short,
+        kind=f"rows {kind}".rstrip(),
     )
 
 
@@ -79,6 +89,11 @@ def _missing(value: object) -> bool:
 
 def _unit(column: Column, system: System) -> str:
     return "" if column.kind in {OF_ROW, NAMED} else unit(column.kind, system).sign
+
+
+def _spelled(column: Column, system: System) -> str:
+    sign = _unit(column, system)
+    return f"{column.label} [{sign}]" if sign else column.label
 
 
 def _with_unit(words: str, sign: str) -> Html:
@@ -103,9 +118,24 @@ def scrolling(content: Html, label: str, *, wide: bool, keep: bool, kind: str = 
     return element("div", content, class_=kinds, tabindex="0", role="group", aria_label=label)
 
 
+def folded(caption: str, content: Html) -> Html:
+    """Return what is shown when it is asked for, and not printed."""
+    return element("details", element("summary", caption), content)
+
+
 def listed(shown: Table, caption: str, system: System = "SI") -> Html:
-    """Return named figures as a table: name, value, unit."""
-    rows = [
+    """Return named figures: name, value, unit; many of them in two tables side by side where there is room."""
+    half = -(-len(shown.rows) // 2) if len(shown.rows) > _BESIDE else len(shown.rows)
+    parts = [
+        _listed(rows, caption if k == 0 else f"{caption}, continued", system, named=k == 0)
+        for k, rows in enumerate((shown.rows[:half], shown.rows[half:]))
+        if rows
+    ]
+    return parts[0] if len(parts) == 1 else element("div", *parts, class_="beside")
+
+
+def _listed(rows: Sequence[Figure], caption: str, system: System, *, named: bool) -> Html:
+    lines = [
         element(
             "tr",
             element("th", row.called(system), scope="row"),
@@ -114,7 +144,7 @@ def listed(shown: Table, caption: str, system: System = "SI") -> Html:
             ),
             element("td", row.unit(system).sign, class_="unit"),
         )
-        for row in shown.rows
+        for row in rows
     ]
     head = element(
         "tr",
@@ -122,8 +152,9 @@ def listed(shown: Table, caption: str, system: System = "SI") -> Html:
         element("th", "value", scope="col", class_="n"),
         element("th", "unit", scope="col"),
     )
-    whole = element("table", element("caption", caption), element("thead", head), element("tbody", *rows))
-    return scrolling(whole, caption, wide=False, keep=len(rows) <= _SHORT)
+    above = element("caption", caption, class_=None if named else "further")
+    whole = element("table", above, element("thead", head), element("tbody", *lines))
+    return scrolling(whole, caption, wide=False, keep=len(lines) <= _SHORT)
 
 
 def verdict(word: str) -> Html:
@@ -145,12 +176,12 @@ def tiles(figures: Iterable[Figure], system: System = "SI") -> Html:
     """Return key figures, large."""
     pairs = []
     for figure in figures:
-        written = figure.unit(system)
-        value = written.written(figure.value)
+        written = unit(figure.kind, system, large=True)
+        value, _, sign = written.short(figure.value).partition(" ")
         pairs.append(
             (
-                figure.called(system),
-                joined([value, " ", element("small", written.sign)]) if written.sign else value,
+                f"{figure.called(system)}, as given",
+                joined([value, " ", element("small", sign)]) if sign else value,
             )
         )
     return facts(pairs, "tiles")
@@ -196,6 +227,7 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, 
             element("h2", part.heading, id=part.name),
             part.content,
             aria_labelledby=part.name,
+            class_=None if part.printed else "unprinted",
         )
         for part in parts
     ]

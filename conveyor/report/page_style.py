@@ -22,10 +22,26 @@ COLOURS: Final = {
 }
 """Of the page, by what they stand for; contrast of every text is 4.5 or more (WCAG 2.2, 1.4.3)."""
 
+DARK: Final = {
+    "paper": "#14181D",
+    "ink": "#E6EAF0",
+    "muted": "#A9B4C0",
+    "accent": "#8FC1F0",
+    "pale": "#1E2630",
+    "line": "#3A4654",
+    "good": "#7FD79A",
+    "good-pale": "#15301F",
+    "bad": "#FF9B94",
+    "bad-pale": "#3D1A1A",
+    "open": "#F2CE73",
+    "open-pale": "#38300F",
+}
+"""The same where the reader's screen is dark."""
+
 _STYLE: Final = """
 * { box-sizing: border-box; }
 html { font: 16px/1.45 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif;
-  color-scheme: light; -webkit-text-size-adjust: 100%; }
+  color-scheme: light dark; -webkit-text-size-adjust: 100%; }
 body { margin: 0 auto; padding: 1.5rem 1.25rem 3rem; max-width: 62rem; color: var(--ink); background: var(--paper); }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: .15rem 0 .4rem; color: var(--accent); overflow-wrap: anywhere; }
 h2 { font-size: 1.3rem; margin: 2.4rem 0 .7rem; padding-top: .5rem; border-top: 2px solid var(--accent);
@@ -65,6 +81,12 @@ tbody .name { white-space: nowrap; }
 .wide table { font-size: .8rem; }
 .wide th, .wide td { padding: .28rem .4rem; }
 .asked { background: var(--open-pale); border: 1px solid var(--line); min-width: 3.5rem; }
+.beside { display: flex; flex-wrap: wrap; gap: 0 1.5rem; align-items: flex-start; }
+.beside > * { flex: 1 1 20rem; min-width: 0; }
+.further { visibility: hidden; }
+.stands { padding: .6rem .8rem; border-radius: .2rem; font-weight: 600; font-size: 1.05rem; }
+details { margin: .8rem 0; }
+summary { color: var(--accent); cursor: pointer; }
 .unit { white-space: nowrap; font-weight: 400; }
 .long { overflow-wrap: anywhere; min-width: 11rem; }
 .verdict { display: inline-block; padding: 0 .5rem; border-radius: .2rem; font-weight: 600; white-space: nowrap; }
@@ -79,27 +101,39 @@ svg { display: block; width: 100%; height: auto; font-family: system-ui, Arial, 
 svg * { stroke-linejoin: round; stroke-linecap: butt; }
 footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--line); color: var(--muted);
   font-size: .85rem; overflow-wrap: anywhere; }
+@media screen and (prefers-color-scheme: dark) { .drawing svg { filter: invert(.92) hue-rotate(180deg); } }
 @media screen and (max-width: 40rem) {
   body { padding: 1rem .8rem 2rem; }
   h1 { font-size: 1.5rem; }
-  .drawing svg { min-width: 33rem; }
   .tiles { grid-template-columns: 1fr 1fr; }
-  table { font-size: .82rem; }
-  th, td { padding: .25rem .4rem; }
-  .unit, tbody .name { white-space: normal; }
-  .checks th, .checks td { padding: .25rem .2rem; overflow-wrap: anywhere; }
-  .checks table { table-layout: fixed; min-width: 34rem; }
-  .checks th:nth-child(1) { width: 30%; }
-  .checks th:nth-child(2) { width: 21%; }
-  .checks .verdict { white-space: normal; overflow-wrap: normal; padding: 0 .2rem; }
   .tiles dd { font-size: 1.2rem; }
-  .wide tbody th:first-child { position: sticky; left: 0; background: var(--paper); }
+  table { font-size: .82rem; }
+  th, td { padding: .25rem .4rem; overflow-wrap: anywhere; }
+  .unit, tbody .name { white-space: normal; }
+  .rows thead { display: none; }
+  .rows tr { display: block; padding: .35rem 0; border-bottom: 2px solid var(--line); }
+  .rows th, .rows td { display: flex; justify-content: space-between; gap: 1rem; border: 0; text-align: right;
+    padding: .1rem .4rem; white-space: normal; min-width: 0; }
+  .rows tbody th:first-child { font-weight: 600; text-align: left; }
+  .rows td::before, .rows th[data-label]::before { content: attr(data-label); color: var(--muted); text-align: left;
+    font-weight: 400; }
 }
-@page { margin: 16mm 14mm 18mm; @bottom-right { content: counter(page) " / " counter(pages);
+@page { margin: 10mm 11mm 12mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
 @media print {
-  html { font-size: 9.5pt; line-height: 1.35; }
-  h2 { margin-top: 1.6rem; }
+  html { font-size: 8pt; line-height: 1.22; }
+  h1 { font-size: 16pt; }
+  h2 { font-size: 11pt; margin: .9rem 0 .3rem; padding-top: .2rem; }
+  h3 { margin: .6rem 0 .2rem; }
+  p, .scroll, figure { margin: .3rem 0; }
+  .facts, .tiles { gap: .25rem; margin: .4rem 0; }
+  .facts { grid-template-columns: repeat(5, 1fr); }
+  .tiles { grid-template-columns: repeat(6, 1fr); }
+  .tiles > div { padding: .2rem .4rem; }
+  .tiles dd { font-size: 11pt; }
+  .beside { flex-wrap: nowrap; }
+  details, .unprinted { display: none; }
+  li { margin: 0; }
   body { max-width: none; padding: 0; }
   nav { display: none; }
   a { text-decoration: none; }
@@ -110,11 +144,11 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   thead { display: table-header-group; }
   tfoot { display: table-row-group; }
   .scroll { overflow: visible; }
-  table { font-size: 8pt; }
-  th, td { padding: .16rem .4rem; }
-  .drawing svg { max-width: 150mm; }
-  .wide table { font-size: 7pt; }
-  .wide th, .wide td { padding: .15rem .25rem; }
+  table { font-size: 6.9pt; line-height: 1.12; }
+  th, td { padding: .07rem .35rem; }
+  .drawing svg { max-width: 80mm; max-height: 40mm; }
+  .wide table { font-size: 6.5pt; }
+  .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 """
@@ -122,5 +156,12 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
 
 def style(paper: Paper) -> str:
     """Return the style sheet of a page that is printed on a paper."""
-    colours = ":root { " + " ".join(f"--{name}: {value};" for name, value in COLOURS.items()) + " }"
-    return colours + _STYLE + f"@page {{ size: {paper}; }}\n"
+    light, dark = (
+        ":root { " + " ".join(f"--{name}: {value};" for name, value in colours.items()) + " }"
+        for colours in (COLOURS, DARK)
+    )
+    return (
+        f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}"
+        + _STYLE
+        + f"@page {{ size: {paper}; }}\n"
+    )

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
+from openpyxl.cell.cell import Cell
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
+from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import GREY, HEADING, put, table, total
-from conveyor.report.columns import Contents, Table
+from conveyor.report.cells import GREY, HEADING, ask, put, table, total
+from conveyor.report.columns import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000
 """Rows of a table that a sheet takes: beyond them a workbook takes seconds to write and to open."""
@@ -19,6 +21,10 @@ SHOWN_ROWS: Final = 100
 """Rows that stand for a table too long."""
 _FILTERED_ROWS: Final = 20
 """Rows beyond which a table has buttons to filter it."""
+CHART_ROWS: Final = 20
+"""Rows that a chart takes."""
+_CHART_SPAN, _LEAST_SPAN = 7, 4
+"""Columns that a chart, and notes, take on paper."""
 _NAMES: Final = 56  # characters of a name on one line
 
 
@@ -73,11 +79,17 @@ class Page:
         Tables of the report.
     stem : str
         Name of the workbook without its ending, for files beside it.
+    placed : dict
+        Every table that stands in the workbook: its sheet and its place there.
+    live : dict
+        Values of formulas, by sheet and cell.
     """
 
     sheet: Worksheet
     contents: Contents
     stem: str
+    placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
+    live: dict[tuple[str, str], float] = field(default_factory=dict)
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
@@ -95,15 +107,25 @@ class Page:
             shown = replace(part, rows=part.rows[:SHOWN_ROWS])
         last = table(self.sheet, shown, self.contents.system, top, column, widest=widest)
         place = TablePlace(top, last, column, tuple(each.key for each in part.columns), whole)
+        self.placed[key] = self.sheet, place
         if whole:
             define(self.sheet, f"table_{key}", place.cells)
             if part.links:
                 letter = get_column_letter(place.column("value"))
                 for i, figure in enumerate(part.rows, start=top + 1):
                     define(self.sheet, figure.key, f"{letter}{i}")
+                    self._changing(self.sheet[f"{letter}{i}"], figure)
             if part.foot:
                 total(self.sheet, last + 1, part, self.contents.system)
         return place
+
+    def _changing(self, cell: Cell, figure: Figure) -> None:
+        """Mark what a reader may change; write what follows from it as a formula, its value kept for saving."""
+        if "input" in figure.on.split():
+            ask(cell)
+        if figure.formula:
+            self.live[self.sheet.title, cell.coordinate] = float(str(cell.value))
+            cell.value = f"={figure.formula}"
 
     def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> TablePlace:
         """Write the one table of a sheet: its header stays in view and is printed on each page."""
@@ -114,21 +136,45 @@ class Page:
             self.sheet.auto_filter.ref = place.cells
         return place
 
-    def stacked(self, keys: Iterable[str], row: int = 1) -> dict[str, TablePlace]:
-        """Write tables under one another, those that there are, each with its note; where each stands."""
+    def stacked(self, keys: Iterable[str], row: int = 1, *, widest: int = _NAMES) -> dict[str, TablePlace]:
+        """Write tables under one another, those that there are, each with its note; where each stands.
+
+        What is not printed stands below all that is.
+        """
         places = {}
-        for key in keys:
-            if key in self.contents:
-                places[key] = self.place(key, row)
-                row = places[key].last + (2 if self.contents[key].foot else 1)
-                note = self.contents[key].note
-                if note:
-                    put(self.sheet.cell(row + 1, 1), note, GREY)
-                    row += 2
+        there = [key for key in keys if key in self.contents]
+        for key in sorted(there, key=lambda key: not self.contents[key].printed):
+            places[key] = self.place(key, row, widest=widest)
+            row = places[key].last + (2 if self.contents[key].foot else 1)
+            note = self.contents[key].note
+            if note:
+                put(self.sheet.cell(row + 1, 1), note, GREY)
                 row += 2
+            row += 2
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
 
     def below(self, place: TablePlace, keys: Iterable[str]) -> None:
         """Write further tables below one, under one another."""
         self.stacked(keys, place.last + 4)
+
+    def print_only(self) -> int:
+        """Print what is to be printed, hide a sheet that holds nothing of it; the last row that is printed."""
+        here = {key: place for key, (sheet, place) in self.placed.items() if sheet is self.sheet}
+        corners = [coordinate_to_tuple(chart.anchor) for chart in vars(self.sheet)["_charts"]]
+        printed = {key: place for key, place in here.items() if self.contents[key].printed}
+        if here and not printed and not corners:
+            self.sheet.sheet_state = "hidden"
+            return self.sheet.max_row
+        rows = [self.sheet.max_row, *(row + CHART_ROWS for row, _ in corners)]
+        last = min([max(rows), *(here[key].header - 3 for key in here.keys() - printed.keys())])
+        columns = [self._last_printed(key, place) for key, place in printed.items()]
+        columns += [column + _CHART_SPAN for _, column in corners]
+        if len(printed) < len(here) or columns:
+            self.sheet.print_area = f"A1:{get_column_letter(max([*columns, _LEAST_SPAN]))}{max(1, last)}"
+        return last
+
+    def _last_printed(self, key: str, place: TablePlace) -> int:
+        """Last column of a table that paper has; a table that only files and sheets have is printed whole."""
+        shown = sum(column.page is not None for column in self.contents[key].on_sheet().columns)
+        return place.first_column + shown - 1 if self.contents[key].page else place.last_column

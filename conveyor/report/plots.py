@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
-    from matplotlib.legend import Legend
 
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.studies.compared import ComparedScene, Coverage
@@ -33,6 +32,7 @@ _one_at_a_time = Lock()
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
+_KEY_COLUMNS, _KEY_BELOW = 3, -0.19  # of the legend; its top, of the height of the axis
 _DECADES_BEYOND = 1.0  # of the data's window, drawn dashed
 _WIDEST = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
 
@@ -78,10 +78,17 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
         )
 
 
-def plain(legend: Legend) -> None:
-    """Take the texts of a legend as they are: a user's "$" is a dollar, not the start of a formula."""
-    for text in legend.get_texts():
-        text.set_parse_math(False)
+def keyed(axis: Axes) -> None:
+    """Name the curves below the axis, where no legend covers a point; a user's "$" is a dollar, no formula."""
+    handles, labels = axis.get_legend_handles_labels()
+    once = dict(zip(labels, handles, strict=True))
+    if once:
+        legend = axis.legend(
+            once.values(), once.keys(), fontsize=8, frameon=False, ncols=_KEY_COLUMNS, loc="upper center",
+            bbox_to_anchor=(0.5, _KEY_BELOW),
+        )  # fmt: skip
+        for text in legend.get_texts():
+            text.set_parse_math(False)
 
 
 def save(figure: Figure, path: str | Path) -> Path:
@@ -247,8 +254,23 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
     if dotted:
         axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
     axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     grouped(axis.yaxis)
+    return figure
+
+
+def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
+    """Difference of the motor power to a base's in per cent, a dot a compound with its band."""
+    figure, (axis,) = stacked(1, 1.4 + 0.36 * len(rows))
+    for i, (_, change, (low, high)) in enumerate(rows):
+        if low is not None and high is not None:
+            axis.plot([100.0 * low, 100.0 * high], [i, i], color=colour(0), linewidth=2.5, alpha=0.5)
+        axis.plot(100.0 * change, i, "o", color=colour(0), markersize=7)
+    axis.set_yticks(range(len(rows)), [name for name, *_ in rows], parse_math=False)
+    axis.axvline(0.0, color="0.3", linewidth=0.8)
+    axis.invert_yaxis()
+    axis.margins(y=0.15)
+    axis.set_xlabel(f"difference of mean motor power to {base} in %", parse_math=False)
     return figure
 
 
@@ -292,7 +314,7 @@ def loss_tangents(
         title="Loss tangent (dotted: beyond the data)",
     )
     axis.set_ylim(bottom=0.0)
-    plain(axis.legend(fontsize=8))
+    keyed(axis)
     return figure
 
 
@@ -319,9 +341,7 @@ def compared_loss_tangents(
     chosen = min(common, key=lambda t: abs(t - own))
     rows = [row.excited for row in comparison.coverage if row.temperature == chosen]
     band = min(low for low, _ in rows), max(high for _, high in rows)
-    return loss_tangents(
-        comparison.compounds, chosen, {"nine tenths of the rolls' loss": band}, system=system
-    )
+    return loss_tangents(comparison.compounds, chosen, {"90 % loss band of the rolls": band}, system=system)
 
 
 def master_curve(
@@ -336,6 +356,18 @@ def master_curve(
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
     drawn = "-" if data is not None else ":"  # no data are stated: nothing is solid
+    if data is not None:
+        for beyond in (
+            np.geomspace(low / 10.0**_DECADES_BEYOND, low, _POINTS),
+            np.geomspace(high, high * 10.0**_DECADES_BEYOND, _POINTS),
+        ):
+            past = 2.0 * np.pi * beyond
+            for axis, values, k in (
+                (above, modulus(series.storage(past)), 0),
+                (above, modulus(series.loss(past)), 1),
+                (below, series.tan_delta(past), 2),
+            ):
+                axis.plot(beyond, values, color=colour(k), linestyle=":", linewidth=1)
     above.plot(f, modulus(series.storage(omega)), drawn, color=colour(0), label="E'")
     above.plot(f, modulus(series.loss(omega)), drawn, color=colour(1), label="E''")
     below.plot(f, series.tan_delta(omega), drawn, color=colour(2), label="tan δ")
@@ -357,5 +389,5 @@ def master_curve(
         ylabel=unit("friction").beside("tan δ"),
     )
     below.set_ylim(bottom=0.0)
-    above.legend(fontsize=8)
+    keyed(above)
     return figure

@@ -13,15 +13,13 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
-from conveyor.report.cells import GREY, HEADING, TITLE, put
-from conveyor.report.places import Page, define
+from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, put
+from conveyor.report.columns import FAILS
+from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
-_CHART_COLUMN = "F"
-_CURVES_COLUMN = "H"
-_CHART_ROWS = 20
+_INPUTS_WIDE = 110  # characters of what is given of a part
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
-_PAGE_ROWS = 110  # of a compound that still fit its page
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
 """Bars that one chart shows legibly."""
@@ -48,30 +46,21 @@ def wide(page: Page) -> None:
     page.below(page.headed(key, frozen=corner, widest=30), others)
 
 
-def resistances(page: Page) -> None:
-    """Every force and its law, adding up to the effective tension; their sums; the classical estimate."""
-    place = page.headed("resistances")
-    page.below(place, ("breakdown", "classical"))
+def inputs(page: Page) -> None:
+    """What was given and what was left to defaults, a row a part."""
+    page.stacked(page.contents.of(page.sheet.title), widest=_INPUTS_WIDE)
 
 
 def tensions(page: Page) -> None:
-    """Tension at every place of the loop, with its chart."""
-    place = page.headed("tensions")
+    """Tension behind every section in every state with its chart; states that fail are red."""
+    place = page.headed("section_ends")
+    sheet, row = page.sheet, place.last + 3
+    for column in range(place.first_column, place.last_column + 1):
+        head = sheet.cell(place.header, column)
+        if FAILS in str(head.value):
+            head.fill = VERDICTS["FAIL"].fill
     if place.whole:
-        page.sheet.column_dimensions["E"].width = 3
-        page.sheet.add_chart(charts.tension(page.sheet, place), f"{_CHART_COLUMN}4")
-
-
-def states(page: Page) -> None:
-    """Route profile beside its chart where it rises, and the tension at every place in every state of motion."""
-    place = page.place("profile", 1)
-    row, profile = place.last + 3, page.contents["profile"]
-    if place.whole and len(set(profile.cells(profile.columns[profile.index("height")], "SI"))) > 1:
-        page.sheet.add_chart(
-            charts.profile(page.sheet, place, page.contents.system), f"{_CHART_COLUMN}{place.header}"
-        )
-        row = max(row, place.header + _CHART_ROWS)
-    page.stacked([key for key in page.contents.of("States") if key != "profile"], row)
+        sheet.add_chart(charts.tension(sheet, place, page.contents.system), f"A{row}")
 
 
 def uncertainty(page: Page) -> None:
@@ -81,43 +70,39 @@ def uncertainty(page: Page) -> None:
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
         swing = place.column("swing")
-        chart = charts.bars(page.sheet, "What the motor power swings by", rows, label=1, value=swing)
+        chart = charts.bars(page.sheet, "Sensitivity of motor power", rows, label=1, value=swing)
         page.sheet.add_chart(chart, f"A{max(each.last for each in places.values()) + 4}")
 
 
 def indentation(page: Page) -> None:
-    """What every distinct contact cost, and its load curve with a chart of the curves."""
-    place = page.stacked(page.contents.of("Indentation"))["indentation"]
-    if place.whole:
-        chart = charts.indentation(page.sheet, page.contents["indentation"], place)
-        charts.sized(chart, _NARROW)
-        page.sheet.add_chart(chart, f"{_CURVES_COLUMN}{place.header + 1}")
+    """What every distinct contact cost, and its load curve."""
+    page.stacked(page.contents.of("Indentation"))
 
 
 def rubber(page: Page) -> None:
-    """What the rolls ask; provenance, relaxation spectrum and moduli of every compound in use."""
+    """Excitation, what is known of every compound, its moduli as a chart; tables of curves are not printed."""
     sheet, contents = page.sheet, page.contents
     row = page.place("rubber", 1, widest=30).last + 3
     sheet.column_dimensions["A"].width = 24
     strands = [strand for strand in ("carry", "return") if f"known_{strand}" in contents]
     for strand in strands:
         known = contents[f"known_{strand}"]
-        if strand == "return":
-            sheet.row_breaks.append(Break(id=row - 1))
         row = _known(sheet, row, f"{known.heading}, {strand} strand", known.rows)
-        moduli = page.place(f"moduli_{strand}", row)
-        prony = page.place(f"prony_{strand}", moduli.last + 3)
-        chart = charts.moduli(sheet, known.heading.rpartition(" (")[0], moduli, contents.system)
+    charted, row = row, row + CHART_ROWS
+    tables = [f"{name}_{strand}" for strand in strands for name in ("moduli", "prony")]
+    places = page.stacked(tables, row)
+    for strand, corner in zip(strands, ("A", "G"), strict=False):
+        name, moduli = contents[f"known_{strand}"].heading.rpartition(" (")[0], places[f"moduli_{strand}"]
+        chart = charts.moduli(sheet, name, moduli, contents.system)
         charts.sized(chart, _NARROW)
-        sheet.add_chart(chart, f"{_CHART_COLUMN}{moduli.header + 1}")
-        row = prony.last + 3
+        sheet.add_chart(chart, f"{corner}{charted}")
         if len(strands) == 1:  # one compound on both strands
             define(sheet, "table_moduli_return", moduli.cells)
-            define(sheet, "table_prony_return", prony.cells)
-    if row <= _PAGE_ROWS * len(strands):
-        sheet.page_setup.fitToHeight = len(strands)
+            define(sheet, "table_prony_return", places[f"prony_{strand}"].cells)
     told = {"rubber", *(f"{name}_{strand}" for name in ("moduli", "prony") for strand in ("carry", "return"))}
-    page.stacked([key for key in contents.of("Rubber") if key not in told], row)
+    page.stacked(
+        [key for key in contents.of("Rubber") if key not in told], max(p.last for p in places.values()) + 3
+    )
 
 
 def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
@@ -134,16 +119,17 @@ def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, 
 def notes(page: Page) -> None:
     """Checks, warnings, assumptions, the spec's notes, and what made the figures."""
     sheet, contents = page.sheet, page.contents
-    row = page.place("checks", 1, widest=56).last + 3
+    row = page.place("checks", 1, widest=34).last + 3
     for heading, kind in (
+        ("Method", "method"),
         ("Warnings", "warning"),
         ("Assumptions", "assumption"),
         ("Notes of the spec", "note of the spec"),
     ):
         lines = contents.lines(kind)
         pieces = [line[i : i + _PIECE] for line in lines for i in range(0, len(line), _PIECE)]
-        row = paragraphs(sheet, row, heading, pieces)
-    place = page.place("provenance", row, widest=70)
+        row = paragraphs(sheet, row, heading, pieces, columns=6)
+    place = page.place("provenance", row, widest=34)
     told = {"checks", "remarks", "provenance"}
     page.below(place, [key for key in contents.of(sheet.title) if key not in told])
 
@@ -173,7 +159,7 @@ def to_compare(page: Page) -> None:
 
 
 def ranking(page: Page) -> None:
-    """One page: what was compared, the ranking, bars of the mean power, what to know."""
+    """One page: what was compared, the ranking, dots of the difference to the base, what to know."""
     sheet, contents, about = page.sheet, page.contents, page.contents.document
     facts = dict(about.facts)
     put(sheet["A1"], f"Compounds compared: {about.title}", TITLE)
@@ -183,23 +169,19 @@ def ranking(page: Page) -> None:
     put(sheet["A3"], words, GREY)
     row = 5
     if "ranking" in contents:
-        ranked, own = contents["ranking"], about.own_speed
+        ranked = contents["ranking"]
         place = page.place("ranking", row, widest=44)
         sheet.freeze_panes = "B1"
         row = place.last + 3
         if "costs" in contents:
             row = page.place("costs", row, widest=44).last + 3
         speeds = [each.speed for each in ranked.rows]
-        speed = min(speeds, key=lambda v: abs(v - own))
-        at = [place.header + 1 + k for k, v in enumerate(speeds) if v == speed]
-        if place.whole and "mean_motor_power" in place.keys:
-            title = f"Mean motor power at {unit('speed', contents.system).said(speed)}"
-            value = place.column("mean_motor_power")
-            chart = charts.bars(sheet, title, (at[0] - 1, at[-1]), label=1, value=value)
-            chart.y_axis.title = charts.axis_title(str(sheet.cell(place.header, value).value))
-            chart.y_axis.scaling.min = 0.0
-            sheet.add_chart(chart, f"A{row}")
-            row += _CHART_ROWS
+        last = place.header + speeds.count(speeds[0])  # those of the first speed stand first
+        if place.whole and "motor_power_against_base" in place.keys:
+            at = unit("speed", contents.system).said(speeds[0])
+            title = f"Mean motor power against {facts['savings against']} at {at}"
+            sheet.add_chart(charts.differences(sheet, title, place, last), f"A{row}")
+            row += CHART_ROWS
     row = paragraphs(sheet, row, "What to know", contents.lines("warning"), columns=8)
     told = {"ranking", "costs"}
     page.stacked([key for key in contents.of(sheet.title) if key not in told], row)
@@ -216,7 +198,7 @@ def power(page: Page) -> None:
         if place.whole and len(part.rows) > 1:
             chart = charts.power_over_temperature(sheet, place, part, contents.system)
             sheet.add_chart(chart, f"{get_column_letter(place.last_column + 2)}{row + 1}")
-        row = max(place.last, row + _CHART_ROWS) + 3
+        row = max(place.last, row + CHART_ROWS) + 3
     if row == 1:
         put(sheet["A1"], "No temperature that every compound has an answer for", HEADING)
 

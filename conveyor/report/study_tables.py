@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.markup import Html, element, joined
 from conveyor.report import analysis_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures, slug
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
@@ -53,7 +53,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     if studies.uncertainty is not None:
         study = studies.uncertainty
         tables += [band(study), sensitivity(study)]
-        caption = "Change of the motor power at both ends of every input's range."
+        caption = "Sensitivity of motor power: its change at both ends of the range of every input."
         draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
     return tables, drawn
@@ -70,9 +70,19 @@ def load_states(study: CalculatedStates) -> Table:
         Column("motor power", "power", attrgetter("balance.power.motor")),
         Column("tight side tension", "force", attrgetter("balance.tensions.tight"), page=None),
         Column("slack side tension", "force", attrgetter("balance.tensions.slack"), page=None),
-        Column("largest tension", "force", attrgetter("balance.tensions.largest")),
-        Column("smallest tension", "force", attrgetter("balance.tensions.smallest")),
-        Column("take-up tension asked for", "force", attrgetter("balance.settled.needed")),
+        Column("maximum tension", "force", attrgetter("balance.tensions.largest"), key="largest_tension"),
+        Column(
+            "minimum tension, steady",
+            "force",
+            attrgetter("balance.tensions.smallest"),
+            key="smallest_tension",
+        ),
+        Column(
+            "required take-up tension",
+            "force",
+            attrgetter("balance.settled.needed"),
+            key="take_up_tension_asked_for",
+        ),
         Column("governed by", "text", _asking, page=None),
     )
     note = (
@@ -80,7 +90,7 @@ def load_states(study: CalculatedStates) -> Table:
         "loadings follow from the signs of the forces by section, at every temperature of the cases."
     )
     heading, page = "Load states", (OnPage(_STATES, "Load states"),)
-    return Table("load_states", "Load states", heading, columns, study.states, page, note)
+    return Table("load_states", "Load cases", heading, columns, study.states, page, note)
 
 
 def _asking(state: LoadState) -> str:
@@ -96,9 +106,7 @@ def refused_states(study: CalculatedStates) -> Table:
         Column("reason", "text", attrgetter("reason")),
     )
     heading = "Load states without an answer"
-    return Table(
-        "refused_states", "Load states", heading, columns, study.refused, (OnPage(_STATES, heading),)
-    )
+    return Table("refused_states", "Load cases", heading, columns, study.refused, (OnPage(_STATES, heading),))
 
 
 def _of_cases(study: CalculatedCases) -> Iterator[Table]:
@@ -137,16 +145,20 @@ def cases(study: CalculatedCases) -> Table:
         Column("equivalent DIN f", "friction", attrgetter("found.balance.friction_factor"), page=None),
         Column("tight side tension", "force", attrgetter("found.balance.tensions.tight"), page=None),
         Column("slack side tension", "force", attrgetter("found.balance.tensions.slack"), page=None),
-        Column("largest tension", "force", attrgetter("found.balance.tensions.largest")),
-        Column("smallest tension", "force", attrgetter("found.balance.tensions.smallest")),
-        Column("take-up tension asked for", "force", attrgetter("found.balance.settled.needed")),
+        Column("maximum tension", "force", attrgetter("found.balance.tensions.largest"), json="largest tension",
+               key="largest_tension"),
+        Column("minimum tension, steady", "force", attrgetter("found.balance.tensions.smallest"),
+               json="smallest tension", key="smallest_tension"),
+        Column("required take-up tension", "force", attrgetter("found.balance.settled.needed"),
+               json="take-up tension asked for", key="take_up_tension_asked_for"),
         Column("governed by", "text", _governing, page=None),
-        Column("largest roll load", "force", lambda row: row.heaviest_roll[0], page=None),
+        Column("maximum roll load", "force", lambda row: row.heaviest_roll[0], page=None,
+               json="largest roll load", key="largest_roll_load"),
         Column("at roll", "text", lambda row: row.heaviest_roll[1], page=None),
         Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), page=None),
         Column("error estimate", "error", attrgetter("found.error_estimate"), page=None),
     )  # fmt: skip
-    note = "covered: NO where the rolls ask for more than the rubber's data hold: figures of it are none to design by."
+    note = "covered: NO where the rubber data do not cover the excitation band: not for design."
     covered = all(row.covered for row in study.results)
     return Table(
         "load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note
@@ -167,15 +179,11 @@ def governing(study: CalculatedCases) -> Table:
         Column("case", "text", lambda row: row.value.result.case.name),
         *(replace(column, get=_of_result(column.get)) for column in _AT),
     )
-    rows = tuple(
-        Figure(row.figure, row.kind, row, key=f"governing_{slug(row.figure)}") for row in study.governing
-    )
+    rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in study.governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
-    note = f"friction between {low:g} and {high:g} of the computed one, to the safe side"
+    note = f"friction factor {low:g}-{high:g}, least favourable"
     if left_out:
-        note += (
-            f"; without {'; '.join(left_out)}: the rubber's data do not cover what the rolls ask for there"
-        )
+        note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
     page, heading = (OnPage(_CASES, "Governing cases"),), "Governing cases"
     return Table("governing_cases", "Load cases", heading, columns, rows, page, note, links=True)
 
@@ -199,14 +207,15 @@ def motors(study: CalculatedCases) -> Table:
     """One row a drive pulley: what it needs, and motors of the series."""
     columns = (
         Column("drive", "text", attrgetter("drive")),
-        Column("needed at the shaft", "power", attrgetter("needed")),
+        Column("required at the shaft", "power", attrgetter("needed"), json="needed at the shaft"),
         Column("reserve", "ratio", attrgetter("reserve")),
         Column("motors", "count", attrgetter("count")),
         Column("rated each", "power", attrgetter("rated")),
         Column("installed", "power", lambda row: row.count * row.rated),
         Column("governing case", "text", attrgetter("case")),
     )
-    heading, page = "Motors of the series", (OnPage(_CASES, "Motors of the series"),)
+    heading = "Selected standard motors"
+    page = (OnPage(_CASES, heading),)
     return Table("motors", "Load cases", heading, columns, study.motors(), page)
 
 
@@ -297,7 +306,7 @@ def sensitivity(study: CalculatedRanges) -> Table:
         Column("swing", "power", lambda row: row[0].swing, page=None),
         Column("share of variance", "share", itemgetter(1)),
     )
-    rows, heading = tuple(zip(study.effects, study.shares, strict=True)), "Which input matters"
+    rows, heading = tuple(zip(study.effects, study.shares, strict=True)), "Sensitivity ranking"
     page, note = (OnPage(_UNCERTAINTY, heading),), "; ".join(study.notes)
     return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
 
@@ -310,9 +319,9 @@ def band(study: CalculatedRanges) -> Table:
         Column("motor power", "power", lambda _: study.motor),
         Column("motor power, high", "power", lambda row: row[1][1]),
     )
-    rows = (("root of squares", study.band), ("Latin hypercube, first order", study.sampled))
-    page = (OnPage(_UNCERTAINTY, "Motor power with the band that holds nine tenths"),)
-    return Table("power_band", "Uncertainty", "Motor power with its band", columns, rows, page)
+    rows = (("root sum of squares", study.band), ("Latin hypercube, first order", study.sampled))
+    page = (OnPage(_UNCERTAINTY, "Motor power, 90 % interval"),)
+    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, page)
 
 
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
@@ -375,7 +384,7 @@ def notebook_of_states(study: CalculatedStates) -> Html:
 def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
-    caption = f"{study.conveyor.name}: load cases that govern"
+    caption = f"{study.conveyor.name}: governing load cases"
     shown = of_table(governing(study), caption, study.conveyor.report.units)
     return joined([shown, folded("without an answer", refusals)])
 
@@ -393,7 +402,7 @@ def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
     return joined(
         [
             of_table(band(study), f"{study.conveyor.name}: motor power", system),
-            of_table(sensitivity(study), "which input matters", system),
+            of_table(sensitivity(study), "sensitivity ranking", system),
             folded("notes", study.notes),
         ]
     )

@@ -125,7 +125,10 @@ def _tell_apart(axis: Axes) -> None:
             line.set_color(_GUIDE)
     if handles and axis.get_legend() is not None:
         once = dict(zip(labels, handles, strict=True))
-        axis.legend(once.values(), once.keys(), fontsize=9, frameon=True, framealpha=0.9, edgecolor="none")
+        axis.legend(
+            once.values(), once.keys(), fontsize=9, frameon=False, ncols=3, loc="lower left",
+            bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0,
+        )  # fmt: skip
 
 
 def _drawn(figure: Figure) -> bytes:

@@ -29,9 +29,10 @@ from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import CemaEstimate, Classical
 from conveyor.loop.take_up import TakeUpDuty
+from conveyor.loop.tensions import MotionState
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
-from conveyor.remarks import assumptions, warnings
+from conveyor.remarks import assumptions, method, warnings
 from conveyor.report import analysis_plots, loop_plots
 from conveyor.report.columns import (
     NAMED,
@@ -44,25 +45,29 @@ from conveyor.report.columns import (
     ReportHead,
     Table,
     figures,
+    slug,
 )
+from conveyor.report.inputs import gathered
 from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
+from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
+from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
-from conveyor.units import Quantity, System, text
+from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import band_words, figure, plain_figure
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
-AS_GIVEN: Final = "as given"
-"""Case of a check of the conveyor as its spec gives it."""
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
 _HOUR: Final = 3600.0
+_NAMED: Final = 2
+"""Sections of like rolls that are named."""
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
@@ -73,22 +78,26 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
     found = deciding(every)
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
+    asks = take_up_of(analysis, studies)
+    governs, verdict = governing_figures(analysis, studies, found, asks, left_open)
     parts = (
         identity(analysis.conveyor, system),
+        replace(governs, note=verdict),
         results(analysis, left_open),
+        *given(analysis.conveyor),
         defaults(left_open, system),
         inputs(analysis.conveyor),
         sections(analysis),
+        resistances(analysis),
         classical(analysis),
         cema(analysis),
-        resistances(analysis),
         breakdown(analysis),
+        distinct_rolls(analysis),
         rolls(analysis),
-        highest_rolls(analysis),
-        tensions(analysis),
-        profile(analysis),
         section_ends(analysis),
+        tensions(analysis),
         tension_states(analysis),
+        profile(analysis),
         drives(analysis),
         take_up(analysis, studies),
         conditions(analysis),
@@ -99,6 +108,7 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         vertical_curves(analysis),
         convergence(analysis),
         *studied,
+        what_if(analysis, studies, maximum_motor_power(analysis, studies)),
         contact_solutions(analysis),
         indentation(analysis),
         rubber(analysis),
@@ -125,10 +135,9 @@ def document(
 ) -> ReportHead:
     """What a report of a conveyor is of."""
     report = conveyor.report
-    names = ("project", "client", "number", "revision", "engineer")
+    names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
-    own, paper = conveyor.belt_speed, report.sheet(system)
-    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), paper, own, facts)
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), report.sheet(system), facts)
 
 
 def identity(conveyor: Conveyor, system: System) -> Table:
@@ -178,13 +187,13 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("lift", "length", conveyor.route.rise, json="lift_m"),
         Figure("belt speed", "speed", a.line.speed),
         Figure("mass flow", "mass flow", a.line.flow, json="flow_t_per_h"),
-        Figure("motor power", "power", power.motor, "tile large cover notebook", "power_kW.motor"),
-        Figure("motor power, low by defaults", "power", low, "cover", "defaults.motor_kW.low", key="motor_power_low"),
-        Figure("motor power, high by defaults", "power", high, "cover", "defaults.motor_kW.high",
+        Figure("motor power", "power", power.motor, "tile large notebook", "power_kW.motor"),
+        Figure("motor power, low by defaults", "power", low, "", "defaults.motor_kW.low", key="motor_power_low"),
+        Figure("motor power, high by defaults", "power", high, "", "defaults.motor_kW.high",
                key="motor_power_high"),
-        Figure("belt power", "power", power.belt, "large cover notebook", "power_kW.belt"),
-        Figure("mains power", "power", power.mains, "cover", "power_kW.mains"),
-        Figure("effective tension", "force", forces.total, "tile large cover notebook", "forces_N.total", us="Te"),
+        Figure("belt power", "power", power.belt, "large notebook", "power_kW.belt"),
+        Figure("mains power", "power", power.mains, "", "power_kW.mains"),
+        Figure("effective tension", "force", forces.total, "tile large notebook", "forces_N.total", us="Te"),
         *(
             Figure(
                 "lift force" if name == "lift" else name.replace("_", " "), "force", newtons, "notebook",
@@ -193,26 +202,27 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
             for name, newtons in forces.parts.items()
         ),
         Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
-        Figure("equivalent DIN f", "friction", found.friction_factor, "tile large cover notebook", "friction_factor",
+        Figure("equivalent DIN f", "friction", found.friction_factor, "tile large notebook", "friction_factor",
                key="equivalent_f"),
-        Figure("tight side tension", "force", tensions_at.tight, "tile cover notebook", us="T1"),
-        Figure("slack side tension", "force", tensions_at.slack, "cover notebook", us="T2"),
-        Figure("tight side tension at start", "force", tensions_at.tight_start, "cover"),
-        Figure("smallest tension", "force", tensions_at.smallest, "cover"),
-        Figure("belt safety at start", "ratio", safety, "cover"),
-        Figure("energy", "specific energy", power.energy_per_tonne_km, "tile large cover notebook",
+        Figure("tight side tension", "force", tensions_at.tight, "tile notebook", us="T1"),
+        Figure("slack side tension", "force", tensions_at.slack, "notebook", us="T2"),
+        Figure("tight side tension at start", "force", tensions_at.tight_start),
+        Figure("minimum tension, steady", "force", tensions_at.smallest, key="smallest_tension"),
+        Figure("belt safety at start", "ratio", safety),
+        Figure("energy", "specific energy", power.energy_per_tonne_km, "tile large notebook",
                key="specific_energy"),
-        Figure("energy per year", "energy", energy, "cover"),
-        Figure("cost per year", money, cost, "cover"),
+        Figure("energy per year", "energy", energy),
+        Figure("cost per year", money, cost),
         Figure("classical f", "friction", classic.friction_factor),
         Figure("classical effective tension", "force", classic.total, us="Te"),
-        Figure("classical motor power", "power", found.frame.motor(classic.total), "cover"),
-        Figure("largest error estimate of the contacts", "error", error, "cover", "error_estimate",
+        Figure("classical motor power", "power", found.frame.motor(classic.total)),
+        Figure("maximum error estimate of the contacts", "error", error, "", "error_estimate",
                key="contact_error_estimate"),
-        Figure("largest energy error of the contacts", "error", energy_error, key="contact_energy_error"),
+        Figure("maximum energy error of the contacts", "error", energy_error, key="contact_energy_error"),
     )  # fmt: skip
-    page = (OnPage("summary", "Figures of the whole conveyor"),)
-    table = figures("results", "Results", "Figures of the whole conveyor", rows, page=page, prefix="")
+    heading = "Figures of the whole conveyor as given"
+    page = (OnPage("summary", heading, printed=False),)
+    table = figures("results", "Results", heading, rows, page=page, prefix="")
     name = Column("name", "text", attrgetter("key"), page=None)
     return replace(table, columns=(*table.columns, name))
 
@@ -228,8 +238,8 @@ def defaults(left_open: PowerRange, system: System) -> Table:
         Column("give instead", "text", attrgetter("give"), json="give"),
         Column("name", "text", attrgetter("key"), page=None, json="key"),
     )
-    heading = "What is not given, and what it leaves open"
-    return Table("defaults", "Defaults", heading, columns, left_open.effects, (OnPage("summary", heading),),
+    heading = "Defaults that leave the power open, the one to replace first on top"
+    return Table("defaults", "Results", heading, columns, left_open.effects, (OnPage("inputs", heading),),
                  _left_open(left_open, system) if left_open.effects else "")  # fmt: skip
 
 
@@ -238,10 +248,10 @@ def _left_open(found: PowerRange, system: System) -> str:
     low, high = (figure(end, "power", system) for end in (found.low, found.high))
     first, motor = found.effects[0], figure(found.motor, "power", system)
     said = (
-        f"Motor power {motor}, {low.rpartition(' ')[0]} to {high} by defaults and the rubber's level (nine tenths); "
-        f"replace first: {first.name} ({first.give})."
+        f"Motor power {motor}, 90 % interval {low.rpartition(' ')[0]} to {high} by defaults and the level of the "
+        f"rubber. Replace first: {first.name} (give {first.give})."
     )
-    return " ".join((said, *(f"Not in it: {note}." for note in found.notes)))
+    return " ".join((said, *(f"Not included: {note}." for note in found.notes)))
 
 
 def inputs(conveyor: Conveyor) -> Table:
@@ -254,8 +264,20 @@ def inputs(conveyor: Conveyor) -> Table:
         Column("given by", "text", itemgetter(4)),
     )
     caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
-    page = (OnPage("inputs", caption),)
-    return Table("inputs", "Inputs", "Inputs as entered and in SI", columns, entered(conveyor), page)
+    page, heading = (OnPage("inputs", caption, printed=False),), "Inputs as entered and in SI"
+    return Table("inputs", "Inputs", heading, columns, entered(conveyor), page, printed=False)
+
+
+def given(conveyor: Conveyor) -> Iterator[Table]:
+    """Inputs as they are read: what was given, one row a part, then what was left to defaults."""
+    columns = (Column("part", "text", itemgetter(0)), Column("values", "text", itemgetter(1)))
+    rows = entered(conveyor)
+    for key, heading, chosen in (
+        ("inputs_given", "Inputs given", [row for row in rows if row[-1] != "default"]),
+        ("inputs_default", "Inputs left to defaults", [row for row in rows if row[-1] == "default"]),
+    ):
+        shown = gathered(chosen, alike=key == "inputs_default")
+        yield Table(key, "Given", heading, columns, shown, (OnPage("inputs", heading),))
 
 
 def sections(a: CalculatedConveyor) -> Table:
@@ -279,7 +301,7 @@ def sections(a: CalculatedConveyor) -> Table:
         Column("idler set L10 life", "life", _set_life, "layout", sparse=True),
     )  # fmt: skip
     page = (
-        OnPage("route", "Sections of both strands, in running direction", "layout"),
+        OnPage("route", "Sections of both strands, in running direction", "layout", printed=False),
         OnPage("route", "Forces of the sections", "forces"),
     )
     heading = "Forces of every section and strand"
@@ -331,7 +353,7 @@ def breakdown(a: CalculatedConveyor) -> Table:
         Column("share of total", "share", lambda name: _share(forces.parts[name], forces.total)),
     )
     heading = "Breakdown of the effective tension"
-    return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts))
+    return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts), printed=False)
 
 
 def classical(a: CalculatedConveyor) -> Table:
@@ -359,9 +381,9 @@ def classical(a: CalculatedConveyor) -> Table:
         Column("quantity", NAMED, attrgetter("label")),
         *(Column(name, OF_ROW, _nth(i), key=f"estimate_{i}") for i, name in enumerate(names)),
     )
-    heading = "Beside the classical estimate (ISO 5048 / DIN 22101, given f)"
+    heading = "Comparison with ISO 5048 / DIN 22101, given f"
     note = f"classical secondary: {found.classical.secondary_by}; governing at the drive: {found.tensions.governed_by}"
-    page = (OnPage("resistances", "Beside the classical estimates"),)
+    page = (OnPage("resistances", heading),)
     return Table("classical", "Resistances", heading, columns, rows, page, note)
 
 
@@ -412,10 +434,10 @@ def rolls(a: CalculatedConveyor) -> Table:
         Column("peak pressure", "pressure", lambda row: float(row[1].peak.peak_pressure)),
         Column("transit frequency", "passing",
                lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
-        Column("indentation", "force", lambda row: row[1].resistance),
+        Column("indentation", "roll force", lambda row: row[1].resistance),
         Column("error estimate", "error", lambda row: row[1].peak.error, page=None),
         Column("energy error", "error", lambda row: row[1].peak.energy_error, page=None),
-        Column("rim drag", "force", lambda row: row[2]),
+        Column("rim drag", "roll force", lambda row: row[2]),
         Column("rotation", "rotation",
                lambda row: row[1].curve.contact.speed / (2.0 * math.pi * row[1].curve.contact.radius), page=None),
         Column("heavier bearing", "force", lambda row: row[3] and row[3].heavier, page=None, sparse=True),
@@ -426,20 +448,36 @@ def rolls(a: CalculatedConveyor) -> Table:
         for r in a.stretches
         for place, (roll, drag) in enumerate(zip(r.rolls, r.stretch.drags, strict=True))
     )
-    return Table("rolls", "Rolls", "Rolls of a set, contact at the highest line load", columns, rows)
+    heading = "Every roll of a set, contact at the highest line load"
+    return Table("rolls", "Rolls", heading, columns, rows, printed=False)
 
 
-def highest_rolls(a: CalculatedConveyor) -> Table:
-    """The highest loaded roll of every section; on the page only."""
-    every = rolls(a)
-    by_stretch: dict[tuple[str, str], list[Any]] = {}
+def distinct_rolls(a: CalculatedConveyor) -> Table:
+    """Rolls that read alike once, with the sections they stand in."""
+    every, by_look = rolls(a), dict[tuple[str, ...], list[Any]]()
+    shown = tuple(column for column in every.columns if column.page is not None)
     for row in every.rows:
-        by_stretch.setdefault((row[0].stretch.section, row[0].stretch.strand), []).append(row)
-    highest = tuple(max(rows, key=lambda row: float(row[1].peak.line_load)) for rows in by_stretch.values())
-    caption = "Roll of the highest line load of every section and strand"
-    page = (OnPage("rolls", caption),)
-    note = f"Relative error of the contacts: at most {a.error_estimate:.0e}."
-    return Table("highest_rolls", "", caption, every.columns, highest, page, note)
+        look = tuple(unit(column.kind).short(column.get(row)) for column in shown[1:])
+        by_look.setdefault(look, []).append(row)
+    columns = (
+        Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
+        *(replace(column, get=_of_first(column.get)) for column in shown[1:]),
+    )
+    heading = "Rolls of a set at their highest line load, alike ones once"
+    page, note = (
+        (OnPage("rolls", heading),),
+        f"Relative error of the contacts: at most {a.error_estimate:.0e}.",
+    )
+    return Table("distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), page, note, named=3)
+
+
+def _of_first(get: Getter) -> Getter:
+    return lambda rows: get(rows[0])
+
+
+def _in_words(names: list[str]) -> str:
+    """Names of sections, of many the first and how many more."""
+    return ", ".join(names) if len(names) <= _NAMED else f"{names[0]} and {len(names) - 1} more"
 
 
 def tensions(a: CalculatedConveyor) -> Table:
@@ -448,24 +486,34 @@ def tensions(a: CalculatedConveyor) -> Table:
         Column("place", "text", attrgetter("place")),
         Column("distance from drive", "length", attrgetter("distance")),
         Column("tension", "force", attrgetter("tension")),
-        Column("least for sag", "force", attrgetter("least_for_sag")),
+        Column("minimum tension (sag)", "force", attrgetter("least_for_sag"), key="least_for_sag"),
     )
     heading = "Tension round the loop, steady running, from the drive"
-    return Table("tensions", "Tensions", heading, columns, a.balance.points)
+    return Table("tensions", "Tensions", heading, columns, a.balance.points, printed=False)
 
 
 def profile(a: CalculatedConveyor) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
-    sections = a.line.sections
+    sections, ends = a.line.sections, boundaries(a.line)
     along = accumulate((section.length for section in sections), initial=0.0)
-    rows = zip(("", *(section.name for section in sections)), along, boundaries(a.line), strict=True)
+    places = loop_plots.places(a.conveyor, a.line)
+    rows = zip(range(len(ends)), ("", *(section.name for section in sections)), along, ends, strict=True)
     columns = (
-        Column("behind section", "text", itemgetter(0)),
-        Column("along the belt", "length", itemgetter(1)),
-        Column("horizontal", "length", lambda row: row[2][0]),
-        Column("height", "length", lambda row: row[2][1]),
+        Column("behind section", "text", itemgetter(1)),
+        Column("along the belt", "length", itemgetter(2)),
+        Column("horizontal", "length", lambda row: row[3][0]),
+        Column("height", "length", lambda row: row[3][1]),
+        *(
+            Column(f"{what} at height", "length", _height_at(at), key=what.replace("-", "_"))
+            for what, at in places.items()
+        ),
     )
-    return Table("profile", "States", "Profile of the route", columns, tuple(rows))
+    heading = "Profile of the route"
+    return Table("profile", "States", heading, columns, tuple(rows), printed=False)
+
+
+def _height_at(boundaries_of: tuple[int, ...]) -> Getter:
+    return lambda row: row[3][1] if row[0] in boundaries_of else None
 
 
 def boundaries(line: Line) -> list[tuple[float, float]]:
@@ -479,43 +527,52 @@ def boundaries(line: Line) -> list[tuple[float, float]]:
 
 
 def section_ends(a: CalculatedConveyor) -> Table:
-    """One row a stretch: steady running and the state of the highest tension; on the page only."""
-    settled, shape = a.balance.settled, a.line.loop
-    columns = [
-        Column("section", "text", lambda i: shape.stretches[i].section),
-        Column("strand", "text", lambda i: shape.stretches[i].strand),
-    ]
-    for state in {state.name: state for state in (settled.steady, settled.unsteady)}.values():
-        columns += [
-            Column(f"{state.name}, {end}", "force", _of(at))
-            for end, at in (("begins", state.starts), ("ends", state.ends))
-        ]
-    columns.append(Column("least for sag", "force", lambda i: float(shape.least[i])))
-    caption = "Tensions where the sections begin and end"
-    rows = tuple(range(len(shape.stretches)))
-    return Table("section_ends", "", caption, tuple(columns), rows, (OnPage("tensions", caption),))
+    """One row a place of the loop, from the head: the tension there in every state; states that fail are named so."""
+    shape = a.line.loop
+    rows = ((0, 0), *((i, 1) for i in range(len(shape.stretches))))
+
+    def place(at: tuple[int, int]) -> str:
+        return f"{shape.stretches[at[0]].section}, {shape.stretches[at[0]].strand}" if at[1] else "head"
+
+    columns = (
+        Column("behind section", "text", place),
+        *_of_places(a),
+        *(
+            Column(f"{name}{loop_plots.fault(a.line, state)}", "force", _of_end(state), key=slug(name))
+            for name, state in _states(a).items()
+        ),
+    )
+    heading = "Tension behind every section in every state of motion"
+    page = (OnPage("tensions", heading),)
+    return Table("section_ends", "Tension diagram", heading, columns, rows, page)
 
 
-def _of(values: Any) -> Getter:
-    return lambda i: float(values[i])
+def _states(a: CalculatedConveyor) -> dict[str, MotionState]:
+    return a.balance.settled.states | a.motions.states
+
+
+def _of_places(a: CalculatedConveyor) -> tuple[Column, ...]:
+    """Where a place of the loop is, and what its sag asks for."""
+    shape = a.line.loop
+    return (
+        Column("distance from head", "length", lambda at: float(shape.way[at[0] + at[1]])),
+        Column("minimum tension (sag)", "force", lambda at: float(shape.least[at[0]]), key="least_for_sag"),
+    )
 
 
 def tension_states(a: CalculatedConveyor) -> Table:
     """Tension at both ends of every stretch in every state, in loop order from the head."""
-    settled, shape = a.balance.settled, a.line.loop
-    columns = [
+    shape = a.line.loop
+    columns = (
         Column("section", "text", lambda at: shape.stretches[at[0]].section),
         Column("strand", "text", lambda at: shape.stretches[at[0]].strand),
         Column("end", "text", lambda at: ("start", "end")[at[1]]),
-        Column("distance from head", "length", lambda at: float(shape.way[at[0] + at[1]])),
-        Column("least for sag", "force", lambda at: float(shape.least[at[0]])),
-        *(
-            Column(name, "force", _of_end(state))
-            for name, state in (settled.states | a.motions.states).items()
-        ),
-    ]
+        *_of_places(a),
+        *(Column(name, "force", _of_end(state)) for name, state in _states(a).items()),
+    )
     rows = tuple((i, end) for i in range(len(shape.stretches)) for end in (0, 1))
-    return Table("tension_states", "States", "Tension in every state of motion", tuple(columns), rows)
+    heading = "Tension at both ends of every section in every state of motion"
+    return Table("tension_states", "States", heading, columns, rows, printed=False)
 
 
 def _of_end(state: Any) -> Getter:
@@ -555,9 +612,9 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
     mean = a.balance.settled.steady.mean(a.line.loop.length)
     rows = [
         Figure("setting", "force", duty.setting, "cover"),
-        Figure("least setting", "force", duty.needed),
+        Figure("required setting", "force", duty.needed, key="least_setting"),
         Figure("mean tension of the loop", "force", mean, key="mean_tension"),
-        Figure("strands that pull at it", "count", float(duty.unit.strands), key="strands"),
+        Figure("strands at the take-up", "count", float(duty.unit.strands), key="strands"),
         Figure("mass of a gravity take-up", "mass", mass, key="mass"),
         Figure("pull on the rope of a winch", "force", None if mass is None else mass * a.line.gravity, key="pull"),
         Figure("change of mean tension by temperature", "force", duty.mean_change),
@@ -595,11 +652,11 @@ def conditions(a: CalculatedConveyor) -> Table:
     settled = a.balance.settled
     columns = (
         Column("condition", "text", itemgetter(0)),
-        Column("setting it asks for", "force", itemgetter(1)),
+        Column("required setting", "force", itemgetter(1), key="setting_it_asks_for"),
         Column("margin", "force", lambda row: settled.setting - row[1]),
     )
     heading, rows = (
-        "What asks for the tension of the take-up",
+        "Governing take-up conditions",
         sorted(settled.conditions.items(), key=lambda item: -item[1]),
     )
     return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
@@ -618,8 +675,8 @@ def start_stop(a: CalculatedConveyor) -> Table:
         Figure("acceleration at start", "acceleration", start.acceleration),
         Figure("time over the whole speed range", "duration", start.time),
         Figure("motor torque at start over rated", "ratio", start.torque_factor),
-        Figure("force asked of the motors", "force", start.asked),
-        Figure("force the motors give", "force", start.available),
+        Figure("required motor force", "force", start.asked, key="force_asked_of_the_motors"),
+        Figure("available motor force", "force", start.available, key="force_the_motors_give"),
         Figure("drive force at rest", "force", start.standstill),
         Figure("resistance after standstill, at most", "force", start.breakaway),
     ]  # fmt: skip
@@ -639,15 +696,18 @@ def start_stop(a: CalculatedConveyor) -> Table:
     gripping = moving.gripping_speed if a.line.brake_delay > 0.0 else None
     braking, starting = (None, None) if slip is None else (-slip.braking, slip.starting)
     rows += [
-        Figure("brake for the deceleration wanted", "force", moving.brake_to_stop),
+        Figure("brake force for the specified deceleration", "force", moving.brake_to_stop,
+               key="brake_for_the_deceleration_wanted"),
         Figure(f"{holder} to hold", "force", moving.brake_to_hold),
         Figure("torque to hold, at the first drive's pulley", "torque", torque, key="torque_to_hold"),
         Figure("runaway, drives and brakes off", "acceleration", moving.runaway),
         Figure("speed at which the brakes grip", "speed", gripping),
-        Figure("hardest braking before the bulk slides", "acceleration", braking),
-        Figure("highest acceleration before the bulk slides", "acceleration", starting),
+        Figure("maximum deceleration without material slip", "acceleration", braking,
+               key="hardest_braking_before_the_bulk_slides"),
+        Figure("maximum acceleration without material slip", "acceleration", starting,
+               key="highest_acceleration_before_the_bulk_slides"),
     ]  # fmt: skip
-    page = (OnPage("start-stop", "Start, stop and the limits of the bulk"),)
+    page = (OnPage("start-stop", "Start, stop and limits of material slip"),)
     return figures("start_stop", "Loop", "Start and stop", rows, page=page, prefix="motion_")
 
 
@@ -670,16 +730,18 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
     duty = a.belt_duty
     rows = (
-        Figure("largest tension, steady", "force", duty.largest_steady, us="Tmax"),
-        Figure("largest tension, all states", "force", duty.largest, us="Tmax"),
+        Figure("maximum tension, steady", "force", duty.largest_steady, us="Tmax", key="largest_tension_steady"),
+        Figure("maximum tension, all states", "force", duty.largest, us="Tmax", key="largest_tension_all_states"),
         Figure("safety, steady", "ratio", duty.safety_steady),
         Figure("safety, all states", "ratio", duty.safety),
-        Figure("classic safety asked for", "ratio", duty.safety_needed),
+        Figure("required safety", "ratio", duty.safety_needed, key="classic_safety_asked_for"),
         Figure("tension per width, steady", "strength", duty.per_width_steady),
         Figure("tension per width, all states", "strength", duty.per_width),
         Figure("rated tension per width", "strength", duty.rating),
-        Figure("strength the splice asks for", "strength", duty.strength_needed),
-        Figure("least diameter of drive pulleys", "size", duty.drive_diameter),
+        Figure("belt strength required by the splice", "strength", duty.strength_needed,
+               key="strength_the_splice_asks_for"),
+        Figure("minimum diameter of drive pulleys", "size", duty.drive_diameter,
+               key="least_diameter_of_drive_pulleys"),
     )  # fmt: skip
     page = (OnPage("belt", "Strength of the belt"),)
     return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
@@ -692,8 +754,8 @@ def pulleys(a: CalculatedConveyor) -> Table:
         Column("position", "text", attrgetter("position")),
         Column("group", "text", attrgetter("group")),
         Column("diameter", "size", attrgetter("diameter")),
-        Column("least", "size", attrgetter("least")),
-        Column("of the series", "size", attrgetter("next_size")),
+        Column("minimum", "size", attrgetter("least"), key="least"),
+        Column("standard size", "size", attrgetter("next_size"), key="of_the_series"),
         Column("large enough", "verdict", attrgetter("large_enough")),
     )
     return Table(
@@ -710,11 +772,14 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
         Column("radius", "length", attrgetter("radius")),
         Column("lowest tension", "force", attrgetter("lowest")),
         Column("highest tension", "force", attrgetter("highest")),
-        Column("least against lift-off", "length", attrgetter("lift_off")),
-        Column("least against overstress", "length", attrgetter("overstress")),
-        Column("least against slack strips", "length", attrgetter("buckling")),
+        Column("minimum against lift-off", "length", attrgetter("lift_off")),
+        Column("minimum against overstress", "length", attrgetter("overstress")),
+        Column("minimum against slack strips", "length", attrgetter("buckling")),
     )
-    rows, page = tuple(a.belt_duty.curves), (OnPage("belt", "Vertical curves"),)
+    rows, page = (
+        tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0),
+        (OnPage("belt", "Vertical curves"),),
+    )
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
 
 
@@ -728,7 +793,8 @@ def convergence(a: CalculatedConveyor) -> Table:
         Figure("bound over largest tension", "error", found.bound),
     )  # fmt: skip
     heading = "How tensions and roll loads settled"
-    return figures("convergence", "Loop", heading, rows, page=(OnPage("belt", f"{heading} on the curves"),))
+    page = (OnPage("belt", f"{heading} on the curves", printed=False),)
+    return figures("convergence", "Loop", heading, rows, page=page, printed=False)
 
 
 def _contacts(a: CalculatedConveyor) -> dict[Any, Any]:
@@ -756,8 +822,8 @@ def contact_solutions(a: CalculatedConveyor) -> Table:
         "Contacts, one a distinct roll, cover and spacing",
         "Contact solutions, one a distinct roll, cover and spacing",
     )
-    rows, page = tuple(_contacts(a).items()), (OnPage("provenance", caption),)
-    return Table("contact_solutions", "Indentation", heading, columns, rows, page)
+    rows, page = tuple(_contacts(a).items()), (OnPage("provenance", caption, printed=False),)
+    return Table("contact_solutions", "Indentation", heading, columns, rows, page, printed=False)
 
 
 def indentation(a: CalculatedConveyor) -> Table:
@@ -765,7 +831,11 @@ def indentation(a: CalculatedConveyor) -> Table:
     seen: dict[Any, tuple[str, Level | None]] = {}
     for r in a.stretches:
         for roll in r.rolls:
-            label = f"{r.stretch.strand}, {2e3 * roll.curve.contact.radius:.0f} mm, {r.stretch.spacing:g} m"
+            size, apart = (
+                unit(kind, a.conveyor.report.units).brief(value)
+                for kind, value in (("size", 2.0 * roll.curve.contact.radius), ("spacing", r.stretch.spacing))
+            )
+            label = f"{r.stretch.strand}, {size}, {apart}"
             seen.setdefault(roll.curve, (label, r.cover.level))
     rows: list[tuple[Any, ...]] = []
     for curve, (label, level) in seen.items():
@@ -783,7 +853,7 @@ def indentation(a: CalculatedConveyor) -> Table:
         Column("peak pressure", "pressure", itemgetter(4)),
     )
     heading = "Indentation against line load, one block a contact"
-    return Table("indentation", "Indentation", heading, declared, tuple(rows))
+    return Table("indentation", "Indentation", heading, declared, tuple(rows), printed=False)
 
 
 def rubber(a: CalculatedConveyor) -> Table:
@@ -813,8 +883,8 @@ def rubber(a: CalculatedConveyor) -> Table:
         Column("level from", "factor", lambda row: _level_end(contacts, row[0], -1.0), json="level_from"),
         Column("level to", "factor", lambda row: _level_end(contacts, row[0], 1.0), json="level_to"),
     )  # fmt: skip
-    page = (OnPage("rubber", "What the rolls ask of the rubber, and what its data hold"),)
-    return Table("rubber", "Rubber", "What the rolls ask of the rubber", columns, tuple(rows), page)
+    page = (OnPage("rubber", "Excitation of the rubber by the rolls, and range of its data"),)
+    return Table("rubber", "Rubber", "Excitation of the rubber by the rolls", columns, tuple(rows), page)
 
 
 def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
@@ -829,7 +899,7 @@ def bands(excited: Getter, data: Getter) -> Iterator[Column]:
     for name, get in (("excited", excited), ("data", data)):
         yield Column(f"{name} from", "frequency", _end(get, 0), page=None)
         yield Column(f"{name} to", "frequency", _end(get, 1), page=None)
-    for name, get in (("excited band", excited), ("band of the data", data)):
+    for name, get in (("excitation band", excited), ("band of the data", data)):
         yield Column(name, "frequency", _words(get), sheet=False)
 
 
@@ -859,6 +929,8 @@ def compounds(a: CalculatedConveyor, system: System) -> Iterator[Table]:
 def _known(compound: RubberCompound, strand: str, system: System) -> Table:
     """What is known of a compound, in words; what is not stated is said or left out."""
     known, fit = compound.range, compound.fit
+    warmth, share = unit("temperature", system), unit("share")
+    band = compound.frequencies(compound.reference)
     said = (
         ("description", compound.description),
         ("origin", compound.source.origin),
@@ -866,22 +938,23 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
         ("data", compound.source.data or "not stated"),
         ("strain of the data", compound.strain or "not stated"),
         ("Poisson's ratio", repr(compound.poisson_ratio)),
-        ("reference temperature", unit("temperature", system).converted(compound.reference_temperature)),
-        ("equilibrium modulus", text(compound.prony.equilibrium)),
+        ("reference temperature", warmth.converted(compound.reference_temperature)),
+        ("equilibrium modulus", unit("pressure", system).converted(compound.prony.equilibrium)),
         ("Prony terms", str(len(compound.prony.terms))),
         ("temperature shift", "none" if compound.shift is None else compound.shift.law),
-        ("range of frequency", "not stated" if known is None else " to ".join(map(text, known.frequency))),
-        ("range of temperature", "not stated" if known is None else " to ".join(map(text, known.temperature))),
+        ("range of frequency", "not stated" if band is None else band_words(band)),
+        ("range of temperature",
+         "not stated" if known is None else " to ".join(map(warmth.converted, known.temperature))),
         ("spectrum", "" if compound.carrier is None else f"of {compound.carrier}, which carries the tests"),
         ("rolling-resistance tests", "; ".join(dict.fromkeys(test.source for test in compound.tests)) or "none"),
         ("fit", "" if fit is None else fit.method),
         ("rms errors of E', E''", "" if fit is None or compound.kind != "measured" else
-         f"{text(fit.storage_rms)}, {text(fit.loss_rms)}"),
-        ("not known", "; ".join(compound.missing) or "nothing listed"),
+         f"{share.converted(fit.storage_rms)}, {share.converted(fit.loss_rms)}"),
+        ("unknown", "; ".join(compound.missing) or "nothing listed"),
     )  # fmt: skip
     columns = (Column("fact", "text", itemgetter(0)), Column("value", "text", itemgetter(1)))
     rows = tuple(row for row in said if row[1])
-    page = (OnPage("rubber", f"What is known of {compound.name}"),)
+    page = (OnPage("rubber", f"What is known of {compound.name}", printed=False),)
     return Table(f"known_{strand}", "", f"{compound.name} ({compound.kind})", columns, rows, page)
 
 
@@ -895,7 +968,7 @@ def _prony(compound: RubberCompound, strand: str, at: float) -> Table:
     )
     values = (reference.moduli, reference.times, compound.series(at).times)
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
-    return Table(f"prony_{strand}", "Rubber", "Relaxation spectrum", columns, rows)
+    return Table(f"prony_{strand}", "Rubber", "Relaxation spectrum", columns, rows, printed=False)
 
 
 def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
@@ -910,7 +983,9 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
         Column("tan delta", "friction", itemgetter(3)),
     )
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
-    return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows)
+    return Table(
+        f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows, printed=False
+    )
 
 
 class CheckRow(NamedTuple):
@@ -934,8 +1009,8 @@ class CheckRow(NamedTuple):
 
 _CHECK: Final = (
     Column("check", "text", attrgetter("subject")),
-    Column("found", "text", attrgetter("found")),
-    Column("asked for", "text", attrgetter("asked")),
+    Column("calculated", "text", attrgetter("found"), key="found"),
+    Column("required", "text", attrgetter("asked"), key="asked"),
     Column("margin", "share", attrgetter("margin")),
 )
 _OF_CASE: Final = Column("case", "text", attrgetter("case"))
@@ -946,10 +1021,8 @@ def checked(found: tuple[Check, ...], system: System) -> Table:
     """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail."""
     first = leading(found)
     rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in found)
-    caption = (
-        "Found against what is asked for; sources of the limits are in the warnings and in docs/conveyor.md"
-    )
-    note = "margin: what is left to the limit, over the limit; of all cases the least"
+    caption = "Calculated against required; of all calculated cases the least margin"
+    note = "margin: what is left to the limit, over the limit; of all calculated cases the least"
     of_case = (_OF_CASE,) if any(row.case != AS_GIVEN for row in rows) else ()
     page, columns = (OnPage("checks", caption),), (*_CHECK, *of_case, _VERDICT)
     return Table("checks", "Checks and notes", "Checks", columns, rows, page, note)
@@ -958,8 +1031,16 @@ def checked(found: tuple[Check, ...], system: System) -> Table:
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
     """Every criterion in every load case; those that fail on the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
-    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "What fails in which case"
-    yield Table("case_checks", "Case checks", "Every criterion in every load case", columns, rows, named=2)
+    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Checks that fail, by case"
+    yield Table(
+        "case_checks",
+        "Case checks",
+        "Every criterion in every load case",
+        columns,
+        rows,
+        named=2,
+        printed=False,
+    )
     failed = tuple(row for row in rows if row.verdict == "FAIL")
     yield Table("case_failures", "", caption, columns, failed, (OnPage("load-cases", caption),), named=2)
 
@@ -973,14 +1054,16 @@ class Remark(tuple[str, str]):
 
 
 def remarks(a: CalculatedConveyor, found: tuple[Check, ...], system: System) -> Table:
-    """Warnings, assumptions, and the notes of the spec."""
+    """Warnings, method, assumptions, and the notes of the spec."""
     columns = (
         Column("kind", "text", attrgetter("kind")),
         Column("text", "text", attrgetter("text")),
     )
     notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
     warned = [line.text(system) for line in warnings(a, found)]
-    said = {"warning": warned, "assumption": assumptions(a.conveyor), "note of the spec": notes}
+    said = {
+        "warning": warned, "method": method(a), "assumption": assumptions(a.conveyor), "note of the spec": notes
+    }  # fmt: skip
     rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
     return Table("remarks", "Checks and notes", "Remarks", columns, rows)
 
@@ -997,7 +1080,7 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
         Column("made by", "text", itemgetter(0)),
         Column("version", "text", itemgetter(1)),
     )
-    page = (OnPage("provenance", "What made these figures"),)
+    page = (OnPage("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
@@ -1006,14 +1089,14 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
         "breakdown",
-        "Resistances of this calculation; beside their sums the classical estimates with given friction.",
+        "Resistances of this calculation, their sums beside the estimates with a given friction factor.",
         lambda: analysis_plots.resistance_breakdown(a.balance, system=system),
         "classical",
     )
     yield Drawing(
         "profile",
-        "Profile of the route from the tail: triangles are feeding points, rings are drives.",
-        lambda: loop_plots.route_profile(conveyor, boundaries(a.line), system=system),
+        "Profile of the route from the tail, with feeding points, drives and take-up.",
+        lambda: loop_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
         "sections",
     )
     yield Drawing(
@@ -1026,7 +1109,7 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
         lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
-        "highest_rolls",
+        "distinct_rolls",
     )
     strands = compounds_by_strand(conveyor)
     worked = {compound.name: compound for compound in strands.values()}
@@ -1035,7 +1118,7 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         yield Drawing(
             f"rubber-{k}",
             f"Master curve of {name} at {unit('temperature', system).brief(at)}; "
-            f"shaded: the band in which the {' and '.join(on_it)} rolls lose nine tenths of their energy.",
+            f"shaded: 90 % loss band of the {' and '.join(on_it)} rolls; dashed: beyond the data.",
             partial(analysis_plots.rubber_at_work, compound, at, a.contacts, on_it, system=system),
             f"known_{on_it[0]}",
         )

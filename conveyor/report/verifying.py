@@ -41,7 +41,7 @@ def of_verification(found: CalculatedVerification, system: System) -> Contents:
     )
     title = f"Rolling resistance of {names}"
     report = Report() if found.conveyor is None else found.conveyor.report
-    about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), 0.0, facts)
+    about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
     parts = (what(found), to_fill_in(), per_width(found, system), per_set(found))
     return Contents(about, tuple(part for part in parts if not part.empty), system)
 

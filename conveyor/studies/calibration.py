@@ -494,8 +494,8 @@ def _judged(
         wider = math.sqrt(chi_square / freedom)
         sigma, ends = sigma * wider, _student(freedom)
         notes.append(
-            f"the differences are {wider:.2g} times the errors stated (probability below {POOR_FIT:.0%}): the errors "
-            "are larger, or something else than these factors differs; the bands are widened by it"
+            f"the differences are {wider:.2g} times the errors stated (probability below {100.0 * POOR_FIT:.0f} %): "
+            "the errors are larger, or something else than these factors differs; the bands are widened by it"
         )
     weighed = slopes / sigma[:, None]
     covariance = np.linalg.inv(weighed.T @ weighed)

@@ -22,7 +22,6 @@ from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many, take_up_of
-from conveyor.units import display
 from conveyor.units.sentences import Said, quoted, said
 
 MOTOR_RESERVE: Final = 1.1
@@ -120,8 +119,9 @@ class CaseRefusal:
 
 @dataclass(frozen=True, eq=False)
 class Governing:
-    """The case that decides a figure: the figure's name, its value and kind of quantity, the case."""
+    """The case that decides a figure: its key, name, value and kind of quantity, the case."""
 
+    key: str
     figure: str
     value: float
     kind: str
@@ -290,16 +290,36 @@ def analyse_cases(
     return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
 
 
-_FIGURES: Final[dict[str, tuple[str, bool, Callable[[CaseResult], float]]]] = {
-    "largest motor power, friction high": ("power", True, lambda r: r.motors[1]),
-    "least motor power, friction low": ("power", False, lambda r: r.motors[0]),
-    "largest drive force, friction high": ("force", True, lambda r: r.forces[1]),
-    "least drive force, friction low": ("force", False, lambda r: r.forces[0]),
-    "largest belt tension": ("force", True, lambda r: r.found.balance.tensions.largest),
-    "least belt tension": ("force", False, lambda r: r.found.balance.tensions.smallest),
-    "largest tension asked of the take-up": ("force", True, lambda r: r.found.balance.settled.needed),
-    "largest roll load": ("force", True, lambda r: r.heaviest_roll[0]),
-    "largest indentation": ("force", True, lambda r: r.found.balance.forces.indentation),
+_FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[CaseResult], float]]]] = {
+    "largest_motor_power_friction_high": ("maximum motor power", "power", True, lambda r: r.motors[1]),
+    "least_motor_power_friction_low": ("minimum motor power", "power", False, lambda r: r.motors[0]),
+    "largest_drive_force_friction_high": ("maximum drive force", "force", True, lambda r: r.forces[1]),
+    "least_drive_force_friction_low": ("minimum drive force", "force", False, lambda r: r.forces[0]),
+    "largest_belt_tension": (
+        "maximum belt tension",
+        "force",
+        True,
+        lambda r: r.found.balance.tensions.largest,
+    ),
+    "least_belt_tension": (
+        "minimum belt tension, steady",
+        "force",
+        False,
+        lambda r: r.found.balance.tensions.smallest,
+    ),
+    "largest_tension_asked_of_the_take_up": (
+        "required take-up tension",
+        "force",
+        True,
+        lambda r: r.found.balance.settled.needed,
+    ),
+    "largest_roll_load": ("maximum roll load", "force", True, lambda r: r.heaviest_roll[0]),
+    "largest_indentation": (
+        "maximum indentation",
+        "force",
+        True,
+        lambda r: r.found.balance.forces.indentation,
+    ),
 }
 
 
@@ -308,9 +328,9 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     if not results:
         return ()
     found = []
-    for figure, (kind, largest, value) in _FIGURES.items():
+    for key, (figure, kind, largest, value) in _FIGURES.items():
         chosen = max(results, key=value) if largest else min(results, key=value)
-        found.append(Governing(figure, value(chosen), kind, chosen))
+        found.append(Governing(key, figure, value(chosen), kind, chosen))
     return tuple(found)
 
 
@@ -346,8 +366,7 @@ def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tupl
         )
     ends = [(power, result) for result in results for power in reversed(result.motors)]
     power, decisive = max(ends, key=lambda end: abs(end[0]))
-    at, speed = display(decisive.temperature, "temperature"), display(decisive.speed, "speed")
-    case = f"{decisive.case.name}, {at}, {speed}"
+    case = decisive.label.text(decisive.found.conveyor.report.units)
     choices = []
     for drive in decisive.found.line.drives:
         if drive.share == 0.0:

@@ -27,6 +27,7 @@ from conveyor.models.variants import scaled, with_alternative, with_belt_tempera
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.studies.compared import COVERED, ends
 from conveyor.units import Quantity, display, from_si, text
+from conveyor.units.sentences import percent
 
 Array = NDArray[np.float64]
 
@@ -91,7 +92,7 @@ class CalculatedRanges:
     def __repr__(self) -> str:
         low, high = (value / 1e3 for value in self.band)
         name, motor = self.conveyor.name, self.motor / 1e3
-        return f'UncertaintyStudy("{name}": motor power {motor:.1f} kW, nine tenths from {low:.1f} to {high:.1f} kW)'
+        return f'UncertaintyStudy("{name}": motor power {motor:.1f} kW, 90 % interval {low:.1f} to {high:.1f} kW)'
 
     @property
     def shares(self) -> tuple[float, ...]:
@@ -259,7 +260,7 @@ def _variations(
     half = ranges.half_width("roll_drag")
     if half is not None:
         ends = (Variant(conveyor, roll_drag=1.0 - half), Variant(conveyor, roll_drag=1.0 + half))
-        yield _Variation("roll drag", f"-{half:.3g}", "as computed", f"+{half:.3g}", ends)
+        yield _Variation("roll drag", f"-{percent(half)}", "as computed", f"+{percent(half)}", ends)
     if ranges.flexure_share is not None:
         yield _flexure(conveyor, ranges.flexure_share)
     for name, change in _CHANGES.items():
@@ -359,7 +360,7 @@ def _scaled(
     if all(end == conveyor for end in ends):
         notes.append(f"uncertainty.{name}: the conveyor has none of it")
     scenes = tuple(Variant(end) for end in ends)
-    return _Variation(name.replace("_", " "), f"-{half:.3g}", "as given", f"+{half:.3g}", scenes)
+    return _Variation(name.replace("_", " "), f"-{percent(half)}", "as given", f"+{percent(half)}", scenes)
 
 
 def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
@@ -374,9 +375,9 @@ def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]
             scenes = tuple(Variant(with_alternative(conveyor, compound, other)) for other in alternatives)
             yield _Variation(
                 f'rubber "{name}"',
-                "5 % of the replicas",
+                "5th percentile of fits",
                 "as fitted",
-                "95 % of the replicas",
+                "95th percentile of fits",
                 scenes,
                 replicas=True,
             )
@@ -399,4 +400,6 @@ def _level(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Var
         for sign in (-1.0, 1.0)
     )
     low, high = (math.expm1(sign * max(bands.values())) for sign in (-1.0, 1.0))
-    return _Variation(f'level of "{name}"', f"{low:+.3g}", "as tested", f"{high:+.3g}", ends)
+    return _Variation(
+        f'level of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends
+    )

@@ -27,6 +27,8 @@ from conveyor.units import System
 
 _HEADERS: Final = {"Field": 26, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
 """Columns of a form and their widths [characters]."""
+_PRINTED: Final = 4
+"""Columns that paper has: field, value, unit, what is allowed."""
 _HEAD: Final = 4
 """Row of the headers."""
 _KEYS: Final = 6
@@ -47,6 +49,7 @@ HOW_TO: Final = (
     "* marks what is needed; such a cell is yellow while it is empty. Of a part that may be left out, * is needed "
     "once any of it is filled in.",
     "Grey defaults hold where the value cell stays empty. Notes on the field names repeat meaning and range.",
+    "Parts that may be left out are folded: the + beside their heading opens them. Paper has what is open.",
     "Lists have a row for each item, in order; empty rows are passed over, rows may be added at the end.",
     "Write numbers as your spreadsheet program shows numbers; cells may refer to other sheets of your own, "
     "which are ignored.",
@@ -54,6 +57,11 @@ HOW_TO: Final = (
     "are.",
     "Calculate with: conveyor power input.xlsx -o report.xlsx",
 )
+
+
+def _filled(sheets: FilledSheets, part: tuple[str, ...]) -> bool:
+    """Whether any field of a part has a value."""
+    return any(path[: len(part)] == part for path in sheets.cells)
 
 
 class Book:
@@ -74,7 +82,7 @@ class Book:
                     self._table(drawn, sheets)
         self._how_to(self.book.worksheets[0], every)
         for sheet in self.book.worksheets:
-            print_set_up(sheet, self.title)
+            print_set_up(sheet, self.title, sheet.max_row, portrait=sheet.print_area != "")
         self.rules.draw(self.book)
         return self.book
 
@@ -98,14 +106,25 @@ class Book:
                 doc="Write this where a compound is asked for.",
             )
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
+        sheet.sheet_properties.outlinePr.summaryBelow = False
+        closed: tuple[str, ...] = ()
         for line in form.rows:
             row += 1
+            if closed and line.path[: len(closed)] == closed:
+                sheet.row_dimensions[row].outlineLevel, sheet.row_dimensions[row].hidden = 1, True
+            elif (
+                isinstance(line.part, FieldGroup)
+                and not line.part.required
+                and not _filled(sheets, line.path)
+            ):
+                closed = line.path
             if isinstance(line.part, FieldGroup):
                 _heading(sheet, row, line)
             else:
                 self._field(sheet, row, line, sheets.cells.get(line.path, (None, None)))
         sheet.freeze_panes = sheet.cell(_HEAD + 1, 2)
         sheet.print_title_rows = f"{_HEAD}:{_HEAD}"
+        sheet.print_area = f"A1:{get_column_letter(_PRINTED)}{row}"
 
     def _field(
         self,

@@ -15,9 +15,11 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
 from conveyor.units.quantities import Quantity, System, quantity, si
-from conveyor.units.sentences import belt_rating, belt_strength
+from conveyor.units.sentences import belt_rating, belt_strength, rounded
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
+NEVER: Final = "never"
+"""A payback without end."""
 MONEY: Final = "money "
 """Before a currency's code: a kind of its own."""
 _HUGE: Final = 1e12
@@ -39,15 +41,18 @@ _SAME: Final = {
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
-    "heat": _Kind("MJ", ",.3f"), "specific energy": _Kind("kWh/(t km)", ".4f"), "years": _Kind("a", ".1f"),
+    "heat": _Kind("MJ", ",.3f"),
+    "emission factor": _Kind("kg/kWh", ".3f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
+    "years": _Kind("a", ".1f"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
     "SI": {
         **_SAME,
         "length": _Kind("m", ",.1f"), "spacing": _Kind("m", ".2f"), "size": _Kind("mm", ",.1f"),
-        "thickness": _Kind("mm", ",.3f"), "speed": _Kind("m/s", ".2f"), "acceleration": _Kind("m/s²", ".3f"),
-        "force": _Kind("N", ",.1f", ("kN", ",.2f")), "line force": _Kind("N/m", ",.2f"),
+        "thickness": _Kind("mm", ",.2f"), "speed": _Kind("m/s", ".2f"), "acceleration": _Kind("m/s²", ".3f"),
+        "force": _Kind("N", ",.0f", ("kN", ",.1f")), "roll force": _Kind("N", ",.1f"),
+        "line force": _Kind("N/m", ",.2f"),
         "strength": _Kind("N/mm", ",.1f"), "pressure": _Kind("MPa", ",.3f"), "mass": _Kind("kg", ",.0f"),
         "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
         "torque": _Kind("N m", ",.0f"), "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
@@ -56,13 +61,14 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         **_SAME,
         "length": _Kind("ft", ",.1f"), "spacing": _Kind("ft", ".2f"), "size": _Kind("in", ",.2f"),
         "thickness": _Kind("in", ".4f"), "speed": _Kind("fpm", ",.1f"), "acceleration": _Kind("ft/s²", ".2f"),
-        "force": _Kind("lbf", ",.1f", ("lbf", ",.0f")), "line force": _Kind("lbf/in", ",.4f"),
+        "force": _Kind("lbf", ",.0f", ("lbf", ",.0f")), "roll force": _Kind("lbf", ",.2f"),
+        "line force": _Kind("lbf/in", ",.4f"),
         "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
         "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
     },
 }  # fmt: skip
-_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "a": 1.0,
+_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
     "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048,
 }  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
@@ -115,7 +121,7 @@ class Unit:
         Examples
         --------
         >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("error").written(8e-7)
-        ('84,147.6', '46.8%', '8.0E-07')
+        ('84,148', '46.8 %', '8.0E-07')
         """
         number = self.shown(value)
         if isinstance(number, bool):
@@ -125,8 +131,10 @@ class Unit:
         if number is None or math.isnan(number):
             return ""
         if math.isinf(number):
-            return "∞" if number > 0.0 else "-∞"
-        return f"{number:,}" if isinstance(number, int) else unsigned(f"{number:{self.digits or ',.6g'}}")
+            return NEVER if self.label == "a" else "∞" if number > 0.0 else "-∞"
+        if isinstance(number, int):
+            return f"{number:,}"
+        return unsigned(f"{number:{self.digits or ',.6g'}}").replace("%", " %")
 
     def said(self, value: Any) -> str:
         """One SI value as text with its unit, for sentences.
@@ -134,7 +142,7 @@ class Unit:
         Examples
         --------
         >>> unit("force", large=True).said(168734.4), unit("force", "US", large=True).said(168734.4)
-        ('168.73 kN', '37,933 lbf')
+        ('168.7 kN', '37,933 lbf')
         """
         return f"{self.written(value)} {self.sign}".rstrip()
 
@@ -154,9 +162,26 @@ class Unit:
             written = f"{number:.0f}"
         return f"{written} {self.sign}".rstrip()
 
+    def short(self, value: float | str | None) -> str:
+        """One SI value to three digits with its unit, for what is read first; words as they are.
+
+        Examples
+        --------
+        >>> (
+        ...     unit("power").short(1294412.0),
+        ...     unit("force", large=True).short(76331.0),
+        ...     unit("share").short(0.634),
+        ... )
+        ('1,290 kW', '76.3 kN', '63.4 %')
+        """
+        number = self.shown(value)
+        if not isinstance(number, float) or self.digits.endswith("%"):
+            return self.written(value)
+        return f"{rounded(number)} {self.sign}".rstrip()
+
     def converted(self, value: Quantity) -> str:
         """A quantity as a spec gives it, in this unit, for sentences."""
-        return self.brief(si(value))
+        return self.written(si(value)) if self.digits.endswith("%") else self.brief(si(value))
 
     def beside(self, words: str) -> str:
         """Words with the unit in brackets, for an axis.
@@ -180,13 +205,13 @@ class Unit:
         Examples
         --------
         >>> unit("force").pattern, unit("error").pattern, unit("share").pattern, unit("text").pattern
-        ('#,##0.0', '0.0E+00', '0.0%', 'General')
+        ('#,##0', '0.0E+00', '0.0 %', 'General')
         """
         if not self.digits:
             return "General"
         decimals = int(self.digits.strip(",.f%E"))
         whole = "#,##0" if self.digits.startswith(",") else "0"
-        ending = {"%": "%", "E": "E+00"}.get(self.digits[-1], "")
+        ending = {"%": " %", "E": "E+00"}.get(self.digits[-1], "")
         return whole + ("." + "0" * decimals if decimals else "") + ending
 
 
@@ -200,7 +225,8 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
     (897.5, 68.0, 'EUR')
     """
     if kind.startswith(MONEY):
-        return Unit(kind.removeprefix(MONEY), ",.0f")
+        currency = kind.removeprefix(MONEY)
+        return Unit(currency, ",.4f" if "/" in currency else ",.0f")
     found = _KINDS[system][kind]
     label, digits = found.large if large and found.large else (found.unit, found.digits)
     exact = system == "SI" or _KINDS["SI"][kind].unit == label
@@ -210,6 +236,18 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
         one = si(quantity("1 K")) if label == "degC" else 5.0 / 9.0
         return Unit(label, digits, one, si(quantity(f"0 {label}", kind)), exact)
     return Unit(label, digits, si(quantity(f"1 {label}")), exact=exact)
+
+
+def spelled(label: str, kind: str, system: System = "SI") -> str:
+    """Return a name with its unit as people read it: degrees with their sign.
+
+    Examples
+    --------
+    >>> spelled("temperature", "temperature"), spelled("share", "share")
+    ('temperature [°C]', 'share [-]')
+    """
+    found = unit(kind, system)
+    return label if found.label is None else found.beside(label)
 
 
 def headed(label: str, kind: str, system: System = "SI") -> str:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import re
+import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.units.quantities import System, convert, display, unit_label
+from conveyor.units.quantities import System, convert, unit_label
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
 RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Digits of an exponent."""
-_WHOLE = re.compile(r"^-?\d{4,}")
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+DIGITS: Final = 3
+"""Significant digits of figures in sentences."""
+_KILO: Final = 1e3
 _LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 
@@ -22,16 +23,44 @@ def celsius(temperature: float) -> float:
     return round(temperature - ZERO_CELSIUS, 9)
 
 
-def figure(value: float, kind: str, system: System = "SI") -> str:
-    """Write an SI figure for people: four digits, thousands grouped, powers raised, degrees with their sign.
+def rounded(number: float) -> str:
+    """Write a number to three significant digits, its thousands grouped.
 
     Examples
     --------
-    >>> figure(30097.4, "force"), figure(9.81, "acceleration", "US"), figure(293.15, "temperature")
-    ('30,097 N', '32.19 ft/s²', '20 °C')
+    >>> rounded(30097.4), rounded(76.331), rounded(0.04069), rounded(-0.0)
+    ('30,100', '76.3', '0.0407', '0')
     """
-    written = _WHOLE.sub(lambda found: f"{int(found[0]):,}", display(value, kind, system))
-    return written.replace("^2", "²").replace("^3", "³").replace(" deg", " °")
+    written = f"{number:.{DIGITS}g}"
+    if math.isfinite(number) and abs(float(written)) >= 10.0 ** (DIGITS - 1):
+        return f"{float(written):,.0f}"
+    return "0" if float(written) == 0.0 else written
+
+
+def percent(share: float, decimals: int = 0) -> str:
+    """Write a share in per cent.
+
+    Examples
+    --------
+    >>> percent(0.0222, 1), percent(-0.14)
+    ('2.2 %', '-14 %')
+    """
+    return f"{100.0 * share:.{decimals}f} %"
+
+
+def figure(value: float, kind: str, system: System = "SI") -> str:
+    """Write an SI figure for people: three digits, thousands grouped, forces in kN, degrees with their sign.
+
+    Examples
+    --------
+    >>> figure(30097.4, "force"), figure(2.267, "force"), figure(9.81, "acceleration", "US")
+    ('30.1 kN', '2.27 N', '32.2 ft/s²')
+    """
+    number, sign = convert(value, kind, system), unit_label(kind, system)
+    if sign == "N" and abs(number) >= _KILO:
+        number, sign = number / _KILO, "kN"
+    sign = sign.replace("^2", "²").replace("^3", "³").replace("deg", "°")
+    return f"{rounded(number)} {sign}".rstrip()
 
 
 def belt_strength(value: float, system: System = "SI") -> str:
@@ -51,10 +80,10 @@ def belt_rating(value: float, system: System = "SI") -> str:
     Examples
     --------
     >>> belt_rating(1.0508e5), belt_rating(1.0508e5, "US")
-    ('105.1 N/mm', '600 PIW')
+    ('105 N/mm', '600 PIW')
     """
     if system == "SI":
-        return f"{value / 1e3:,.4g} N/mm"
+        return f"{rounded(value / 1e3)} N/mm"
     return figure(value, "line force", system).replace("lbf/in", "PIW")
 
 
@@ -74,7 +103,7 @@ class Said:
     --------
     >>> line = said("at most {}, {} are installed", (500e3, "power"), (450e3, "power"))
     >>> line.text(), line.text("US")
-    ('at most 500 kW, 450 kW are installed', 'at most 670.5 hp, 603.5 hp are installed')
+    ('at most 500 kW, 450 kW are installed', 'at most 671 hp, 603 hp are installed')
     """
 
     words: str
@@ -135,4 +164,4 @@ def _frequency(value: float) -> str:
     if _LEAST <= value < _MOST:
         return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
     digit, exponent = f"{value:.0e}".split("e")
-    return f"{digit}×10{str(int(exponent)).translate(_RAISED)}"
+    return f"{digit}×10{str(int(exponent)).translate(RAISED)}"

@@ -350,8 +350,8 @@ def test_bulk_slides_where_friction_ends():
     assert slip is not None
     grip, pull = 0.5 * 9.81 * math.cos(math.radians(20.0)), 9.81 * math.sin(math.radians(20.0))
     assert (slip.braking, slip.starting) == pytest.approx((-grip - pull, grip - pull), rel=1e-9)
-    assert any(w.startswith("the bulk slides at the start") for w in told(steep, found))
+    assert any(w.startswith("the material slips at the start") for w in told(steep, found))
     steeper = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "30 deg"}], "pulleys": []})
     assert (motions(closed(steeper)).slip.braking, motions(closed(steeper)).slip.starting) == (0.0, 0.0)
     said = told(steeper, closed(steeper))
-    assert 'the bulk slides on the belt in section "s" at any speed: too steep for its friction' in said
+    assert 'the material slips on the belt in section "s" at any speed: too steep for its friction' in said

@@ -116,9 +116,7 @@ def test_the_system_is_that_of_the_report(line):
 def test_rubber_of_both_strands(result):
     assert result.conveyor.carry_compound.name == result.conveyor.return_compound.name
     labels = result.plots.rubber().axes[-1].get_legend_handles_labels()[1]
-    assert {"carry rolls: nine tenths of their loss", "return rolls: nine tenths of their loss"} <= set(
-        labels
-    )
+    assert {"carry rolls: 90 % loss band", "return rolls: 90 % loss band"} <= set(labels)
 
 
 def test_a_dollar_in_a_name_is_no_formula(figures, tmp_path):

@@ -13,7 +13,7 @@ from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
-from conveyor.report.page_style import COLOURS
+from conveyor.report.page_style import COLOURS, DARK
 from conveyor.units.presentation import unit
 from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page
@@ -179,7 +179,10 @@ def test_contrast_itself():
 def test_contrast_of_every_text(text):
     """Every colour of text on the ground its rule gives it, else on every ground that may lie below."""
     style = re.search(r"<style>(.*?)</style>", text, re.DOTALL)[1]
-    assert dict(re.findall(r"--([\w-]+): (#\w+);", style)) == COLOURS
+    light, dark = (
+        dict(re.findall(r"--([\w-]+): (#\w+);", roots)) for roots in re.findall(r":root \{([^}]*)\}", style)
+    )
+    assert (light, dark) == (COLOURS, DARK)
     rules = re.findall(r"([^{}]+)\{([^{}]*)\}", style)
     pairs = []
     for selector, body in rules:
@@ -189,8 +192,9 @@ def test_contrast_of_every_text(text):
             grounds = ["paper", "pale"] if ground is None else [ground[1]]
             pairs += [(selector.strip(), ink[1], each) for each in grounds]
     assert len(pairs) > 10
-    for selector, ink, ground in pairs:
-        assert contrast(COLOURS[ink], COLOURS[ground]) >= CONTRAST, (selector, ink, ground)
+    for colours in (light, dark):
+        for selector, ink, ground in pairs:
+            assert contrast(colours[ink], colours[ground]) >= CONTRAST, (selector, ink, ground)
 
 
 def test_contrast_in_figures(either):
@@ -223,7 +227,7 @@ def test_curves_differ_without_colour(text):
 
 def test_verdicts_are_words(result, page, studied):
     words = [check.verdict for check in checks(result, "SI", studied)]
-    table = page.prose.split("Found against")[1].split("Warnings")[0]
+    table = page.prose.split("Calculated against required")[1].split("Warnings")[0]
     for word in ("pass", "FAIL", "not checked"):
         assert table.count(f" {word} ") == words.count(word)
 
@@ -238,10 +242,10 @@ def test_numbers_are_those_of_the_analysis(result, page):
 
 
 def test_numbers_as_in_the_workbook():
-    assert unit("force").written(-1234.56) == "-1,234.6"
-    assert unit("force").written(-0.04) == "0.0"
+    assert unit("power").written(-1234560.0) == "-1,234.6"
+    assert unit("power").written(-0.04) == "0.0"
     assert unit("length").written(float("inf")) == "∞"
-    assert unit("share").written(-0.1169) == "-11.7%"
+    assert unit("share").written(-0.1169) == "-11.7 %"
     assert unit("count").written(2) == "2"
 
 

@@ -31,22 +31,22 @@ OF_DUTY = SimpleNamespace(belt_duty=DUTY)
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
     table = tables.belt_strength_table(OF_DUTY).series("belt")
-    assert table["strength the splice asks for [N/mm]"] == pytest.approx(630.0)
-    assert table["least diameter of drive pulleys [mm]"] == pytest.approx(725.0)
-    assert table["largest tension, all states [N]"] == pytest.approx(140e3)
+    assert table["belt strength required by the splice [N/mm]"] == pytest.approx(630.0)
+    assert table["minimum diameter of drive pulleys [mm]"] == pytest.approx(725.0)
+    assert table["maximum tension, all states [N]"] == pytest.approx(140e3)
     assert table["safety, steady [-]"] == pytest.approx(9.0)
-    assert table["classic safety asked for [-]"] == pytest.approx(8.0)
+    assert table["required safety [-]"] == pytest.approx(8.0)
     pulleys = tables.pulleys(OF_DUTY).frame()
     assert pulleys["diameter [mm]"].tolist() == pytest.approx([630.0, 500.0])
-    assert pulleys["least [mm]"].tolist() == pytest.approx([725.0, 456.75])
-    assert pulleys["of the series [mm]"].tolist() == pytest.approx([800.0, 500.0])
+    assert pulleys["minimum [mm]"].tolist() == pytest.approx([725.0, 456.75])
+    assert pulleys["standard size [mm]"].tolist() == pytest.approx([800.0, 500.0])
     assert pulleys["large enough"].tolist() == [False, True]
 
 
 def test_a_curve_beside_its_least_radii():
     (row,) = tables.vertical_curves(OF_DUTY).frame().to_dict("records")
     assert row["radius [m]"] == pytest.approx(250.0)
-    assert row["least against lift-off [m]"] == pytest.approx(255.0)
-    assert row["least against overstress [m]"] == pytest.approx(70.0)
-    assert row["least against slack strips [m]"] == pytest.approx(110.0)
+    assert row["minimum against lift-off [m]"] == pytest.approx(255.0)
+    assert row["minimum against overstress [m]"] == pytest.approx(70.0)
+    assert row["minimum against slack strips [m]"] == pytest.approx(110.0)
     assert (row["lowest tension [N]"], row["highest tension [N]"]) == pytest.approx((20e3, 50e3))

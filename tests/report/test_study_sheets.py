@@ -49,7 +49,7 @@ def test_figures_are_the_tables(book, result, asked):
     assert motors == pytest.approx(asked.cases.table["motor power [kW]"].tolist())
     energy = column(book["Duty"], "Hours at load, temperature and speed", "energy [MWh]")
     assert energy == pytest.approx(asked.duty.table["energy [MWh]"].tolist())
-    swings = column(book["Uncertainty"], "Which input matters", "swing [kW]")
+    swings = column(book["Uncertainty"], "Sensitivity ranking", "swing [kW]")
     assert swings == sorted(swings, reverse=True)
     forces = column(book["Loop"], "Drives in every state of motion", "force [N]")
     assert forces == pytest.approx(result.tables["drives"].frame()["force [N]"].tolist())

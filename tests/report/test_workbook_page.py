@@ -12,7 +12,7 @@ import conveyor
 from conveyor.analysis import compare_compounds, studies
 from conveyor.models import LoadCase
 from conveyor.report.comparing import of_comparison
-from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, build
+from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build
 from conveyor.report.tables import of_analysis
 from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import headed
@@ -35,13 +35,13 @@ STATES = {
 def _named_unit(name):
     found = re.match(r"^(.*) \[([^\]]*)\]$", name)
     words, unit = (found[1], found[2]) if found else (name, "")
-    return words, "currency" if re.fullmatch("[A-Z]{3}", unit) else unit
+    return words, re.sub("^[A-Z]{3}(?=$|/)", "currency", unit)
 
 
 def _column(key, name):
     """A column as the page has it: what a spec names stands in angle brackets."""
     words, unit = _named_unit(name)
-    if key == "tension_states" and words in STATES:
+    if key in {"tension_states", "section_ends"} and words.partition(", FAILS")[0] in STATES:
         words = "<state>"
     if key == "power_<n>" and words != "temperature":
         words = "<compound>"
@@ -131,7 +131,7 @@ def _tables(pairs):
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
 def test_sheets(page, book):
-    assert page[0][book] == list({CONVEYOR: SHEETS, COMPARISON: COMPARISON_SHEETS}[book])
+    assert page[0][book] == list({CONVEYOR: (FRONT, *SHEETS), COMPARISON: COMPARISON_SHEETS}[book])
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])

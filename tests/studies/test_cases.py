@@ -248,7 +248,7 @@ def test_downhill_the_low_friction_feeds_back_most(downhill):
     assert low < power.motor < 0.0
     assert high == pytest.approx(power.motor, rel=ROUNDING)
     assert power.belt < power.motor  # the train's losses are on the way to the motor
-    worst = {g.figure: g for g in study.governing}["least motor power, friction low"]
+    worst = {g.figure: g for g in study.governing}["minimum motor power"]
     assert worst.result.case.name == "declines only"
     assert study.friction_band == (pytest.approx(0.6), 1.0)
 
@@ -265,13 +265,13 @@ def test_a_band_that_does_not_hold_the_computed_friction_is_refused(line, band):
 def test_governing_cases_are_the_extremes_of_all(found):
     by_figure = {row.figure: row for row in found.governing}
     figures = {
-        "largest motor power, friction high": (max, lambda r: r.motors[1]),
-        "least motor power, friction low": (min, lambda r: r.motors[0]),
-        "largest belt tension": (max, lambda r: r.found.balance.tensions.largest),
-        "least belt tension": (min, lambda r: r.found.balance.tensions.smallest),
-        "largest tension asked of the take-up": (max, lambda r: r.found.balance.settled.needed),
-        "largest roll load": (max, lambda r: r.heaviest_roll[0]),
-        "largest indentation": (max, lambda r: r.found.balance.forces.indentation),
+        "maximum motor power": (max, lambda r: r.motors[1]),
+        "minimum motor power": (min, lambda r: r.motors[0]),
+        "maximum belt tension": (max, lambda r: r.found.balance.tensions.largest),
+        "minimum belt tension, steady": (min, lambda r: r.found.balance.tensions.smallest),
+        "required take-up tension": (max, lambda r: r.found.balance.settled.needed),
+        "maximum roll load": (max, lambda r: r.heaviest_roll[0]),
+        "maximum indentation": (max, lambda r: r.found.balance.forces.indentation),
     }
     for figure, (extreme, value) in figures.items():
         row = by_figure[figure]

@@ -57,13 +57,13 @@ def test_governing_cases_are_the_extremes_of_the_table(cases):
     table = cases.table
     by_figure = {row.figure: row for row in cases.governing}
     columns = {
-        "largest motor power, friction high": ("motor power, 1 x friction [kW]", "max", 1e3),
-        "least motor power, friction low": ("motor power, 0.6 x friction [kW]", "min", 1e3),
-        "largest belt tension": ("largest tension [N]", "max", 1.0),
-        "least belt tension": ("smallest tension [N]", "min", 1.0),
-        "largest tension asked of the take-up": ("take-up tension asked for [N]", "max", 1.0),
-        "largest roll load": ("largest roll load [N]", "max", 1.0),
-        "largest indentation": ("indentation [N]", "max", 1.0),
+        "maximum motor power": ("motor power, 1 x friction [kW]", "max", 1e3),
+        "minimum motor power": ("motor power, 0.6 x friction [kW]", "min", 1e3),
+        "maximum belt tension": ("maximum tension [N]", "max", 1.0),
+        "minimum belt tension, steady": ("minimum tension, steady [N]", "min", 1.0),
+        "required take-up tension": ("required take-up tension [N]", "max", 1.0),
+        "maximum roll load": ("maximum roll load [N]", "max", 1.0),
+        "maximum indentation": ("indentation [N]", "max", 1.0),
     }
     for figure, (column, which, unit) in columns.items():
         row = by_figure[figure]
@@ -82,7 +82,7 @@ def test_the_largest_roll_load_is_that_of_the_rolls_table(line, cases):
         (rows["case"] == "full") & (rows["temperature [degC]"] == 20.0) & (rows["belt speed [m/s]"] == 5.0)
     ]
     (row,) = full.to_dict("records")
-    assert row["largest roll load [N]"] == pytest.approx(heaviest["force [N]"], rel=1e-14)
+    assert row["maximum roll load [N]"] == pytest.approx(heaviest["force [N]"], rel=1e-14)
     assert row["at roll"] == f"{heaviest['section']}, {heaviest['strand']}, {heaviest['roll']}"
 
 
@@ -168,7 +168,10 @@ def test_tornado_and_band(line):
     )
     data = json.loads(json.dumps(found.to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(effects[0].motor_high / 1e3)
-    assert [row["combined by"] for row in data["band"]] == ["root of squares", "Latin hypercube, first order"]
+    assert [row["combined by"] for row in data["band"]] == [
+        "root sum of squares",
+        "Latin hypercube, first order",
+    ]
     assert [row["motor power, high [kW]"] for row in data["band"]] == pytest.approx(
         [found.uncertainty.band[1] / 1e3, found.uncertainty.sampled[1] / 1e3], rel=1e-15
     )
@@ -205,7 +208,7 @@ def test_ranking_is_the_mean_of_the_scenes(compared):
         means = rows.loc[rows["not compared"].isna(), "mean motor power [kW]"].tolist()
         assert means == sorted(means)
         assert rows["compound"].tolist()[-1] == "S100"  # no tests beside two with tests: its power, no rank
-        assert rows["motor power against base [-]"].isna().tolist() == [False, False, True]
+        assert rows["difference to base [-]"].isna().tolist() == [False, False, True]
         for _, row in rows.iterrows():
             group = [s for s in compared.scenes if s.compound == row["compound"] and s.speed == speed]
             assert row["mean motor power [kW]"] == pytest.approx(np.mean([s.motor for s in group]) / 1e3)
@@ -221,7 +224,7 @@ def test_savings_and_payback(line):
     assert saved > 0.0
     assert better["saving per year [EUR]"] == pytest.approx(saved)
     assert better["payback [a]"] == pytest.approx(COSTS["low-rolling-resistance-cover"] / saved)
-    assert base["motor power against base [-]"] == 0.0
+    assert base["difference to base [-]"] == 0.0
 
 
 def test_untested_beside_tested_compounds_have_their_power_and_no_saving(line, tmp_path):
@@ -229,7 +232,7 @@ def test_untested_beside_tested_compounds_have_their_power_and_no_saving(line, t
     found = conveyor.compare_compounds(line, names, temperatures=["20 degC"])
     untested = found.ranking.set_index("compound").loc["S100"]
     assert untested["mean motor power [kW]"] > 0.0
-    for column in ("motor power against base [-]", "saving per year [EUR]", "cost per year [EUR]"):
+    for column in ("difference to base [-]", "saving per year [EUR]", "cost per year [EUR]"):
         assert pd.isna(untested[column])
     assert any("no saving, price or rank beside tested" in line for line in remarks(found, tmp_path))
     off = line.replace(calculation=line.calculation.replace(anchor="off"))
@@ -292,7 +295,7 @@ def test_data_that_do_not_reach_are_said(line, tmp_path):
     compound = shelf.compound("standard-cover").as_data()
     compound["range"]["frequency"] = ["1 Hz", "100 Hz"]
     found = conveyor.compare_compounds(line, [RubberCompound.from_data(compound)])
-    assert any("do not cover what the rolls excite at 20 degC" in line for line in remarks(found, tmp_path))
+    assert any("do not cover the excitation band at 20 °C" in line for line in remarks(found, tmp_path))
 
 
 def test_refused_scenes_are_listed_and_not_averaged(line, tmp_path):
@@ -369,7 +372,7 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
             (order,) = (
                 part.rpartition(": ")[2].split(" < ")
                 for part in said.partition("m/s: ")[2].split("; ")
-                if str(celsius) in part.partition(" degC")[0].split(", ")
+                if str(celsius) in part.partition(" °C")[0].split(", ")
             )
             power = [scene(compared, name, celsius + 273.15, speed).motor for name in order]
             assert power == sorted(power)

@@ -53,7 +53,7 @@ def effect(low: float, high: float) -> Effect:
 
 
 def test_bands_of_a_linear_toy():
-    # P = 10 + 3 a + 4 b, a and b between -1 and 1: root of squares 5; normal inputs make a normal power
+    # P = 10 + 3 a + 4 b, a and b between -1 and 1: root sum of squares 5; normal inputs make a normal power
     toy = [effect(7.0, 13.0), effect(14.0, 6.0)]
     assert root_of_squares(10.0, toy) == (5.0, 15.0)
     low, high = hypercube_band(10.0, toy, samples=SAMPLES, seed=1)

@@ -32,7 +32,8 @@ def _coefficient(sag: float) -> float:
 
 FLEXURE_COEFFICIENT: Final = Default(
     _coefficient(SITE_SAG.value), _coefficient(SITE_SAG.high), _coefficient(SITE_SAG.low),
-    f"{FLEXURE_SHARE.value:.0%} of {SITE_LOSS:g} N a set under {SITE_LOAD:g} N ({_SITE}) at {SITE_SAG.value:.0%} sag",
+    f"{100.0 * FLEXURE_SHARE.value:.0f} % of {SITE_LOSS:g} N a set under {SITE_LOAD:g} N ({_SITE}) "
+    f"at {100.0 * SITE_SAG.value:.0f} % sag",
     True,
 )  # [-]  # fmt: skip
 

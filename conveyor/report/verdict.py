@@ -1,0 +1,225 @@
+"""What a report says first: whether the conveyor stands, what governs it under which load, what to see to."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final, NamedTuple
+
+from conveyor.checks import Check, leading
+from conveyor.line.covers import compounds_by_strand
+from conveyor.loop.settled import START
+from conveyor.loop.take_up import TakeUpDuty
+from conveyor.loop.tensions import MotionState
+from conveyor.models import RubberCompound
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.report.columns import Column, Table
+from conveyor.studies import CalculatedStudies
+from conveyor.studies.defaults import PowerRange
+from conveyor.units import System
+from conveyor.units.presentation import unit
+from conveyor.units.sentences import Said, figure, percent, said
+
+AS_GIVEN: Final = "as given"
+"""Load of a spec itself."""
+_SET: Final = ("take_up_tension", "sag")
+"""Criteria that the least setting of the take-up meets without margin."""
+_DOMINANT: Final = 0.3
+"""Share of the indentation in the main resistance from which the quality of the rubber data is said first."""
+_TOLD: Final = 3  # failures that are told in full
+
+
+class GoverningRow(NamedTuple):
+    """A figure that governs, in words: what, how much, where and when."""
+
+    subject: str
+    value: str
+    where: str
+
+
+class _Load(NamedTuple):
+    case: Said
+    found: CalculatedConveyor
+
+
+def _loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[_Load]:
+    yield _Load(said(AS_GIVEN), a)
+    if studies is None:
+        return
+    if studies.cases is not None:
+        yield from (_Load(result.label, result.found) for result in studies.cases.results if result.covered)
+    if studies.states is not None:
+        own = studies.states.own
+        yield from (
+            _Load(state.case, replace(own, temperature=state.temperature, balance=state.balance))
+            for state in studies.states.states
+            if state.balance is not own.balance
+        )
+
+
+def _asked(found: CalculatedConveyor) -> float:
+    """Motor power at the less favourable end of the friction [W]; negative where it brakes."""
+    return max(map(found.balance.frame.motor, found.drive_forces), key=abs)
+
+
+def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
+    """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
+    return max((_asked(load.found) for load in _loads(a, studies)), key=abs)
+
+
+def _place(found: CalculatedConveyor, state: MotionState, tension: float) -> str:
+    """Where round the loop a tension of a state is."""
+    for drive in state.drives:
+        if tension in {drive.arriving, drive.leaving}:
+            return drive.name
+    for stretch, start, end in zip(found.line.loop.stretches, state.starts, state.ends, strict=True):
+        if tension in {float(start), float(end)}:
+            return f"{stretch.section}, {stretch.strand}, {'start' if tension == float(start) else 'end'}"
+    return "head"
+
+
+def governing_figures(
+    a: CalculatedConveyor,
+    studies: CalculatedStudies | None,
+    governing: Sequence[Check],
+    take_up: tuple[TakeUpDuty, Said],
+    left_open: PowerRange,
+) -> tuple[Table, str]:
+    """What governs the design, over all calculated loads, and the verdict in a sentence."""
+    system = a.conveyor.report.units
+    loads = list(_loads(a, studies))
+    columns = (
+        Column("what governs", "text", lambda row: row.subject, key="subject"),
+        Column("value", "text", lambda row: row.value),
+        Column("where and when", "text", lambda row: row.where, key="where"),
+    )
+    rows = tuple(_rows(a, studies, loads, governing, take_up, left_open))
+    heading = "What governs the design"
+    return Table("governing_figures", "", heading, columns, rows), sentence(governing, system)
+
+
+def _rows(  # noqa: PLR0917 one line of the first page each
+    a: CalculatedConveyor,
+    studies: CalculatedStudies | None,
+    loads: list[_Load],
+    governing: Sequence[Check],
+    take_up: tuple[TakeUpDuty, Said],
+    left_open: PowerRange,
+) -> Iterator[GoverningRow]:
+    system = a.conveyor.report.units
+    power, force, mass, length = (
+        unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
+    )
+    case, most = max(((load.case, _asked(load.found)) for load in loads), key=lambda pair: abs(pair[1]))
+    braking = ", braking" if most < 0.0 else ""
+    yield GoverningRow("maximum motor power", power.short(abs(most)) + braking, case.text(system))
+    where = figure(a.temperature, "temperature", system)
+    if left_open.effects:
+        low, high = power.short(left_open.low).rpartition(" ")[0], power.short(left_open.high)
+        where += f"; 90 % interval {low} to {high} by defaults and the level of the rubber"
+    yield GoverningRow("motor power as given", power.short(left_open.motor), where)
+    installed = [drive.power for drive in a.line.drives if drive.power is not None]
+    chosen = (
+        ()
+        if studies is None or studies.cases is None or not studies.cases.governing
+        else studies.cases.motors()
+    )
+    if installed:
+        yield GoverningRow("installed power", power.short(sum(installed)), f"{len(installed)} driven pulleys"
+                           if len(installed) > 1 else a.line.drives[0].name)  # fmt: skip
+    for motor in chosen:
+        yield GoverningRow(
+            f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
+            f"{power.short(motor.needed)} needed in {motor.case}, reserve {motor.reserve:.2f}",
+        )  # fmt: skip
+    duty, asks = take_up
+    sized = [] if duty.mass is None else [f"weight {mass.short(duty.mass)}"]
+    sized += [] if duty.travel is None else [f"travel {length.short(duty.travel.whole)}"]
+    asked = f"required by {asks.text(system)}"
+    yield GoverningRow(f"take-up, {duty.unit.kind}", force.short(duty.setting), "; ".join([*sized, asked]))
+    states = [(load, state) for load in loads for state in load.found.every_state]
+    largest = max(states, key=lambda pair: pair[1].largest)
+    smallest = min(states, key=lambda pair: pair[1].smallest)
+    for name, (load, state), newtons in (
+        ("maximum belt tension", largest, largest[1].largest),
+        ("minimum belt tension", smallest, smallest[1].smallest),
+    ):
+        where = f"{_place(load.found, state, newtons)}; {state.name}; {load.case.text(system)}"
+        yield GoverningRow(name, force.short(newtons), where)
+    tensions = a.balance.tensions
+    sides = "T1 / T2" if system == "US" else "tight / slack side tension"
+    yield GoverningRow(
+        f"{sides} as given", f"{force.short(tensions.tight)} / {force.short(tensions.slack)}",
+        f"steady; {force.short(tensions.tight_start)} at {START}",
+    )  # fmt: skip
+    yield from _utilisation(governing, system)
+    if a.balance.forces.indentation > _DOMINANT * abs(a.balance.forces.main):
+        yield from _rubber(a)
+
+
+def _utilisation(governing: Sequence[Check], system: System) -> Iterator[GoverningRow]:
+    """Of what the belt may bear the share that it bears; the higher of steady running and all states."""
+    used = []
+    for check in governing:
+        if check.key in {"belt_safety", "belt_rating"} and check.calculated and check.required:
+            ratio = check.calculated / check.required
+            used.append((ratio if check.relation == "at most" else 1.0 / ratio, check))
+    if used:
+        share, check = max(used, key=lambda pair: pair[0])
+        case = AS_GIVEN if check.case is None else check.case.text(system)
+        words = f"{check.subject.text(system)} {check.found.text(system)}, {check.asked.text(system)}; {case}"
+        yield GoverningRow("belt utilisation", percent(share), words)
+
+
+def _rubber(a: CalculatedConveyor) -> Iterator[GoverningRow]:
+    """How good the data of each rubber are, where they decide the power."""
+    share, told = unit("share"), dict[str, list[str]]()
+    known: dict[str, RubberCompound] = {}
+    for strand, compound in compounds_by_strand(a.conveyor).items():
+        told.setdefault(compound.name, []).append(strand)
+        known[compound.name] = compound
+    for name, strands in told.items():
+        compound, quality = known[name], []
+        if compound.kind == "measured":
+            fit = compound.fit
+            if fit is not None:
+                quality.append(
+                    f"fit rms error E' {share.converted(fit.storage_rms)}, E'' {share.converted(fit.loss_rms)}"
+                )
+        else:
+            quality.append("constructed spectrum, not for design")
+        level = any(
+            a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands
+        )
+        tested = "level from rolling-resistance tests" if level else "level not tested"
+        yield GoverningRow(
+            f"rubber {name}", compound.kind, "; ".join([" and ".join(strands), *quality, tested])
+        )
+
+
+def sentence(governing: Sequence[Check], system: System) -> str:
+    """What is right, what fails, what to do."""
+    count = Counter(check.verdict for check in governing)
+    failed = [check for check in leading(governing) if check.failed]
+    if failed:
+        fails = "; ".join(_told(check, system) for check in failed[:_TOLD])
+        more = f"; and {len(failed) - _TOLD} more" if len(failed) > _TOLD else ""
+        done = "; ".join(dict.fromkeys(c.why.text(system) for c in failed[:_TOLD] if c.why is not None))
+        first = f"Does not stand as given: {count['FAIL']} of {len(governing)} checks fail: {fails}{more}."
+        return f"{first} Action required: {done}." if done else first
+    passed = [c for c in governing if c.verdict == "pass" and c.margin is not None and c.key not in _SET]
+    words = f"Stands as given: all {count['pass']} criteria checked are met"
+    if passed:
+        nearest = min(passed, key=lambda check: check.margin or 0.0)
+        words += f"; least margin {percent(nearest.margin or 0.0, 1)}: {_told(nearest, system)}"
+    missing = [check for check in governing if check.verdict == "not checked"]
+    if missing:
+        listed = "; ".join(f"{check.name.text(system)} ({check.asked.text(system)})" for check in missing)
+        words += f". Action required for what is not checked: {listed}"
+    return f"{words}."
+
+
+def _told(check: Check, system: System) -> str:
+    case = "" if check.case is None else f", {check.case.text(system)}"
+    return f"{check.name.text(system)}, {check.found.text(system)}, {check.asked.text(system)}{case}"

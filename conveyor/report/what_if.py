@@ -1,0 +1,72 @@
+"""What a reader may change in the workbook, prices, hours, emissions, motor reserve, and what follows by formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.report.columns import Figure, Table, figures
+from conveyor.studies import CalculatedStudies
+from conveyor.studies.cases import MOTOR_RESERVE
+from conveyor.units.presentation import MONEY
+
+_PREFIX: Final = "what_if_"
+_OF_HOURS: Final = "*what_if_operating_hours/what_if_hours_calculated"
+_HOUR: Final = 3600.0
+_TONNE: Final = 1000.0
+
+
+def what_if(a: CalculatedConveyor, studies: CalculatedStudies | None, motor: float) -> Table:
+    """Figures to change and what follows; `motor` is the maximum motor power of all calculated loads [W]."""
+    heading = "What if: change the yellow cells"
+    rows = (*_energy(a, studies), *_motor(motor))
+    note = "Formulas over the energy and power calculated; forces and power do not follow from these cells."
+    return figures("what_if", "Results", heading, rows, note=note, prefix=_PREFIX)
+
+
+def _motor(motor: float) -> Iterator[Figure]:
+    needed = abs(motor)
+    yield Figure("maximum motor power", "power", needed)
+    yield Figure("motor reserve", "ratio", MOTOR_RESERVE, on="input")
+    formula = "what_if_maximum_motor_power*what_if_motor_reserve"
+    yield Figure("required rated power", "power", needed * MOTOR_RESERVE, formula=formula)
+
+
+def _energy(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[Figure]:
+    """Energy, cost and carbon dioxide of a year: of the duty, else of even load."""
+    operation, duty = a.conveyor.operation, None if studies is None else studies.duty
+    if operation is None or (duty is None and a.year is None):
+        return
+    if duty is None:
+        hours, net = operation.seconds_per_year, a.year.energy if a.year is not None else 0.0
+        drawn, fed_back = max(net, 0.0), max(-net, 0.0)
+        cost, emission = None if a.year is None else a.year.cost, None
+    else:
+        hours, drawn, fed_back = duty.year.time, duty.year.drawn_kwh, duty.year.fed_back_kwh
+        cost, emission = duty.cost, duty.emission
+    yield Figure("hours calculated", "life", hours)
+    yield Figure("energy drawn", "energy", drawn * JOULE_PER_KWH)
+    yield Figure("energy fed back", "energy", fed_back * JOULE_PER_KWH)
+    yield Figure("operating hours", "life", hours, on="input")
+    price, credit = operation.price, operation.feed_in_price
+    if price is not None:
+        per_kwh = f"{MONEY}{price.currency}/kWh"
+        yield Figure("energy price", per_kwh, price.amount, on="input")
+        yield Figure("feed-in price", per_kwh, 0.0 if credit is None else credit.amount, on="input")
+        formula = (
+            f"({_TONNE:g}*what_if_energy_drawn*what_if_energy_price"
+            f"-{_TONNE:g}*what_if_energy_fed_back*what_if_feed_in_price){_OF_HOURS}"
+        )
+        yield Figure("cost", f"{MONEY}{price.currency}", cost, formula=formula)
+    factor, saved = operation.emission, operation.feed_in_emission
+    if factor is not None and emission is not None:
+        yield Figure("emission factor", "emission factor", factor.amount, on="input")
+        less = 0.0 if saved is None else saved.amount
+        yield Figure("emission factor of energy fed back", "emission factor", less, on="input")
+        formula = (
+            "(what_if_energy_drawn*what_if_emission_factor"
+            f"-what_if_energy_fed_back*what_if_emission_factor_of_energy_fed_back){_OF_HOURS}"
+        )
+        yield Figure("carbon dioxide", "conveyed", emission, formula=formula)
