@@ -534,7 +534,7 @@ def _transitions(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
     """Of both ends that the spec gives."""
     given = {"tail": conveyor.route.tail_transition, "head": conveyor.route.head_transition}
     return tuple(
-        TransitionZone(end, _known(zone.length), si(zone.pulley_height))
+        TransitionZone(end, _known(zone.length), _given(zone.pulley_height, 0.0))
         for end, zone in given.items()
         if zone is not None
     )

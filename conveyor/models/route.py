@@ -221,8 +221,8 @@ class Transition(Model):
 
     length: Annotated[Length, Bounds(gt="0 m", le="200 m")] | None = None
     """From the pulley's axis to the first set of full trough; what is needed is shown without it."""
-    pulley_height: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] = quantity("0 %")
-    """Top of the pulley over the middle roll, over the depth of the trough: 0 % full trough, 50 % half trough."""
+    pulley_height: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
+    """Top of the pulley over the middle roll, over the depth of the trough: 50 % half trough; full trough without."""
 
 
 class TakeUp(Model):

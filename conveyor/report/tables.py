@@ -812,7 +812,6 @@ def transitions(a: CalculatedConveyor) -> Table:
         Column("highest in a strip", "strength", attrgetter("most")),
         Column("allowed in a strip", "strength", attrgetter("allowed")),
         Column("lowest in a strip", "strength", attrgetter("least")),
-        Column("not known", "text", lambda row: row.missing or None, sparse=True),
     )
     heading = "Transitions between trough and pulley"
     note = (
@@ -821,6 +820,9 @@ def transitions(a: CalculatedConveyor) -> Table:
     )
     if a.line.transitions and a.line.belt.stiffness is None:
         note += " The belt's stiffness is a usual multiple of its strength (general knowledge)."
+    note += "".join(
+        f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
+    )
     return Table(
         "transitions", "Loop", heading, columns, a.belt_duty.transitions, (OnPage("belt", heading),), note
     )
