@@ -12,7 +12,7 @@ from typing import Final, Literal
 
 from conveyor.require import require, require_not_negative, require_positive
 
-Steel = Literal["1018", "1045", "4140"]
+Steel = Literal["C1018", "C1045", "C4140"]
 Keyway = Literal["profiled", "sled runner"]
 
 _PSI: Final = 4.4482216152605 / 0.0254**2
@@ -24,9 +24,9 @@ SHAFT_SAFETY: Final = 1.5
 HUB_SLOPE: Final = 0.0023
 """Slope of the free shaft at the hub, at most [-], 8 minutes of arc; CEMA B105.1."""
 SHAFT_STEELS: Final[Mapping[Steel, tuple[float, float]]] = {
-    "1018": (29000.0 * _PSI, 32000.0 * _PSI),
-    "1045": (41000.0 * _PSI, 45000.0 * _PSI),
-    "4140": (47500.0 * _PSI, 60500.0 * _PSI),
+    "C1018": (29000.0 * _PSI, 32000.0 * _PSI),
+    "C1045": (41000.0 * _PSI, 45000.0 * _PSI),
+    "C4140": (47500.0 * _PSI, 60500.0 * _PSI),
 }
 """Fatigue limit of the polished specimen, yield strength [Pa]; CEMA B105.1, 4140 annealed."""
 KEYWAY_FACTOR: Final[Mapping[Keyway, float]] = {"profiled": 0.63, "sled runner": 0.77}
@@ -149,7 +149,7 @@ def shaft_safety(moment: float, *, torque: float, diameter: float, steel: Steel,
         T, steady torsion [N m], at least 0, not both 0.
     diameter : float
         D in the hub [m], positive.
-    steel : {"1018", "1045", "4140"}
+    steel : {"C1018", "C1045", "C4140"}
         Of the shaft [-].
     keyway : {"profiled", "sled runner"}
         That weakens it [-].
@@ -170,7 +170,7 @@ def shaft_safety(moment: float, *, torque: float, diameter: float, steel: Steel,
 
     Examples
     --------
-    >>> round(shaft_safety(10e3, torque=0.0, diameter=0.15, steel="1045", keyway="profiled"), 3)
+    >>> round(shaft_safety(10e3, torque=0.0, diameter=0.15, steel="C1045", keyway="profiled"), 3)
     3.022
     """
     require_not_negative(moment=moment, torque=torque)
@@ -202,7 +202,7 @@ def least_shaft_diameter(
         T [N m], at least 0.
     hub_centres : float
         l between the hubs' centres [m], positive.
-    steel : {"1018", "1045", "4140"} or None
+    steel : {"C1018", "C1045", "C4140"} or None
         Of the shaft [-].
     keyway : {"profiled", "sled runner"}
         That weakens it [-].
@@ -219,7 +219,7 @@ def least_shaft_diameter(
 
     Examples
     --------
-    >>> d = least_shaft_diameter(10e3, torque=5e3, hub_centres=1.4, steel="1045", keyway="profiled")
+    >>> d = least_shaft_diameter(10e3, torque=5e3, hub_centres=1.4, steel="C1045", keyway="profiled")
     >>> round(d, 4), round(shaft_slope(10e3, hub_centres=1.4, diameter=d), 6)
     (0.1327, 0.0023)
     """

@@ -185,7 +185,7 @@ class Pulley(Model):
     hub_shaft_diameter: Annotated[Length, Bounds(gt="0 m", le="2 m")] | None = None
     """Diameter of the shaft in and between the hubs; that in the bearings without it."""
     shaft_steel: Steel | None = None
-    """Steel of the shaft, as CEMA B105.1 names it; 1045 is C45."""
+    """Steel of the shaft, as CEMA B105.1 names it; C1045 is C45."""
     keyway: Keyway = "profiled"
     """What weakens the shaft in the hub."""
     bearing_rating: Annotated[Force, Bounds(gt="0 N", le="100 MN")] | None = None

@@ -34,16 +34,16 @@ def test_a_shaft_in_pounds_and_inches():
     fatigue = 0.8 * SHAFT**-0.19 * 0.897 * 0.63 * 41000.0
     root = math.sqrt((LOAD * arm / 2.0 / fatigue) ** 2 + 0.75 * (TORQUE / 45000.0) ** 2)
     found = shaft_safety(
-        moment, torque=TORQUE * POUND * INCH, diameter=SHAFT * INCH, steel="1045", keyway="profiled"
+        moment, torque=TORQUE * POUND * INCH, diameter=SHAFT * INCH, steel="C1045", keyway="profiled"
     )
     assert found == pytest.approx(math.pi * SHAFT**3 / (32.0 * root), rel=1e-12)
 
 
 @pytest.mark.parametrize(("hubs", "torque"), [(2.5, 0.0), (0.3, 2e3), (0.3, 40e3)])
 def test_the_least_shaft_is_at_one_of_its_limits(hubs, torque):
-    least = least_shaft_diameter(10e3, torque=torque, hub_centres=hubs, steel="1018", keyway="sled runner")
+    least = least_shaft_diameter(10e3, torque=torque, hub_centres=hubs, steel="C1018", keyway="sled runner")
     slope = shaft_slope(10e3, hub_centres=hubs, diameter=least)
-    safety = shaft_safety(10e3, torque=torque, diameter=least, steel="1018", keyway="sled runner")
+    safety = shaft_safety(10e3, torque=torque, diameter=least, steel="C1018", keyway="sled runner")
     assert slope <= HUB_SLOPE * (1.0 + 1e-12)
     assert safety >= SHAFT_SAFETY * (1.0 - 1e-12)
     reached = slope == pytest.approx(HUB_SLOPE, rel=1e-12) or safety == pytest.approx(SHAFT_SAFETY, rel=1e-12)
@@ -66,8 +66,8 @@ def test_the_lagging_bears_the_belt():
 
 
 def test_refusals_and_no_load():
-    assert math.isinf(shaft_safety(0.0, torque=0.0, diameter=0.1, steel="1018", keyway="profiled"))
-    with pytest.raises(InputError, match="steel = 'C45' is not allowed: one of 1018, 1045, 4140"):
+    assert math.isinf(shaft_safety(0.0, torque=0.0, diameter=0.1, steel="C1018", keyway="profiled"))
+    with pytest.raises(InputError, match="steel = 'C45' is not allowed: one of C1018, C1045, C4140"):
         shaft_safety(1.0, torque=0.0, diameter=0.1, steel="C45", keyway="profiled")  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"bearing_centres = 1\.0 is not allowed: more than hub_centres"):
         hub_moment(1.0, bearing_centres=1.0, hub_centres=1.0)

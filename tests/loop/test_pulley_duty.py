@@ -18,7 +18,7 @@ from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, SECOND, closed, data, line
 
-SHAFT = {"bearing_centres": "1.9 m", "hub_centres": "1.4 m", "hub_shaft_diameter": "180 mm", "shaft_steel": "1045",
+SHAFT = {"bearing_centres": "1.9 m", "hub_centres": "1.4 m", "hub_shaft_diameter": "180 mm", "shaft_steel": "C1045",
          "bearing_rating": "800 kN"}  # fmt: skip
 HEAD, BEND, TAIL, SNUB = DATA["route"]["pulleys"]
 
@@ -97,7 +97,7 @@ def test_shaft_bearing_and_lagging_are_those_of_the_laws():
     assert duty.slope == pytest.approx(shaft_slope(moment, hub_centres=1.4, diameter=0.18), rel=1e-12)
     start = next(load for load in duty.loads if load.state == "start")
     assert duty.largest is start
-    kind = {"steel": "1045", "keyway": "profiled"}
+    kind = {"steel": "C1045", "keyway": "profiled"}
     assert duty.safety == (
         pytest.approx(shaft_safety(moment, torque=start.torque, diameter=0.18, **kind), rel=1e-12),
         "start",

@@ -87,7 +87,7 @@ def _of_a_rare_spec():
     steel = line.belt.carcass.replace(kind="steel cord", strength="1600 N/mm", rating=None)
     pulley = {
         "name": "tail", "position": "tail", "diameter": "24 in", "shaft_diameter": "4 in", "mass": "1200 lb",
-        "bearing_centres": "66 in", "hub_centres": "46 in", "shaft_steel": "1018", "bearing_rating": "90000 lbf",
+        "bearing_centres": "66 in", "hub_centres": "46 in", "shaft_steel": "C1018", "bearing_rating": "90000 lbf",
     }  # fmt: skip
     take_up = {"kind": "fixed", "position": "tail"}
     route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
