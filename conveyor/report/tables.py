@@ -63,6 +63,7 @@ AS_GIVEN: Final = "as given"
 """Case of a check of the conveyor as its spec gives it."""
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
 _HOUR: Final = 3600.0
+_USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its strength (general knowledge)."
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
@@ -796,7 +797,8 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
         Column("lowest in a strip", "strength", attrgetter("least")),
     )
     rows, page = tuple(a.belt_duty.curves), (OnPage("belt", "Vertical curves"),)
-    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
+    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
+    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page, note)
 
 
 def transitions(a: CalculatedConveyor) -> Table:
@@ -819,7 +821,7 @@ def transitions(a: CalculatedConveyor) -> Table:
         "tension (or strength over the classic safety), none slack. Carry strand, every state of motion."
     )
     if a.line.transitions and a.line.belt.stiffness is None:
-        note += " The belt's stiffness is a usual multiple of its strength (general knowledge)."
+        note += f" {_USUAL_STIFFNESS}"
     note += "".join(
         f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
     )
