@@ -15,11 +15,12 @@ import numpy as np
 
 from conveyor.laws.belt import RATED_START
 from conveyor.laws.motion import Stop
+from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
 from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
-from conveyor.loop.belt_duty import CurveCheck
+from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.pipeline import CalculatedConveyor
@@ -30,6 +31,7 @@ Relation = Literal["at least", "at most"]
 
 _AT_MOST: Final[Relation] = "at most"
 _AT_LEAST: Final[Relation] = "at least"
+_HALF_TROUGH: Final = 0.5
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
 
@@ -421,6 +423,103 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
     )
 
 
+def transitions(found: CalculatedConveyor) -> Iterator[Check]:
+    """Between trough and pulley no strip of the belt is overstressed or slack; of the transitions given."""
+    for zone in found.belt_duty.transitions:
+        for least, fine, bad in (
+            (zone.stretched, "no strip overstressed", "a strip of the belt is overstressed"),
+            (zone.slackened, "no strip slack", "a strip of the belt goes slack"),
+        ):
+            yield _transition(zone, least, fine, bad)
+
+
+def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -> Check:
+    key, subject = "transition_length", said(f"{of.zone.end} transition: {fine}")
+    length, missing = of.zone.length, of.missing or "least lengths in its table"
+    if length is None or least is None:
+        words = said("length not given") if length is None else said("{}", (length, "length"))
+        return Check(key, subject, length, None, "length", words, said(missing), "not checked")
+    if math.isinf(least):
+        why = said(
+            f"{of.zone.end} transition: {bad} whatever its length, at a belt tension of {{}} to {{}} per width",
+            (of.lowest, "belt rating"),
+            (of.highest, "belt rating"),
+        )
+        asked = said("no length helps")
+        return Check(key, subject, length, None, "length", said("{}", (length, "length")), asked, "FAIL", why)
+    why = said(
+        f"{of.zone.end} transition: {bad} over {{}}; at least {{}} are needed (ISO 5293 taken on to every strip)"
+        + ("; or raise the pulley towards half trough" if of.zone.pulley_height < _HALF_TROUGH else ""),
+        (length, "length"),
+        (least, "length"),
+    )
+    return compared(key, subject, length, "at least", least, "length", why=why)
+
+
+def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
+    """The shaft of every pulley that gives its distances bears bending and torsion, and bends little at the hubs."""
+    for duty in found.pulley_duty:
+        if duty.slope is None:
+            continue
+        name, where = quoted(duty.pulley.name), duty.largest.state
+        needed = () if duty.least_shaft is None else ((duty.least_shaft, "thickness"),)
+        cure = "; {} in the hubs (hub_shaft_diameter) are needed" if needed else ""
+        why = said(f'the shaft of pulley "{name}" bends too much at its hubs{cure}', *needed)
+        yield compared(
+            "pulley_shaft_slope", f"slope at the hubs, {name} pulley", duty.slope, "at most", HUB_SLOPE, "number",
+            source="CEMA B105.1", found=said(f"{duty.slope:.4f}"), why=why, where=where,
+        )  # fmt: skip
+        subject = said(f"safety of the shaft, {name} pulley")
+        asked = said("at least {} (CEMA B105.1)", (SHAFT_SAFETY, "number"))
+        if duty.safety is None:
+            yield Check(
+                "pulley_shaft_safety", subject, None, SHAFT_SAFETY, "safety", said("not known"),
+                said("steel of the shaft not given"), "not checked",
+            )  # fmt: skip
+            continue
+        safety, where = duty.safety
+        why = said(f'the shaft of pulley "{name}" is too thin for bending and torsion{cure}', *needed)
+        made = compared(
+            "pulley_shaft_safety", subject, safety, "at least", SHAFT_SAFETY, "safety", why=why, where=where
+        )
+        yield replace(made, asked=asked)
+
+
+def pulley_bearings(found: CalculatedConveyor) -> Iterator[Check]:
+    """The bearings of every pulley that gives their rating live as long as asked, in steady running."""
+    for duty in found.pulley_duty:
+        hours, seconds, asked = duty.bearing_hours, duty.bearing_seconds, duty.pulley.bearing_life
+        if hours is None or seconds is None:
+            continue
+        name = quoted(duty.pulley.name)
+        why = None
+        if asked is not None:
+            why = said(
+                f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {asked / 3600.0:,.0f} h are asked for'
+            )
+        made = compared(
+            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
+            found=said(f"{hours:,.0f} h"), missing="life asked of it (bearing_life) not given", why=why,
+        )  # fmt: skip
+        yield made if asked is None else replace(made, asked=said(f"at least {asked / 3600.0:,.0f} h"))
+
+
+def lagging(found: CalculatedConveyor) -> Iterator[Check]:
+    """The belt presses no harder on a lagging than its maker allows; of laggings that give it."""
+    for duty in found.pulley_duty:
+        allowed, name = duty.pulley.allowed_pressure, quoted(duty.pulley.name)
+        if allowed is not None:
+            why = said(
+                f'the belt presses with {{}} on the lagging of pulley "{name}", it bears {{}}; a larger diameter',
+                (duty.pressure, "pressure"),
+                (allowed, "pressure"),
+            )
+            yield compared(
+                "lagging_pressure", f"pressure on the lagging, {name} pulley", duty.pressure, "at most", allowed,
+                "pressure", why=why,
+            )  # fmt: skip
+
+
 def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
     """The motors give what a controlled start asks, or accelerate the belt over its whole run-up; it breaks away."""
     start = found.motions.start
@@ -658,6 +757,10 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     splice_strength,
     pulley_diameter,
     curve_radius,
+    transitions,
+    pulley_shaft,
+    pulley_bearings,
+    lagging,
     starting_force,
     comes_to_rest,
     holding,

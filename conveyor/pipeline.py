@@ -37,6 +37,7 @@ from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses
 from conveyor.loop.frame import Frame
+from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
@@ -190,8 +191,13 @@ class CalculatedConveyor:
 
     @cached_property
     def belt_duty(self) -> BeltDuty:
-        """Safety of the belt, diameters of the pulleys, radii of vertical curves."""
-        return belt_duty(self.balance)
+        """Safety of the belt, diameters of the pulleys, radii of vertical curves, lengths of transitions."""
+        return belt_duty(self.balance, self.every_state)
+
+    @cached_property
+    def pulley_duty(self) -> tuple[PulleyDuty, ...]:
+        """Loads of every pulley in every state, its shaft, bearings and lagging."""
+        return pulley_duty(self.balance, self.every_state)
 
     @cached_property
     def year(self) -> Year | None:

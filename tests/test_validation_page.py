@@ -30,6 +30,12 @@ SOURCES = {
     "equivalent R 50 mm, G∞ 1143, G0 571.5 N/mm², ν 0.4; printed digits",
     "ISO 5048 worked example": "itemised example after ISO 5048: coal, 2300 t/h, 4.8 m/s, 143 m level, belt 1.2 m; "
     "printed digits",
+    "Helix shaft report": "a printed sheet of Helix's pulley shaft program (AS 1403), tail pulley CV212: resultant, "
+    "bending moment, torque; printed digits",
+    "ISO 5293:2004": "the standard's formula of the transition length, which strips of straight way come to at full "
+    "trough",
+    "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
+    "table 3: belt of 1600 mm, 600 kN, 13.0 m; strength, stiffness and rolls are inferred, so 1 % is allowed",
     "J*(ω) E*(ω) = 1": "the exact inverse of a relaxation spectrum, 21 terms over 20 decades",
 }
 FILES = {

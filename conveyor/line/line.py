@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
+from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.line import usual
@@ -108,7 +109,11 @@ class PloughBlade:
 
 @dataclass(frozen=True)
 class BendPulley:
-    """A pulley that bends the belt: diameters [m], mass [kg], wrap [rad]; whether a drive stands on it."""
+    """A pulley that bends the belt: diameters, distances of bearings and hubs [m], mass [kg], wrap [rad], rating [N].
+
+    `pull_angle` is between the belt's pull and straight down [rad], `bearing_life` asked for [s], `allowed_pressure` of
+    its lagging [Pa]; None not given. `driven`: whether a drive stands on it.
+    """
 
     name: str
     position: str
@@ -119,7 +124,25 @@ class BendPulley:
     mass: float
     wrap_angle: float
     driven: bool
+    pull_angle: float
+    bearing_centres: float | None
+    hub_centres: float | None
+    hub_diameter: float
+    shaft_steel: Steel | None
+    keyway: Keyway
+    bearing_rating: float | None
+    bearing_life: float | None
+    allowed_pressure: float | None
     assumed: bool = False
+
+
+@dataclass(frozen=True)
+class TransitionZone:
+    """Between trough and flat pulley: length [m], None not given; height of the pulley over the trough's depth [-]."""
+
+    end: str
+    length: float | None
+    pulley_height: float
 
 
 @dataclass(frozen=True)
@@ -237,6 +260,7 @@ class Line:
     scrapers: tuple[Scraper, ...]
     ploughs: tuple[PloughBlade, ...]
     pulleys: tuple[BendPulley, ...]
+    transitions: tuple[TransitionZone, ...]
     drives: tuple[DriveUnit, ...]
     take_up: TakeUpUnit
     places: Places
@@ -292,6 +316,7 @@ class Line:
             scrapers=_scrapers(conveyor),
             ploughs=_ploughs(conveyor, places),
             pulleys=_pulleys(conveyor, places),
+            transitions=_transitions(conveyor),
             drives=_drives(conveyor, places),
             take_up=_take_up(conveyor, places),
             places=places,
@@ -507,6 +532,25 @@ def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool)
         mass=si(pulley.mass),
         wrap_angle=si(pulley.wrap_angle),
         driven=driven,
+        pull_angle=si(pulley.pull_angle),
+        bearing_centres=_known(pulley.bearing_centres),
+        hub_centres=_known(pulley.hub_centres),
+        hub_diameter=_given(pulley.hub_shaft_diameter, si(pulley.shaft_diameter)),
+        shaft_steel=pulley.shaft_steel,
+        keyway=pulley.keyway,
+        bearing_rating=_known(pulley.bearing_rating),
+        bearing_life=_known(pulley.bearing_life),
+        allowed_pressure=_known(pulley.lagging_pressure),
+    )
+
+
+def _transitions(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
+    """Of both ends that the spec gives."""
+    given = {"tail": conveyor.route.tail_transition, "head": conveyor.route.head_transition}
+    return tuple(
+        TransitionZone(end, _known(zone.length), _given(zone.pulley_height, 0.0))
+        for end, zone in given.items()
+        if zone is not None
     )
 
 

@@ -1,9 +1,9 @@
-"""What the tensions ask of the belt: strength, pulley diameters, radii of vertical curves."""
+"""What the tensions ask of the belt: strength, pulley diameters, radii of vertical curves, lengths of transitions."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
@@ -17,17 +17,18 @@ from conveyor.laws.belt import (
     next_pulley_diameter,
     pulley_group_diameter,
 )
-from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter, steel_cord_stiffness
+from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter, usual_stiffness
+from conveyor.laws.transition import EDGE_OVER_RATED, transition_length, transition_stretch
 from conveyor.laws.vertical_curve import (
-    TroughSection,
     buckling_radius,
     lift_off_radius,
     overstress_radius,
     trough_section,
 )
-from conveyor.line.line import BendPulley, Line
-from conveyor.line.stretches import Strand, Stretch
+from conveyor.line.line import BendPulley, Line, TransitionZone
+from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
+from conveyor.loop.tensions import MotionState
 
 SNUB_WRAP = math.radians(30.0)
 """Wrap below which a pulley is of group C, DIN 22101 [rad]; general knowledge."""
@@ -70,6 +71,8 @@ class CurveCheck:
         At which the empty belt stays down; of concave curves.
     overstress, buckling : float or None
         At which no strip of the belt is overstressed or slack; infinite where no radius helps.
+    most, least : float or None
+        Highest and lowest tension of a strip that occur on it [N/m].
     """
 
     section: str
@@ -81,6 +84,39 @@ class CurveCheck:
     lift_off: float | None
     overstress: float | None
     buckling: float | None
+    most: float | None = None
+    least: float | None = None
+
+
+@dataclass(frozen=True)
+class TransitionCheck:
+    """A transition: its length beside the least ones [m]; None where a figure for it is missing.
+
+    Attributes
+    ----------
+    zone : TransitionZone
+        As given.
+    lowest, highest : float
+        Mean tensions of the belt that occur in it [N/m].
+    allowed : float or None
+        Highest tension allowed in a strip [N/m].
+    stretched, slackened : float or None
+        Least lengths at which no strip is overstressed or slack; infinite where no length helps.
+    most, least : float or None
+        Highest and lowest tension of a strip that occur over the given length [N/m].
+    missing : str
+        What is not known, where something is.
+    """
+
+    zone: TransitionZone
+    lowest: float
+    highest: float
+    allowed: float | None = None
+    stretched: float | None = None
+    slackened: float | None = None
+    most: float | None = None
+    least: float | None = None
+    missing: str = ""
 
 
 @dataclass(frozen=True)
@@ -105,6 +141,8 @@ class BeltDuty:
         Least diameter of the drive pulleys [m].
     curves : tuple of CurveCheck
         Every vertical curve on both strands.
+    transitions : tuple of TransitionCheck
+        Those that the spec gives.
     """
 
     largest_steady: float
@@ -119,10 +157,20 @@ class BeltDuty:
     pulleys: tuple[PulleyCheck, ...]
     drive_diameter: float | None
     curves: tuple[CurveCheck, ...]
+    transitions: tuple[TransitionCheck, ...] = ()
 
 
-def belt_duty(found: Balance) -> BeltDuty:
-    """Check belt, pulleys and vertical curves against the tensions of every state."""
+def belt_duty(found: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
+    """Check belt, pulleys, vertical curves and transitions against the tensions of every state.
+
+    Parameters
+    ----------
+    found : Balance
+        The conveyor.
+    states : sequence of MotionState, optional
+        For curves and transitions; without it those that decide the setting of the take-up.
+    """
+    states = states or tuple(found.settled.states.values())
     belt = found.line.belt
     steady, largest = found.settled.steady.largest, found.tensions.largest
 
@@ -150,7 +198,8 @@ def belt_duty(found: Balance) -> BeltDuty:
         ),
         pulleys=tuple(_pulleys(found.line)),
         drive_diameter=_drive_diameter(found.line),
-        curves=tuple(_curves(found)),
+        curves=tuple(_curves(found, states)),
+        transitions=tuple(_transition(found.line, zone, states) for zone in found.line.transitions),
     )
 
 
@@ -186,10 +235,9 @@ def _group(pulley: BendPulley) -> Group:
     return "C" if snub else "B"
 
 
-def _curves(found: Balance) -> Iterator[CurveCheck]:
+def _curves(found: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:
     line = found.line
     sections = {section.name: section for section in line.sections if section.curve is not None}
-    states = tuple(found.settled.states.values())
     for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
         if section is None or section.curve is None:
@@ -204,7 +252,7 @@ def _curves(found: Balance) -> Iterator[CurveCheck]:
                 inclination=stretch.inclination,
                 gravity=line.gravity,
             )
-        over, slack = _strips(line, stretch, section.curve, lowest, highest)
+        strips = _strips(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
             stretch.strand,
@@ -213,33 +261,24 @@ def _curves(found: Balance) -> Iterator[CurveCheck]:
             lowest,
             highest,
             lift,
-            over,
-            slack,
+            *strips,
         )
 
 
 def _strips(
-    line: Line, stretch: Stretch, kind: str, lowest: float, highest: float
-) -> tuple[float | None, float | None]:
-    """Radii at which edges and middle of the belt bear the curve; None where stiffness or trough are not known."""
-    belt = line.belt
-    trough, width, strength = _trough(stretch, belt.width), belt.width, belt.strength
-    if strength is not None:
-        allowed = strength / _classic_safety(line)
-    elif belt.rating is not None:
-        allowed = belt.rating
-    else:
-        return None, None
-    if trough is None:
-        return None, None
-    if belt.stiffness is not None:
-        stiffness = belt.stiffness
-    elif belt.steel_cord and strength is not None:
-        stiffness = steel_cord_stiffness(strength)
-    else:
-        return None, None
+    line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float
+) -> tuple[float | None, float | None, float | None, float | None]:
+    """Radii at which edges and middle of the belt bear the curve, and tensions that occur in them.
+
+    None where stiffness or trough are not known.
+    """
+    middle, width = _middle(stretch, line.belt.width), line.belt.width
+    allowed, stiffness = _allowed(line), _stiffness(line)
+    if allowed is None or stiffness is None or middle is None:
+        return None, None, None, None
+    trough = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
     stretched, slackened = trough.edge_above, trough.middle_below
-    if kind == "concave":
+    if section.curve == "concave":
         stretched, slackened = slackened, stretched
     over = slack = math.inf
     if highest / width < allowed:
@@ -253,12 +292,66 @@ def _strips(
             stiffness_per_width=stiffness,
             least_per_width=LEAST_EDGE_TENSION,
         )
-    return over, slack
+    turned = stiffness / abs(section.radius)
+    most, least = highest / width + turned * stretched, lowest / width - turned * slackened
+    return over, slack, most, least
 
 
-def _trough(stretch: Stretch, width: float) -> TroughSection | None:
-    """Heights of the troughed belt; None for five rolls, which have no rule."""
-    middle = {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
-    if middle is None:
-        return None
-    return trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
+def _allowed(line: Line) -> float | None:
+    """Tension per width that the belt is rated for [N/m]; None without strength and rating."""
+    belt = line.belt
+    return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
+
+
+def _stiffness(line: Line) -> float | None:
+    """Of the belt per width [N/m]: as given, else a usual multiple of its strength; None without both."""
+    belt = line.belt
+    if belt.stiffness is not None or belt.strength is None:
+        return belt.stiffness
+    return usual_stiffness(belt.strength, carcass=belt.carcass)
+
+
+def _middle(stretch: Stretch, width: float) -> float | None:
+    """Belt on the middle roll [m]; None for four and five rolls, which have no rule."""
+    return {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
+
+
+def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
+    """Least lengths of a transition of the carry strand for the tensions there in every state."""
+    width, half = line.belt.width, line.count
+    if zone.end == "head":
+        stretch, tensions = line.loop.stretches[-1], [float(state.ends[-1]) for state in states]
+    else:
+        stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
+    lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
+    middle, rated, stiffness = _middle(stretch, width), _allowed(line), _stiffness(line)
+    if middle is None or rated is None or stiffness is None:
+        missing = (
+            "no rule for four and five rolls" if middle is None else
+            "belt.carcass.strength and rating not given" if rated is None else "belt.carcass.stiffness not given"
+        )  # fmt: skip
+        return TransitionCheck(zone, lowest, highest, missing=missing)
+    found = transition_stretch(
+        width, middle_roll_length=middle, trough_angle=stretch.trough_angle, pulley_height=zone.pulley_height
+    )
+    allowed = EDGE_OVER_RATED * rated
+
+    def least(tension: float, stretch: float, limit: float) -> float:
+        return transition_length(
+            tension, stretch=stretch, stiffness_per_width=stiffness, limit_per_width=limit
+        )
+
+    most = lower = None
+    if zone.length is not None:
+        most = highest + stiffness * found.largest / zone.length**2
+        lower = lowest + stiffness * found.least / zone.length**2
+    return TransitionCheck(
+        zone,
+        lowest,
+        highest,
+        allowed,
+        least(highest, found.largest, allowed),
+        least(lowest, found.least, 0.0),
+        most,
+        lower,
+    )

@@ -55,7 +55,7 @@ class Frame:
         held = () if line.take_up.spot is None else (line.take_up.spot,)
         standing = (
             *(force.spot for force in self.points if force.spot is not None),
-            *(bend.pulley.spot for bend in self.bends),
+            *(pulley.spot for pulley in line.pulleys),
             *(drive.spot for drive in line.drives),
         )
         self.spots: list[Spot] = sorted({*ends, self.landing, *held, *standing})

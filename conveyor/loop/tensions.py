@@ -67,6 +67,8 @@ class MotionState:
         At the head, behind and before all that stands there [N].
     held : float
         Tension at the take-up [N].
+    spots : tuple of float
+        Tension before what stands at every spot of the frame [N].
     """
 
     name: str
@@ -79,6 +81,7 @@ class MotionState:
     leaving: float
     arriving: float
     held: float
+    spots: tuple[float, ...]
 
     @property
     def largest(self) -> float:
@@ -303,6 +306,7 @@ class Loop:
             leaving=level,
             arriving=level + motion.arriving,
             held=setting,
+            spots=tuple(level + before for before in motion.before),
         )
 
     def slackest(self, motion: Motion, run: int) -> int:

@@ -10,6 +10,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import (
     BULK_ON_BELT_FRICTION,
     BULK_ON_SKIRT_FRICTION,
@@ -24,6 +25,7 @@ from conveyor.models.wording import Location
 from conveyor.units import (
     Angle,
     Bounds,
+    Duration,
     Force,
     Fraction,
     Length,
@@ -175,17 +177,53 @@ class Pulley(Model):
     """Of pulley and shaft; its weight loads the bearings."""
     wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="360 deg")] = quantity("180 deg")
     """Angle over which the belt lies on it."""
+    pull_angle: Annotated[Angle, Bounds(ge="0 deg", le="180 deg")] = quantity("0 deg")
+    """Between the belt's pull on it and straight down: 90 deg where it pulls level; at 0 all the weight adds to it."""
+    bearing_centres: Annotated[Length, Bounds(gt="0 m", le="10 m")] | None = None
+    """Distance of its bearings, for the shaft."""
+    hub_centres: Annotated[Length, Bounds(gt="0 m", le="10 m")] | None = None
+    """Distance of its hubs, for the shaft."""
+    hub_shaft_diameter: Annotated[Length, Bounds(gt="0 m", le="2 m")] | None = None
+    """Diameter of the shaft in and between the hubs; that in the bearings without it."""
+    shaft_steel: Steel | None = None
+    """Steel of the shaft, as CEMA B105.1 names it; C1045 is C45."""
+    keyway: Keyway = "profiled"
+    """What weakens the shaft in the hub."""
+    bearing_rating: Annotated[Force, Bounds(gt="0 N", le="100 MN")] | None = None
+    """Dynamic load rating C of one bearing, a roller bearing."""
+    bearing_life: Annotated[Duration, Bounds(gt="0 h", le="1000000 h")] | None = None
+    """L10 asked of each bearing in steady running."""
+    lagging_pressure: Annotated[Pressure, Bounds(gt="0 Pa", le="100 MPa")] | None = None
+    """Pressure of the belt that its lagging bears, by the lagging's maker."""
 
     @model_validator(mode="after")
     def _shaft_inside(self) -> Self:
-        if si(self.shaft_diameter) >= si(self.diameter):
-            message = (
-                f"got {text(self.shaft_diameter)}, but the pulley's diameter is {text(self.diameter)}; "
-                "the shaft must be thinner: correct shaft_diameter or diameter"
-            )
-            refuse("Pulley", [Problem(("shaft_diameter",), message)])
-        refuse("Pulley", position_problem(self.position, self.section))
+        problems = []
+        for name, shaft in (
+            ("shaft_diameter", self.shaft_diameter),
+            ("hub_shaft_diameter", self.hub_shaft_diameter),
+        ):
+            if shaft is not None and si(shaft) >= si(self.diameter):
+                message = (
+                    f"got {text(shaft)}, but the pulley's diameter is {text(self.diameter)}; "
+                    f"the shaft must be thinner: correct {name} or diameter"
+                )
+                problems.append(Problem((name,), message))
+        bearings, hubs = self.bearing_centres, self.hub_centres
+        if bearings is not None and hubs is not None and si(hubs) >= si(bearings):
+            message = f"got {text(hubs)}, but the bearings stand outside the hubs, {text(bearings)} apart; correct one"
+            problems.append(Problem(("hub_centres",), message))
+        refuse("Pulley", [*problems, *position_problem(self.position, self.section)])
         return self
+
+
+class Transition(Model):
+    """Where the belt changes between the trough and a flat pulley."""
+
+    length: Annotated[Length, Bounds(gt="0 m", le="200 m")] | None = None
+    """From the pulley's axis to the first set of full trough; what is needed is shown without it."""
+    pulley_height: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
+    """Top of the pulley over the middle roll, over the depth of the trough: 50 % half trough; full trough without."""
 
 
 class TakeUp(Model):
@@ -246,6 +284,10 @@ class Route(Model):
     cleaners: Annotated[tuple[Cleaner, ...], Field(max_length=100)] = ()
     ploughs: Annotated[tuple[Plough, ...], Field(max_length=100)] = ()
     pulleys: Annotated[tuple[Pulley, ...], Field(max_length=100)] = ()
+    head_transition: Transition | None = None
+    """From the last full trough to the head pulley."""
+    tail_transition: Transition | None = None
+    """From the tail pulley to the first full trough."""
     turned_over: Switch = False
     """Whether the return strand is turned over, so that its rolls run on the bottom cover too."""
 

@@ -60,7 +60,7 @@ from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
-from conveyor.units.sentences import band_words, figure, plain_figure
+from conveyor.units.sentences import Said, band_words, figure, plain_figure, said
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -68,6 +68,7 @@ _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
 """Sections of like rolls that are named."""
+_USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its strength (general knowledge)."
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
@@ -105,7 +106,10 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         brakes(analysis),
         belt_strength_table(analysis),
         pulleys(analysis),
+        pulley_loads(analysis, studies),
+        pulley_states(analysis, studies),
         vertical_curves(analysis),
+        transitions(analysis),
         convergence(analysis),
         *studied,
         what_if(analysis, studies, maximum_motor_power(analysis, studies)),
@@ -763,6 +767,82 @@ def pulleys(a: CalculatedConveyor) -> Table:
     )
 
 
+def _loads(
+    a: CalculatedConveyor, studies: CalculatedStudies | None
+) -> Iterator[tuple[Said, CalculatedConveyor]]:
+    """The conveyor as given, its load cases and its load states, with their names."""
+    yield said(AS_GIVEN), a
+    if studies is not None and studies.cases is not None:
+        yield from ((result.label, result.found) for result in studies.cases.results)
+    if studies is not None and studies.states is not None:
+        yield from studies.states.loads
+
+
+def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
+    system = a.conveyor.report.units
+    every = [(label, duty) for label, found in _loads(a, studies) for duty in found.pulley_duty]
+    rows = []
+    for own in a.pulley_duty:
+        of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
+        rows.append((own, *max(of, key=lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
+
+    def extreme(of: Callable[[Iterable[float]], float], get: Getter) -> Getter:
+        def found(row: Any) -> float | None:
+            values = [value for duty in row[3] if (value := get(duty)) is not None]
+            return of(values) if values else None
+
+        return found
+
+    columns = (
+        Column("pulley", "text", lambda row: row[0].pulley.name),
+        Column("driven", "verdict", lambda row: "yes" if row[0].pulley.driven else "no", page=None),
+        Column("diameter", "size", lambda row: row[0].pulley.diameter),
+        Column("wrap", "angle", lambda row: row[0].pulley.wrap_angle, page=None),
+        Column("rotation", "rotation", extreme(max, attrgetter("rotation")), page=None),
+        Column("resultant, steady", "force", lambda row: row[0].steady.resultant, page=None),
+        Column("largest resultant", "force", lambda row: row[2].largest.resultant),
+        Column("in the state", "text", lambda row: row[2].largest.state),
+        Column("of the case", "text", lambda row: row[1].text(system), page=None),
+        Column("largest torque", "torque", extreme(max, attrgetter("torque"))),
+        Column("bending moment at the hub", "torque", extreme(max, attrgetter("moment")), sparse=True, page=None),
+        Column("shaft in the hub", "size", lambda row: row[0].pulley.hub_diameter),
+        Column("minimum shaft in the hub", "size", extreme(max, attrgetter("least_shaft")), sparse=True),
+        Column("slope at the hub", "friction", extreme(max, attrgetter("slope")), sparse=True),
+        Column("safety of the shaft", "ratio",
+               extreme(min, lambda duty: None if duty.safety is None else duty.safety[0]), sparse=True),
+        Column("L10 of a bearing, steady", "life", extreme(min, attrgetter("bearing_seconds")), sparse=True),
+        Column("pressure on the lagging", "pressure", extreme(max, attrgetter("pressure"))),
+    )  # fmt: skip
+    note = (
+        "Resultant of belt and weight; without pull_angle the weight adds to the pull in full. Shaft after CEMA B105.1 "
+        "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are met as they are listed."
+    )
+    heading = "Loads of the pulleys, all cases and states"
+    return Table("pulley_loads", "Loop", heading, columns, tuple(rows), (OnPage("belt", heading),), note)
+
+
+def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a pulley, case and state: tensions on both sides, resultant, torque."""
+    system = a.conveyor.report.units
+    rows = tuple(
+        (duty.pulley.name, label.text(system), load)
+        for label, found in _loads(a, studies)
+        for duty in found.pulley_duty
+        for load in duty.loads
+    )
+    columns = (
+        Column("pulley", "text", itemgetter(0)),
+        Column("case", "text", itemgetter(1)),
+        Column("state", "text", lambda row: row[2].state),
+        Column("arriving", "force", lambda row: row[2].arriving),
+        Column("leaving", "force", lambda row: row[2].leaving),
+        Column("resultant", "force", lambda row: row[2].resultant),
+        Column("torque", "torque", lambda row: row[2].torque),
+    )
+    return Table("pulley_states", "States", "Loads of the pulleys in every case and state", columns, rows)
+
+
 def vertical_curves(a: CalculatedConveyor) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones."""
     columns = (
@@ -775,12 +855,42 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
         Column("minimum against lift-off", "length", attrgetter("lift_off")),
         Column("minimum against overstress", "length", attrgetter("overstress")),
         Column("minimum against slack strips", "length", attrgetter("buckling")),
+        Column("highest in a strip", "strength", attrgetter("most")),
+        Column("lowest in a strip", "strength", attrgetter("least")),
     )
-    rows, page = (
-        tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0),
-        (OnPage("belt", "Vertical curves"),),
+    rows = tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0)
+    page = (OnPage("belt", "Vertical curves"),)
+    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
+    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page, note)
+
+
+def transitions(a: CalculatedConveyor) -> Table:
+    """One row a transition that the spec gives: its length beside the least ones, tensions of its strips."""
+    columns = (
+        Column("end", "text", attrgetter("zone.end")),
+        Column("pulley over depth of trough", "share", attrgetter("zone.pulley_height")),
+        Column("length", "spacing", attrgetter("zone.length")),
+        Column("minimum against overstress", "spacing", attrgetter("stretched")),
+        Column("minimum against slack strips", "spacing", attrgetter("slackened")),
+        Column("lowest tension per width", "strength", attrgetter("lowest")),
+        Column("highest tension per width", "strength", attrgetter("highest")),
+        Column("highest in a strip", "strength", attrgetter("most")),
+        Column("allowed in a strip", "strength", attrgetter("allowed")),
+        Column("lowest in a strip", "strength", attrgetter("least")),
     )
-    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page)
+    heading = "Transitions between trough and pulley"
+    note = (
+        "Strips of straight way, ISO 5293 taken on to every strip and a raised pulley; at most 130 % of the rated "
+        "tension (or strength over the classic safety), none slack. Carry strand, every state of motion."
+    )
+    if a.line.transitions and a.line.belt.stiffness is None:
+        note += f" {_USUAL_STIFFNESS}"
+    note += "".join(
+        f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
+    )
+    return Table(
+        "transitions", "Loop", heading, columns, a.belt_duty.transitions, (OnPage("belt", heading),), note
+    )
 
 
 def convergence(a: CalculatedConveyor) -> Table:

@@ -128,15 +128,19 @@ class CalculatedStates:
         return next((state for state in self.states if key in state.keys), None)
 
     @cached_property
+    def loads(self) -> tuple[tuple[Said, CalculatedConveyor], ...]:
+        """Every state that is not the spec's own load; its contacts are those of the spec's."""
+        return tuple(
+            (state.case, replace(self.own, temperature=state.temperature, balance=state.balance))
+            for state in self.states
+            if state.balance is not self.own.balance
+        )
+
+    @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state that is not the spec's own load."""
         return tuple(
-            replace(check, case=state.case)
-            for state in self.states
-            if state.balance is not self.own.balance
-            for check in checks(
-                replace(self.own, temperature=state.temperature, balance=state.balance), contacts=False
-            )
+            replace(check, case=case) for case, found in self.loads for check in checks(found, contacts=False)
         )
 
 

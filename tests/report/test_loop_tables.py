@@ -24,9 +24,9 @@ DUTY = BeltDuty(
         PulleyCheck("head", "head", "A", 0.63, 0.725, 0.8),
         PulleyCheck("snub", "return", "C", 0.5, 0.45675, 0.5),
     ),
-    curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0),),
+    curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0, 90e3, 12e3),),
 )
-OF_DUTY = SimpleNamespace(belt_duty=DUTY)
+OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=SimpleNamespace(stiffness=None)))
 
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
@@ -49,4 +49,5 @@ def test_a_curve_beside_its_least_radii():
     assert row["minimum against lift-off [m]"] == pytest.approx(255.0)
     assert row["minimum against overstress [m]"] == pytest.approx(70.0)
     assert row["minimum against slack strips [m]"] == pytest.approx(110.0)
+    assert (row["highest in a strip [N/mm]"], row["lowest in a strip [N/mm]"]) == pytest.approx((90.0, 12.0))
     assert (row["lowest tension [N]"], row["highest tension [N]"]) == pytest.approx((20e3, 50e3))

@@ -77,7 +77,7 @@ def page():
 
 
 def _of_a_rare_spec():
-    """Bearings' lives, CEMA's estimate, a fixed take-up, cases and load states without an answer: in no example."""
+    """Lives of bearings, a pulley's shaft, a transition, CEMA's estimate, loads without an answer: in no example."""
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     idlers = line.idlers
     roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
@@ -85,7 +85,12 @@ def _of_a_rare_spec():
     cema = {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}
     line = line.replace(idlers=idlers.replace(carry=carry), calculation=line.calculation.replace(cema=cema))
     steel = line.belt.carcass.replace(kind="steel cord", strength="1600 N/mm", rating=None)
-    route = line.route.replace(take_up={"kind": "fixed", "position": "tail"})
+    pulley = {
+        "name": "tail", "position": "tail", "diameter": "24 in", "shaft_diameter": "4 in", "mass": "1200 lb",
+        "bearing_centres": "66 in", "hub_centres": "46 in", "shaft_steel": "C1018", "bearing_rating": "90000 lbf",
+    }  # fmt: skip
+    take_up = {"kind": "fixed", "position": "tail"}
+    route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
     slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
     line = line.replace(cases=(slow, warm), route=route, belt=line.belt.replace(carcass=steel))
     asked = studies(line)

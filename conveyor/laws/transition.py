@@ -1,0 +1,143 @@
+"""Transitions: what the strips of a belt are stretched by between a flat pulley and the first full trough.
+
+Sources: ISO 5293:2004, L = h/sin λ (M/ΔT (1 - cos λ))^0.5 with h = w sin λ (formula as commonly reproduced): the edge's
+straight way against that of the middle. Here it is taken on to every strip and to a raised pulley, and the mean of the
+strips is that of the belt (derived; Beckley, Belt conveyor transition geometry, Bulk Solids Handling 2 (1982), assumes
+the same).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from conveyor.require import require, require_angle, require_positive
+
+EDGE_OVER_RATED: Final = 1.3
+"""Tension of the edges over the belt's rated one, at most [-]; ISO 5293."""
+
+
+@dataclass(frozen=True, slots=True)
+class TransitionStretch:
+    """Elongation of strips over the mean one, times the length of the transition squared [m²].
+
+    Parameters
+    ----------
+    edge, middle : float
+        Of the belt's edges and of what lies on the middle roll.
+    least : float
+        Of the strip that is stretched least: the middle, or with a raised pulley one in the wing.
+    """
+
+    edge: float
+    middle: float
+    least: float
+
+    @property
+    def largest(self) -> float:
+        """Of the strip that is stretched most [m²]."""
+        return max(self.edge, self.middle)
+
+
+def transition_stretch(
+    belt_width: float, *, middle_roll_length: float, trough_angle: float, pulley_height: float
+) -> TransitionStretch:
+    """Strips of straight way from the pulley to the trough: ε L² = s² (1 - cos λ) - s H sin λ + H²/2, less its mean.
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    middle_roll_length : float
+        l_M, belt on the middle roll [m], from 0 (two rolls) to B (flat).
+    trough_angle : float
+        λ of the first full set [rad], from 0 to below pi/2.
+    pulley_height : float
+        H, top of the pulley over the middle roll, over the depth of the trough w sin λ [-], from 0 (full trough) to 1;
+        0.5 is half trough.
+
+    Returns
+    -------
+    TransitionStretch
+        Over the mean of the belt's width [m²].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    w = (B - l_M)/2, s from 0 at the bend to w at the edge. A strip rises s sin λ - H and moves inwards s (1 - cos λ)
+    over the length L; ε to its first order in (w/L)², whose next is below 1 % for L > 2 B. Shear between strips, which
+    evens them out, and what reaches beyond pulley and set are left out: on the safe side.
+
+    Examples
+    --------
+    >>> full = transition_stretch(
+    ...     1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.0
+    ... )
+    >>> half = transition_stretch(
+    ...     1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.5
+    ... )
+    >>> round(full.edge, 5), round(full.middle, 5), round(half.edge, 5), round(half.middle, 5)
+    (0.02251, -0.00643, 0.00496, 0.00234)
+    """
+    require_positive(belt_width=belt_width)
+    ok = 0.0 <= middle_roll_length <= belt_width
+    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
+    require_angle(0.0, trough_angle=trough_angle)
+    require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, "0 to 1 is needed")
+    wing = (belt_width - middle_roll_length) / 2.0
+    square = 2.0 * math.sin(0.5 * trough_angle) ** 2  # 1 - cos λ
+    line = pulley_height * wing * math.sin(trough_angle) ** 2  # H sin λ
+    mean = 2.0 * wing**2 * (wing * square / 3.0 - line / 2.0) / belt_width
+    lowest = wing * pulley_height * math.cos(0.5 * trough_angle) ** 2  # s = H sin λ/(2 (1 - cos λ)), below w
+    return TransitionStretch(
+        edge=wing**2 * square - wing * line - mean,
+        middle=-mean,
+        least=lowest**2 * square - lowest * line - mean,
+    )
+
+
+def transition_length(
+    tension_per_width: float, *, stretch: float, stiffness_per_width: float, limit_per_width: float
+) -> float:
+    """Least length at which a strip keeps within its limit, L = sqrt(E ε L²/(k_lim - k)).
+
+    Parameters
+    ----------
+    tension_per_width : float
+        k, mean of the belt in the transition [N/m], at least 0.
+    stretch : float
+        ε L² of the strip over the mean [m²], see `TransitionStretch`; negative of one that is slackened.
+    stiffness_per_width : float
+        E of the belt per width [N/m], positive.
+    limit_per_width : float
+        k_lim [N/m]: the highest of a stretched strip, the lowest of a slackened one.
+
+    Returns
+    -------
+    float
+        L [m]; 0 of a strip that is neither, infinite where no length helps.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> transition_length(100e3, stretch=0.02, stiffness_per_width=72e6, limit_per_width=140e3)
+    6.0
+    """
+    require(
+        0.0 <= tension_per_width < math.inf, "tension_per_width", tension_per_width, "at least 0 is needed"
+    )
+    require_positive(stiffness_per_width=stiffness_per_width)
+    require(math.isfinite(limit_per_width), "limit_per_width", limit_per_width, "a finite number is needed")
+    if stretch == 0.0:
+        return 0.0
+    room = (limit_per_width - tension_per_width) * math.copysign(1.0, stretch)
+    return math.sqrt(stiffness_per_width * abs(stretch) / room) if room > 0.0 else math.inf

@@ -1,0 +1,206 @@
+"""What the belt asks of the pulleys: their loads in every state, shaft, bearings, lagging."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from conveyor.laws.pulley import (
+    hub_moment,
+    lagging_pressure,
+    least_shaft_diameter,
+    pulley_resultant,
+    shaft_safety,
+    shaft_slope,
+)
+from conveyor.laws.resistance import pulley_load
+from conveyor.laws.roll_life import ROLLER_EXPONENT, SECONDS_PER_HOUR, rating_life_hours
+from conveyor.line.line import BendPulley, Line
+from conveyor.loop.balance import Balance
+from conveyor.loop.tensions import STEADY, MotionState
+
+
+@dataclass(frozen=True)
+class PulleyLoad:
+    """A pulley in a state: tensions before and behind it, resultant of belt and weight [N], torque of its shaft [N m].
+
+    The resistance of bending belt and bearings is not in the difference of the tensions.
+    """
+
+    state: str
+    arriving: float
+    leaving: float
+    resultant: float
+    torque: float
+
+
+@dataclass(frozen=True)
+class PulleyDuty:
+    """A pulley and its load in every state.
+
+    Attributes
+    ----------
+    pulley : BendPulley
+        Which.
+    belt_width, belt_speed : float
+        [m, m/s].
+    loads : tuple of PulleyLoad
+        One a state of motion.
+    """
+
+    pulley: BendPulley
+    belt_width: float
+    belt_speed: float
+    loads: tuple[PulleyLoad, ...]
+
+    @cached_property
+    def steady(self) -> PulleyLoad:
+        """In steady running."""
+        return next(load for load in self.loads if load.state == STEADY)
+
+    @cached_property
+    def largest(self) -> PulleyLoad:
+        """The state of the largest resultant."""
+        return max(self.loads, key=lambda load: load.resultant)
+
+    @property
+    def torque(self) -> float:
+        """Largest torque of the shaft [N m]."""
+        return max(load.torque for load in self.loads)
+
+    @property
+    def rotation(self) -> float:
+        """Revolutions [1/s]."""
+        return self.belt_speed / (math.pi * self.pulley.diameter)
+
+    @cached_property
+    def pressure(self) -> float:
+        """Largest pressure of the belt on the lagging [Pa]."""
+        tight = max(max(load.arriving, load.leaving, 0.0) for load in self.loads)
+        return lagging_pressure(tight, pulley_diameter=self.pulley.diameter, belt_width=self.belt_width)
+
+    def _moment(self, load: PulleyLoad) -> float | None:
+        bearings, hubs = self.pulley.bearing_centres, self.pulley.hub_centres
+        if bearings is None or hubs is None:
+            return None
+        return hub_moment(load.resultant, bearing_centres=bearings, hub_centres=hubs)
+
+    @cached_property
+    def moment(self) -> float | None:
+        """Largest bending moment of the shaft at the hub [N m]; None without its distances."""
+        return self._moment(self.largest)
+
+    @cached_property
+    def slope(self) -> float | None:
+        """Largest slope of the shaft at the hub [-]; None without its distances."""
+        hubs = self.pulley.hub_centres
+        if self.moment is None or hubs is None:
+            return None
+        return shaft_slope(self.moment, hub_centres=hubs, diameter=self.pulley.hub_diameter)
+
+    @cached_property
+    def safety(self) -> tuple[float, str] | None:
+        """Least safety of the shaft [-] and its state; None without distances and steel."""
+        p = self.pulley
+        if self.moment is None or p.shaft_steel is None:
+            return None
+        return min(
+            (
+                shaft_safety(
+                    self._moment(load) or 0.0,
+                    torque=load.torque,
+                    diameter=p.hub_diameter,
+                    steel=p.shaft_steel,
+                    keyway=p.keyway,
+                ),
+                load.state,
+            )
+            for load in self.loads
+        )
+
+    @cached_property
+    def least_shaft(self) -> float | None:
+        """Least diameter of the shaft in the hub [m], without steel by its slope; None without distances."""
+        p = self.pulley
+        if not self.moment or p.hub_centres is None:
+            return None
+        return max(
+            least_shaft_diameter(
+                moment, torque=load.torque, hub_centres=p.hub_centres, steel=p.shaft_steel, keyway=p.keyway
+            )
+            for load in self.loads
+            if (moment := self._moment(load))
+        )
+
+    @cached_property
+    def bearing_hours(self) -> float | None:
+        """L10 of each bearing in steady running [h]; None without its rating, or without load."""
+        rating, load = self.pulley.bearing_rating, 0.5 * self.steady.resultant
+        if rating is None or load == 0.0:
+            return None
+        return rating_life_hours(
+            load, dynamic_rating=rating, rotation=self.rotation, exponent=ROLLER_EXPONENT
+        )
+
+    @property
+    def bearing_seconds(self) -> float | None:
+        """The same [s]."""
+        return None if self.bearing_hours is None else SECONDS_PER_HOUR * self.bearing_hours
+
+
+def pulley_duty(found: Balance, states: Sequence[MotionState]) -> tuple[PulleyDuty, ...]:
+    """Loads of every pulley of the spec in every state; none of assumed ones."""
+    line = found.line
+    return tuple(
+        PulleyDuty(
+            pulley,
+            line.belt.width,
+            line.speed,
+            tuple(_load(line, pulley, state.name, *_sides(found, i, state)) for state in states),
+        )
+        for i, pulley in enumerate(line.pulleys)
+        if not pulley.assumed
+    )
+
+
+def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: float) -> PulleyLoad:
+    """Of slack belt nothing but the weight is borne."""
+    pull = pulley_load(
+        tight_tension=max(arriving, leaving, 0.0),
+        slack_tension=max(min(arriving, leaving), 0.0),
+        pulley_mass=0.0,
+        gravity=line.gravity,
+        wrap_angle=pulley.wrap_angle,
+    )
+    whole = pulley_resultant(pull, weight=pulley.mass * line.gravity, pull_angle=pulley.pull_angle)
+    return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
+
+
+def _sides(found: Balance, i: int, state: MotionState) -> tuple[float, float]:
+    """Tensions before and behind a pulley.
+
+    Driven pulleys at one place are met as they are listed: each by the drive of its number; where a drive stands on
+    several they share its force alike.
+    """
+    line, pulley = found.line, found.line.pulleys[i]
+    if not pulley.driven:
+        before = state.spots[found.frame.at[pulley.spot]]
+        return before, before
+    met = [k for k, other in enumerate(line.pulleys) if other.driven and other.spot == pulley.spot]
+    steps = list(_steps(found, pulley, state, len(met)))
+    return steps[met.index(i)], steps[met.index(i) + 1]
+
+
+def _steps(found: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
+    """Tension before the first of the driven pulleys at a place, and behind each."""
+    sides = [
+        side for drive, side in zip(found.line.drives, state.drives, strict=True) if drive.spot == pulley.spot
+    ]
+    yield sides[0].arriving
+    if len(sides) == count:
+        yield from (side.leaving for side in sides)
+    else:
+        drop = (sides[0].arriving - sides[-1].leaving) / count
+        yield from (sides[0].arriving - k * drop for k in range(1, count + 1))
