@@ -8,7 +8,7 @@ import numpy as np
 
 from conveyor.compound_file import Fitted, Tabulated
 from conveyor.errors import InputError
-from conveyor.report.plots import colour, master_curve, stacked
+from conveyor.report.plots import colour, keyed, master_curve, stacked
 from conveyor.rubber.superposition import STRAY
 from conveyor.units import text
 from conveyor.units.sentences import celsius
@@ -211,5 +211,5 @@ def figure(found: Fitted | Tabulated) -> Figure:
     )
     below.set(xscale="log", xlabel=f"frequency at {reference} [Hz]", ylabel="tan δ [-]")
     below.set_ylim(bottom=0.0)
-    above.legend(fontsize=8)
+    keyed(above)
     return made
