@@ -37,7 +37,7 @@ def test_calibrate_shows_factors_runs_and_what_to_know(tmp_path: Path) -> None:
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     for words in (
-        "Factors, nine tenths within",
+        "Factors with their 90 % interval",
         "idler rotation",
         "January (empty)",
         "what to know:",

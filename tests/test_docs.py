@@ -183,7 +183,7 @@ def test_pages_have_their_blocks() -> None:
 
 
 def test_every_language_is_run() -> None:
-    known = {"sh", "powershell", "python", "yaml", "text"}
+    known = {"sh", "powershell", "python", "yaml", "text", "console"}
     assert {block.language for page in PAGES for block in blocks(page)} <= known
 
 

@@ -432,7 +432,7 @@ def _where(comparison: CalculatedComparison) -> Iterator[str]:
             yield f"at {speed:g} m/s nothing is compared: no temperature that the data of all compounds reach"
         elif len(common) < len(asked):
             at = _listed([celsius(t) for t in common])
-            yield f"at {speed:g} m/s the comparison stands at {at} degC, which the data of all compounds in it reach"
+            yield f"at {speed:g} m/s the comparison stands at {at} °C, which the data of all compounds in it reach"
 
 
 def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
@@ -451,7 +451,7 @@ def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
                 else "state no range, it counts for none"
             )
             lines.append(
-                f'compound "{compound.name}": its data {lacking} at {at} degC: not averaged, ranked, priced'
+                f'compound "{compound.name}": its data {lacking} at {at} °C: not averaged, ranked, priced'
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)

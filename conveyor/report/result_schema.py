@@ -201,7 +201,12 @@ _COMPARISON: Final = _of(
         "conveyor": _TEXT,
         "base": _is("string", of="compound of the savings"),
         "cover": _TEXT,
-        "compared": _ROWS,
+        "compared": _each(
+            _of(
+                {"speed_m_per_s": _is("number"), "temperatures_degC": _each(_is("number"))},
+                of="temperatures that means are over",
+            )
+        ),
         "ranking": _ROWS,
         "scenes": _ROWS,
         "coverage": _ROWS,

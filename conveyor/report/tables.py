@@ -840,7 +840,8 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
         Column("resultant", "force", lambda row: row[2].resultant),
         Column("torque", "torque", lambda row: row[2].torque),
     )
-    return Table("pulley_states", "States", "Loads of the pulleys in every case and state", columns, rows)
+    heading = "Loads of the pulleys in every case and state"
+    return Table("pulley_states", "States", heading, columns, rows, printed=False)
 
 
 def vertical_curves(a: CalculatedConveyor) -> Table:

@@ -14,8 +14,8 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.dynamics_tables import of_dynamics, plain
 from conveyor.spec import from_data
+from tests.command_line import run
 from tests.loop.loop_lines import SECOND, data, line
-from tests.test_docs import run
 from tests.validation.test_start_stop_limits import ridden
 
 STOP = {
@@ -47,10 +47,10 @@ def rigged(monkeypatch):
         monkeypatch.setattr(module, "prepared_rides", rides)
 
 
-def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(spec, monkeypatch):
+def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(spec):
     names = ("starts.xlsx", "starts.html", "starts.png")
     outputs = [word for name in names for word in ("-o", str(spec.with_name(name)))]
-    code, out, err = run(["dynamics", str(spec), *outputs, "--error", "0.05", "--json"], monkeypatch)
+    code, out, err = run("dynamics", spec, *outputs, "--error", "0.05", "--json")
     assert (code, err) == (0, "")
     for name in ("starts.xlsx", "starts.html", "starts_power_failure.png", "starts_with_brakes.png"):
         assert spec.with_name(name).stat().st_size > 5000
@@ -75,8 +75,8 @@ def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(sp
         (("--error", "2"), "between 0 and 1"),
     ],
 )
-def test_it_refuses_in_words(spec, arguments, message, monkeypatch):
-    code, _, err = run(["dynamics", str(spec), *arguments], monkeypatch)
+def test_it_refuses_in_words(spec, arguments, message):
+    code, _, err = run("dynamics", spec, *arguments)
     assert code == 2
     assert message in err
 

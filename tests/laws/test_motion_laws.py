@@ -57,7 +57,7 @@ def test_bulk_slips_symmetrically_on_the_level_and_mirrors_with_the_slope():
         ),
         (
             lambda: motion.bulk_slip_limits(0.3, inclination=0.3, gravity=9.81),
-            r"the material slips at a slope of 17\.2 deg with friction 0\.3",
+            r"the bulk slides at a slope of 17\.2 deg with friction 0\.3",
         ),
     ],
 )

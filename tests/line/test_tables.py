@@ -68,7 +68,8 @@ def test_cema_stands_beside_only_where_its_factors_are_given(line, result, tmp_p
 
 
 def test_tables_show_drag_and_life_where_bearings_are_given(line, result):
-    assert list(result.rolls.columns[-2:]) == ["rim drag [N]", "rotation [rpm]"]
+    assert {"rim drag [N]", "rotation [rpm]"} <= set(result.rolls.columns)
+    assert "roll L10 life [h]" not in result.rolls
     assert "idler set L10 life [h]" not in result.sections
     found = conveyor.analyse(carry_roll(line, bearing=LIFE, drag_law=MAKER))
     carry = found.rolls[found.rolls["strand"] == "carry"]

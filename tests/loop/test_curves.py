@@ -198,8 +198,8 @@ def test_safety_and_diameters():
         "snub": ("C", 456.75, True),
     }  # fmt: skip
     said = told(made, found)
-    assert any(w.startswith('pulley "head" is 630 mm in diameter, the carcass asks for 725 mm') for w in said)
-    assert any(w.startswith("the splice asks for a belt of") for w in said) == (duty.strength_needed > 630e3)
+    assert any(w.startswith('pulley "head" is 630 mm in diameter, the carcass requires 725 mm') for w in said)
+    assert any(w.startswith("the splice requires a belt of") for w in said) == (duty.strength_needed > 630e3)
 
 
 @pytest.mark.parametrize("name", ["shuttle", "downhill_brakes"])

@@ -123,7 +123,7 @@ def test_a_thin_shaft_fails_and_says_what_is_needed():
     slope, safety = pulley_shaft(found)
     assert (slope.verdict, safety.verdict) == ("FAIL", "FAIL")
     needed = duties(found)["head"].least_shaft
-    assert f"{needed * 1e3:.1f} mm in the hubs" in safety.why.text()
+    assert f"{needed * 1e3:.0f} mm in the hubs" in safety.why.text()
 
 
 def test_what_is_not_given_is_not_checked(plain):

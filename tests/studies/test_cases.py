@@ -302,7 +302,7 @@ def test_motors_give_the_governing_power_with_their_reserve(found):
         assert abs(motor.needed) == pytest.approx(needed, rel=ROUNDING)
         assert motor.count * motor.rated >= reserve * needed
         assert (motor.count - 1) * MOTOR_SERIES[-1] < reserve * needed  # no fewer of the largest would do
-        assert "inclines only, 0 degC" in motor.case
+        assert "inclines only, 0 °C" in motor.case
 
 
 def test_each_of_several_drives_has_its_share_of_the_motors(line):

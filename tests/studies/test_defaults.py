@@ -133,11 +133,10 @@ def test_reports_say_the_range_and_what_to_replace_first(line):
     assert told["replace_first"] == left.effects[0].give
     assert [one["key"] for one in told["in_use"]] == [one.key for one in left.effects]
     note = found.contents(system="SI")["defaults"].note
-    low, motor, high = (f"{power / 1e3:.1f} kW" for power in (left.low, left.motor, left.high))
-    assert note.startswith(
-        f"Motor power {motor}, {low.removesuffix(' kW')} to {high} by defaults and the rubber's level (nine tenths); "
-    )
-    assert "replace first: drag of the rolls in service (idlers.*.roll.drag or drag_law)." in note
+    low, motor, high = (f"{power / 1e3:.0f}" for power in (left.low, left.motor, left.high))
+    band = "by defaults and the level of the rubber. "
+    assert note.startswith(f"Motor power {motor} kW, 90 % interval {low} to {high} kW {band}")
+    assert "Replace first: drag of the rolls in service (give idlers.*.roll.drag or drag_law)." in note
     assert " hp by defaults" in found.contents(system="US")["defaults"].note
     cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]
     pressed = line.replace(route=line.route.replace(cleaners=cleaners))

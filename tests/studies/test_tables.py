@@ -262,9 +262,7 @@ def test_rubber_saves_nothing_against_itself_where_its_data_end(short, tmp_path)
     # what is left out has E τ of 0.08 Pa s: 1.2 kPa of some 2 MPa of E'' at 2.5 kHz, 20 degC
     assert abs(rows.loc["ended", "saving per year [EUR]"]) < 0.01 * abs(saved)
     told = remarks(short, tmp_path)
-    assert (
-        "at 5 m/s the comparison stands at 10, 20 degC, which the data of all compounds in it reach" in told
-    )
+    assert "at 5 m/s the comparison stands at 10, 20 °C, which the data of all compounds in it reach" in told
     assert [s.temperature < 250.0 for s in short.covered].count(True) == 1
     tables = written_tables(short, tmp_path)
     assert tables["scenes"].set_index(["compound", "temperature [degC]"])["covered"]["ended"].tolist() == [
@@ -295,7 +293,7 @@ def test_data_that_do_not_reach_are_said(line, tmp_path):
     compound = shelf.compound("standard-cover").as_data()
     compound["range"]["frequency"] = ["1 Hz", "100 Hz"]
     found = conveyor.compare_compounds(line, [RubberCompound.from_data(compound)])
-    assert any("do not cover the excitation band at 20 °C" in line for line in remarks(found, tmp_path))
+    assert any("do not cover what the rolls excite at 20 °C" in line for line in remarks(found, tmp_path))
 
 
 def test_refused_scenes_are_listed_and_not_averaged(line, tmp_path):
@@ -359,7 +357,7 @@ def test_captions_say_what_is_drawn(line, tmp_path):
     page = turning.to_html(tmp_path / "c.html").read_text(encoding="utf-8")
     assert "Motor power over belt speed at 20 °C" in page
     assert "20 °C" in turning.plots.power_against_speed().axes[0].get_title()
-    assert "temperature at 5 m/s;" in page
+    assert "temperature at 5 m/s, dotted beyond the data" in page
     assert "5 m/s" in turning.plots.power_against_temperature().axes[0].get_title()
 
 

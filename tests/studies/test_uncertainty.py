@@ -108,7 +108,7 @@ def test_roll_drag_without_pulleys_is_a_linear_input(line):
     assert found.band == (pytest.approx(one.motor_low), pytest.approx(one.motor_high))
     assert found.shares == (1.0,)
     low, motor, high = (f"{power / 1e3:.1f}" for power in (found.band[0], found.motor, found.band[1]))
-    assert f"motor power {motor} kW, nine tenths from {low} to {high} kW" in repr(found)
+    assert f"motor power {motor} kW, 90 % interval {low} to {high} kW" in repr(found)
 
 
 @pytest.mark.parametrize(

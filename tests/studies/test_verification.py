@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import openpyxl
@@ -97,7 +98,7 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
 def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
     found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm"], **ONE)
     written = html.build(found.contents("US"), verifying.PARTS)
-    assert '<td class="asked"></td>' in written
+    assert re.search(r'<td class="asked"[^>]*></td>', written)
     assert "bonded to a carcass that does not give (confined)" in written
     assert "at 5.71 lbf/in, ours" in written
     assert "SHA-256" not in written

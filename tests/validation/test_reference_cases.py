@@ -94,6 +94,9 @@ def test_shipped_checks_name_source_and_quantity():
         "CONTACT program",
         "ISO 5048 worked example",
         "J*(ω) E*(ω) = 1",
+        "Helix shaft report",
+        "ISO 5293:2004",
+        "Lemmon (2013), finite elements",
     }
     assert len({(check.source, check.quantity) for check in checks}) == len(checks)
 
