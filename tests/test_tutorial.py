@@ -1,18 +1,25 @@
 """The tutorial runs, prints what it promises, and its notebook holds the same cells.
 
-``python tests/test_tutorial.py`` writes the notebook from the script.
+``python -m tests.test_tutorial`` writes the notebook from the script, with its outputs.
 """
 
 from __future__ import annotations
 
+import ast
+import base64
 import contextlib
 import io
 import json
+import os
 import re
+import tempfile
 from pathlib import Path
 from typing import Any
 
 import pytest
+from matplotlib.figure import Figure
+
+from tests.test_docs import same
 
 ROOT = Path(__file__).parent.parent
 SCRIPT = ROOT / "examples" / "06_tutorial.py"
@@ -32,13 +39,49 @@ def cells(script: str) -> list[tuple[str, str]]:
     return found
 
 
-def notebook(found: list[tuple[str, str]]) -> dict[str, Any]:
-    """Return nbformat 4.5, without outputs."""
+def run_cell(source: str, space: dict[str, Any]) -> tuple[str, Any]:
+    """What a cell prints, and what its last line is."""
+    tree, out, last = ast.parse(source), io.StringIO(), None
+    with contextlib.redirect_stdout(out):
+        shown = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, NOTEBOOK.name, "exec"), space)
+        if isinstance(shown, ast.Expr):
+            last = eval(compile(ast.Expression(shown.value), NOTEBOOK.name, "eval"), space)  # noqa: S307 our cells
+    return out.getvalue(), last
+
+
+def outputs(source: str, space: dict[str, Any], count: int) -> list[dict[str, Any]]:
+    """What a notebook shows below a cell: its text, and its last line as a table or a picture."""
+    printed, last = run_cell(source, space)
+    found: list[dict[str, Any]] = []
+    if printed:
+        found.append({"name": "stdout", "output_type": "stream", "text": printed.splitlines(keepends=True)})
+    data: dict[str, Any] = {}
+    if isinstance(last, Figure):
+        picture = io.BytesIO()
+        last.savefig(picture, format="png", dpi=70, metadata={"Software": ""})
+        data = {"image/png": base64.b64encode(picture.getvalue()).decode(), "text/plain": ["<Figure>"]}
+    elif last is not None:
+        data = {
+            "text/html": last._repr_html_().splitlines(keepends=True),
+            "text/plain": repr(last).splitlines(keepends=True),
+        }
+    if data:
+        kind = {"output_type": "execute_result", "execution_count": count, "metadata": {}}
+        found.append(kind | {"data": data})
+    return found
+
+
+def notebook(found: list[tuple[str, str]], space: dict[str, Any] | None = None) -> dict[str, Any]:
+    """Return nbformat 4.5; with a space to run the cells in, their outputs."""
     written = []
+    count = 0
     for number, (kind, body) in enumerate(found):
         cell: dict[str, Any] = {"cell_type": kind, "id": f"cell-{number}", "metadata": {}}
         if kind == "code":
-            cell |= {"execution_count": None, "outputs": []}
+            count += 1
+            shown = [] if space is None else outputs(body, space, count)
+            cell |= {"execution_count": None if space is None else count, "outputs": shown}
         written.append(cell | {"source": body.splitlines(keepends=True)})
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
     about = {"kernelspec": kernel, "language_info": {"name": "python"}}
@@ -49,9 +92,16 @@ def as_text(data: dict[str, Any]) -> str:
     return json.dumps(data, indent=1, ensure_ascii=False) + "\n"
 
 
+def shipped() -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]
+    return found
+
+
 def test_notebook_holds_the_cells_of_the_script() -> None:
-    expected = as_text(notebook(cells(SCRIPT.read_text(encoding="utf-8"))))
-    assert NOTEBOOK.read_text(encoding="utf-8") == expected, "run: python tests/test_tutorial.py"
+    expected = notebook(cells(SCRIPT.read_text(encoding="utf-8")))["cells"]
+    for cell, other in zip(shipped(), expected, strict=True):
+        assert cell["source"] == other["source"], "run: python -m tests.test_tutorial"
+        assert cell["cell_type"] == other["cell_type"]
 
 
 def test_cells_are_read_as_editors_read_them() -> None:
@@ -70,12 +120,20 @@ def test_tutorial_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "specs").symlink_to(ROOT / "examples" / "specs")
     monkeypatch.chdir(tmp_path)
     space: dict[str, Any] = {}
-    out = io.StringIO()
-    with contextlib.redirect_stdout(out):
-        for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
-            if cell["cell_type"] == "code":
-                exec(compile("".join(cell["source"]), NOTEBOOK.name, "exec"), space)
-    printed = out.getvalue()
+    printed = ""
+    for cell in shipped():
+        if cell["cell_type"] == "code":
+            told, last = run_cell("".join(cell["source"]), space)
+            printed += told
+            before = [one for one in cell["outputs"] if one["output_type"] == "stream"]
+            same(told, "".join(before[0]["text"]) if before else "")
+            kinds = [kind for one in cell["outputs"] for kind in one.get("data", ())]
+            wanted = (
+                []
+                if last is None
+                else ["image/png" if isinstance(last, Figure) else "text/html", "text/plain"]
+            )
+            assert kinds == wanted
     for said in ("motor 1245.0 kW", "f = 0.0134", "standard cover:  1348.2 kW", "at -20 degC:  1876.3 kW"):
         assert said in printed
     left, right = space["solution"].patches[0]
@@ -90,4 +148,8 @@ def test_tutorial_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 if __name__ == "__main__":
-    NOTEBOOK.write_text(as_text(notebook(cells(SCRIPT.read_text(encoding="utf-8")))), encoding="utf-8")
+    with tempfile.TemporaryDirectory() as scratch:
+        (Path(scratch) / "specs").symlink_to(ROOT / "examples" / "specs")
+        os.chdir(scratch)
+        made = notebook(cells(SCRIPT.read_text(encoding="utf-8")), {})
+    NOTEBOOK.write_text(as_text(made), encoding="utf-8")
