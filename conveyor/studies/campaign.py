@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
@@ -31,6 +32,10 @@ BATCH: Final = 64
 """Points solved side by side, and lost at most where a run is stopped."""
 AHEAD: Final = 2
 """Batches a worker that are handed out at once."""
+
+_KEY: Final = slice(2, 34)  # of a line
+_ANSWERED: Final = re.compile(rb'\["[0-9a-f]{32}", .*\]\n')
+_BEGUN: Final = re.compile(rb'\[("[0-9a-f]{0,32}|"[0-9a-f]{32}".*)?')
 
 Progress = Callable[[int, int], None]
 Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
@@ -79,15 +84,17 @@ class Campaign:
         )
 
     @cached_property
-    def _common(self) -> str:
-        """What every point follows from."""
+    def _common(self) -> hashlib._Hash:
+        """Hash of what every point follows from."""
         rubber = {name: one.as_data() for name, one in self.compounds.items()}
-        return json.dumps([version("conveyor"), fingerprint(self.base), self.outputs, rubber], sort_keys=True)
+        told = [version("conveyor"), fingerprint(self.base), self.outputs, rubber]
+        return hashlib.sha256(json.dumps(told, sort_keys=True).encode())
 
     def key(self, point: Changes) -> str:
         """Hash of all that the answer of a point follows from."""
-        told = f"{self._common}{json.dumps(point, sort_keys=True)}"
-        return hashlib.sha256(told.encode()).hexdigest()[:32]
+        found = self._common.copy()
+        found.update(json.dumps(point, sort_keys=True).encode())
+        return found.hexdigest()[:32]
 
 
 class Answers:
@@ -105,15 +112,13 @@ class Answers:
         self._file.seek(0)
         end = 0
         for line in self._file:
-            if not line.endswith(b"\n"):
-                break
-            try:
-                key, _ = json.loads(line)
-            except ValueError:
+            whole = line.endswith(b"\n")
+            if not (_ANSWERED if whole else _BEGUN).fullmatch(line):
                 self._file.close()
-                raise InputError(f"{path}: holds something else than answers of a study; remove it") from None
-            self._at[key] = end
-            end += len(line)
+                raise InputError(f"{path}: holds something else than answers of a study; remove it")
+            if whole:
+                self._at[line[_KEY].decode()] = end
+                end += len(line)
         self._file.truncate(end)
 
     def __contains__(self, key: str) -> bool:
