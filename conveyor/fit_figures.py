@@ -11,6 +11,7 @@ from conveyor.compound_file import Fitted
 from conveyor.fitting import figure as band
 from conveyor.measured_rows import MeasuredRows
 from conveyor.report.plots import colour, stacked
+from conveyor.rubber import ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
 
 if TYPE_CHECKING:
@@ -109,21 +110,22 @@ def shifts(found: Fitted) -> Figure:
     """log10 a_T over temperature with the laws; below, what the laws miss."""
     made, (above, below) = stacked(2, _HEIGHT)
     shifted = found.superposition
-    table = next(law.law for law in found.laws if law.name == "table")
-    kelvin = shifted.temperatures if shifted is not None else table.temperatures  # type: ignore[union-attr]
-    decades = shifted.log10_a_T if shifted is not None else table.log10_factors  # type: ignore[union-attr]
-    nearest = table.reference  # type: ignore[union-attr]  # where the laws are 0
+    table = next(law.law for law in found.laws if isinstance(law.law, ShiftTable))
+    kelvin = shifted.temperatures if shifted is not None else table.temperatures
+    decades = shifted.log10_a_T if shifted is not None else table.log10_factors
+    nearest = table.reference  # where the laws are 0
     zero = float(decades[np.argmin(np.abs(kelvin - nearest))])
     error = shifted.log10_a_T_error if shifted is not None else np.zeros(kelvin.size)
     at = np.linspace(kelvin[0], kelvin[-1], _POINTS)
     above.errorbar(
         kelvin - ZERO_CELSIUS, decades, error, fmt="o", color="0.1", markersize=3.5, capsize=2, label="shifts"
     )
-    for k, law in enumerate(law for law in found.laws if law.law is not None):
-        drawn = zero + law.law.log10_a_T(np.clip(at, law.low, law.high))  # type: ignore[union-attr]
+    known = [(law, law.law) for law in found.laws if law.law is not None]
+    for k, (law, shift) in enumerate(known):
+        drawn = zero + shift.log10_a_T(np.clip(at, law.low, law.high))
         above.plot(at - ZERO_CELSIUS, drawn, color=colour(k), label=f"{law.name}, rms {law.rms:.2f}")
         if law.name != "table":
-            missed = zero + law.law.log10_a_T(kelvin) - decades  # type: ignore[union-attr]
+            missed = zero + shift.log10_a_T(kelvin) - decades
             below.plot(kelvin - ZERO_CELSIUS, missed, "o-", color=colour(k), markersize=3.5, label=law.name)
     below.fill_between(
         kelvin - ZERO_CELSIUS, -error, error, color="0.5", alpha=0.25, linewidth=0, label="standard error"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -31,6 +33,7 @@ from conveyor.files import marks
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from conveyor.studies.campaign import Point
     from conveyor.units import System
 
 _SHOWN = 3
@@ -101,19 +104,24 @@ def study(
             workers=workers,
             progress=None if told is None else partial(told, "points"),
         )
-        count = table.write(output, rows(campaign, known))
-        reasons: dict[str, int] = {}
-        for _, _, answer in rows(campaign, known):
-            if isinstance(answer, str):
-                reasons[answer] = reasons.get(answer, 0) + 1
-        new, without = len(known) - before, sum(reasons.values())
+        reasons: Counter[str] = Counter()
+        count = table.write(output, _counted(rows(campaign, known), reasons))
+        new, without = len(known) - before, reasons.total()
     if as_json:
         told_of = {"points": count, "calculated": new, "without_an_answer": without, "table": str(output)}
         print_text(json_text(told_of))
     elif not quiet:
         say(f"{count} points, {new} of them calculated now; {without} without an answer", f"table: {output}")
-        for reason, times in sorted(reasons.items(), key=lambda item: -item[1])[:_SHOWN]:
+        for reason, times in reasons.most_common(_SHOWN):
             say(f"{times} without an answer: {reason}")
+
+
+def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:
+    """The points as they pass; reasons of those without an answer are counted."""
+    for point in points:
+        if isinstance(point[-1], str):
+            reasons[point[-1]] += 1
+        yield point
 
 
 def _executor(scheduler: str | None, workers: int) -> Executor:

@@ -105,8 +105,8 @@ SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 """Series at the working strain, and that strain."""
 
 
-def softened_cover(work: WorkedCover, *, inside: tuple[int, int] = INSIDE) -> SoftCover:
-    """Series of one cover at the strain of a roll's own contact.
+def softened_each(works: Sequence[WorkedCover], *, inside: tuple[int, int] = INSIDE) -> list[SoftCover]:
+    """Series of covers at the strains of the rolls' own contacts, as `softened_many`; the first refusal is raised.
 
     Raises
     ------
@@ -115,10 +115,12 @@ def softened_cover(work: WorkedCover, *, inside: tuple[int, int] = INSIDE) -> So
     RangeError
         The strain is outside the sweeps.
     """
-    (found,) = softened_many([work], inside=inside)
-    if isinstance(found, tuple):
-        return found
-    raise found
+    found: list[SoftCover] = []
+    for soft in softened_many(works, inside=inside):
+        if not isinstance(soft, tuple):
+            raise soft
+        found.append(soft)
+    return found
 
 
 def softened_many(

@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.indentation import RollContact, indentation_curves
-from conveyor.laws.softening import COARSE, WorkedCover, softened_many
+from conveyor.laws.softening import COARSE, WorkedCover, softened_each
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
-from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
 from conveyor.units.sentences import celsius
 
@@ -124,11 +123,7 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
     nodes = np.unique(np.geomspace(low, high, SOFT_LOADS if high > low else 1))
     swept = compound.swept_series(points.temperature)
     works = [WorkedCover(contact, w, factors, points.temperature, swept) for w in nodes.tolist()]
-    covers: list[PronySeries] = []
-    for soft in softened_many(works, inside=COARSE):
-        if not isinstance(soft, tuple):
-            raise soft
-        covers.append(soft[0])
+    covers = [series for series, _ in softened_each(works, inside=COARSE)]
     found = _resistance([replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes])
     shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(found)), nodes.size - 1)
     return np.asarray(np.exp(shape(np.log(points.line_load))))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from operator import attrgetter
 from typing import Final, TypeAlias
 
-from conveyor.checks import Check, checks
+from conveyor.checks import checks
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
@@ -31,10 +31,6 @@ class Output:
     get: Callable[[CalculatedConveyor], float | int | None]
 
 
-def _failed(every: Iterable[Check]) -> int:
-    return sum(check.failed for check in every)
-
-
 OUTPUTS: Final[Mapping[str, Output]] = {
     "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
     "mains_power": Output("mains power", "power", attrgetter("balance.power.mains")),
@@ -54,7 +50,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "failed": Output(
         "failed checks of the own load",
         "count",
-        lambda a: sum(check.verdict == "FAIL" for check in checks(a)),
+        lambda a: sum(check.failed for check in checks(a)),
     ),
     "error_estimate": Output("largest error estimate of the contacts", "error", attrgetter("error_estimate")),
 }

@@ -19,7 +19,7 @@ from conveyor import shelf
 from conveyor.arguments import checked
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
-from conveyor.laws.softening import WorkedCover, softened_cover
+from conveyor.laws.softening import WorkedCover, softened_each
 from conveyor.line.anchors import anchor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature
@@ -264,7 +264,7 @@ def _rows(
             asked.append((row, [roll], [(loads[0], loads[-1])]))
             continue
         try:
-            each = [_softened(roll, load, compound, temperature) for load in loads]
+            each = _softened(roll, loads, compound, temperature)
             asked.append((row, each, [(load, load) for load in loads]))
         except (NoSolutionError, RangeError) as error:
             asked.append((replace(row, reason=str(error)), [], []))
@@ -276,12 +276,16 @@ def _rows(
         yield _filled(row, [next(curves) for _ in each], loads, level)
 
 
-def _softened(roll: RollContact, load: float, compound: RubberCompound, temperature: float) -> RollContact:
+def _softened(
+    roll: RollContact, loads: Sequence[float], compound: RubberCompound, temperature: float
+) -> list[RollContact]:
+    """The roll on its cover as softened at each line load."""
     factors = compound.amplitude_factors()
     if factors is None:
-        return roll
+        return [roll for _ in loads]
     swept = compound.swept_series(temperature)
-    return replace(roll, rubber=softened_cover(WorkedCover(roll, load, factors, temperature, swept))[0])
+    works = [WorkedCover(roll, load, factors, temperature, swept) for load in loads]
+    return [replace(roll, rubber=series) for series, _ in softened_each(works)]
 
 
 def _filled(

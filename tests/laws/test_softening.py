@@ -13,7 +13,7 @@ from conveyor.checks import checks
 from conveyor.contact import interior, solve
 from conveyor.errors import RangeError
 from conveyor.indentation import RollContact, to_problem
-from conveyor.laws.softening import WorkedCover, losing_load, softened_cover
+from conveyor.laws.softening import WorkedCover, losing_load, softened_each
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -37,7 +37,7 @@ def contact(compound):
 
 @pytest.fixture(scope="module")
 def softened(compound, contact):
-    return softened_cover(WorkedCover(contact, LOAD, compound.amplitude_factors(), AT))
+    return softened_each([WorkedCover(contact, LOAD, compound.amplitude_factors(), AT)])[0]
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +74,9 @@ def test_factors_are_the_compounds_at_that_strain(compound, contact, softened):
 
 def test_heavier_rolls_work_it_harder(compound, contact):
     factors = compound.amplitude_factors()
-    found = [softened_cover(WorkedCover(contact, load, factors, AT))[1] for load in (1000.0, 2000.0, 4000.0)]
+    found = [
+        softened_each([WorkedCover(contact, load, factors, AT)])[0][1] for load in (1000.0, 2000.0, 4000.0)
+    ]
     assert all(np.diff([f.strain for f in found]) > 0.0)
     assert all(np.diff([f.storage_factor for f in found]) < 0.0)
     # wider contacts are passed more slowly
@@ -86,9 +88,8 @@ def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
     data = compound.as_data()
     data["strain_dependence"]["reference_strain"] = f"{100.0 * strain:.12g} %"
     # not quite: the contact of the unsoftened series works at a little less strain
-    series, found = softened_cover(
-        WorkedCover(contact, LOAD, RubberCompound.from_data(data).amplitude_factors(), AT)
-    )
+    factors = RubberCompound.from_data(data).amplitude_factors()
+    ((series, found),) = softened_each([WorkedCover(contact, LOAD, factors, AT)])
     assert found.strain < strain
     assert found.storage_factor == pytest.approx(1.0, abs=0.06)
     assert found.storage_factor > 1.0
@@ -97,7 +98,7 @@ def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
 
 def test_strains_beyond_the_sweeps_are_refused(compound, contact):
     with pytest.raises(RangeError, match=r"strain"):
-        softened_cover(WorkedCover(contact, 5e6, compound.amplitude_factors(), AT))
+        softened_each([WorkedCover(contact, 5e6, compound.amplitude_factors(), AT)])[0]
 
 
 def test_losing_load():
