@@ -24,7 +24,6 @@ from conveyor.laws.resistance import (
     cleaner_resistance,
     fabric_wrap_resistance,
     flexure_resistance,
-    idler_rotation_resistance,
     idler_tilt_resistance,
     plough_resistance,
     pulley_bearing_resistance,
@@ -38,6 +37,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.places import Spot
+from conveyor.line.strands import Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Calibration
 
@@ -156,32 +156,29 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 
 @dataclass(frozen=True, eq=False)
 class WithoutRubber:
-    """Forces along a line that no rubber changes [N], shape (2n,).
+    """Forces along a line that neither rubber nor air changes [N], shape (2n,).
 
     `flexure` is None where it is a share of the other main resistances; `unit_main` is the main resistance that
     DIN 22101 gives for f = 1.
     """
 
-    rotation: Array
     tilt: Array
     lift: Array
     unit_main: Array
     flexure: Array | None
 
 
-def without_rubber(line: Line) -> WithoutRubber:
-    """Forces along the belt that do not depend on the covers."""
-    gravity = line.gravity
+def without_rubber(strands: Strands) -> WithoutRubber:
+    """Forces along the belt that depend on its load alone."""
 
     def each(law: Callable[[Stretch, float], float]) -> Array:
-        return np.array([law(stretch, gravity) for stretch in line.stretches])
+        return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
 
     return WithoutRubber(
-        rotation=each(_rotation),
         tilt=each(_tilt),
         lift=each(_lift),
         unit_main=each(_unit_main),
-        flexure=None if line.flexure_share is not None else each(_flexure),
+        flexure=each(_flexure) if strands.flexes else None,
     )
 
 
@@ -210,7 +207,7 @@ def along_the_belt(
     """
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
-    rotation = factors.idler_rotation * roll_drag * fixed.rotation
+    rotation = factors.idler_rotation * roll_drag * line.rotation
     flexure, share = fixed.flexure, line.flexure_share or 0.0
     if flexure is None:
         flexure = np.array([
@@ -223,14 +220,6 @@ def along_the_belt(
         Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
-    )
-
-
-def _rotation(stretch: Stretch, _gravity: float) -> float:
-    """Drag of all rolls of the stretch [N]."""
-    return math.fsum(
-        idler_rotation_resistance(drag, n_rolls=1, spacing=stretch.spacing, length=stretch.length)
-        for drag in stretch.drags
     )
 
 

@@ -32,6 +32,7 @@ from conveyor.line.covers import (
     softened_covers,
 )
 from conveyor.line.line import Line
+from conveyor.line.strands import Strands
 from conveyor.line.stretches import STRANDS, Pressing, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
@@ -337,6 +338,18 @@ class _Loaded:
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
 
 
+def _strands(conveyor: Conveyor, pressing: Pressing) -> tuple[Strands, WithoutRubber]:
+    """The strands of a conveyor and the forces that its load alone decides."""
+    strands = Strands.of(conveyor, pressing)
+    return strands, without_rubber(strands)
+
+
+def _loaded(conveyor: Conveyor, strands: Strands, fixed: WithoutRubber) -> _Loaded:
+    """A line, its rolls not at work yet."""
+    line = Line.of(conveyor, strands)
+    return _Loaded(line, Frame(line), fixed)
+
+
 def _solved(
     shared: _Shared, loaded: Mapping[int, _Loaded], rtol: float | None
 ) -> dict[int, Contacts | NoAnswer]:
@@ -384,6 +397,7 @@ class _Shared:
     """
 
     def __init__(self, known: CalculatedConveyor | None) -> None:
+        self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
         self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
@@ -412,9 +426,7 @@ class _Shared:
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
-        parts = (given.belt, given.idlers, given.material, given.route, given.drive, given.calculation)
-        air = given.air_temperature if given.idlers.drag_follows_air else None
-        loaded = _once(self._lines, parts, (air, dict(pressing)), lambda: _prepared(given, pressing))
+        loaded = self._prepared(given, dict(pressing))
         covers = covers_of(given, rubber, self._levels(given, at))
         return replace(
             loaded,
@@ -423,6 +435,13 @@ class _Shared:
                 for strand, cover in covers.items()
             },
         )
+
+    def _prepared(self, given: Conveyor, pressing: Pressing) -> _Loaded:
+        """The line of a spec; lines of one belt and load, in any air and under any drives, share their strands."""
+        parts = (given.belt, given.idlers, given.material, given.route, given.calculation)
+        strands, fixed = _once(self._strands, parts, (pressing,), partial(_strands, given, pressing))
+        air = given.air_temperature if given.idlers.drag_follows_air else None
+        return _once(self._lines, (strands, given.drive), (air,), partial(_loaded, given, strands, fixed))
 
     def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -478,11 +497,6 @@ def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAn
         if not isinstance(cover, RunningCover):
             return cover
     return {strand: cover for strand, cover in covers.items() if isinstance(cover, RunningCover)}
-
-
-def _prepared(conveyor: Conveyor, pressing: Pressing) -> _Loaded:
-    line = Line.of(conveyor, pressing)
-    return _Loaded(line, Frame(line), without_rubber(line))
 
 
 class _Told:

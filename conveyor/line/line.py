@@ -14,13 +14,15 @@ from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
-from conveyor.laws.resistance import BULK_ON_BELT_FRICTION
+from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, idler_rotation_resistance
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.line import usual
 from conveyor.line.places import Places, Spot
-from conveyor.line.roll_kinds import RollKind, roll_kinds
+from conveyor.line.roll_drags import roll_drags
+from conveyor.line.roll_kinds import RollKind
 from conveyor.line.scenes import StarterUnit
-from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
+from conveyor.line.strands import LoopShape, Strands
+from conveyor.line.stretches import RouteSection, Stretch
 from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, Pulley
 from conveyor.models.checks import drive_diameter
 from conveyor.models.methods import Cema
@@ -208,31 +210,15 @@ class CemaFactors:
 
 
 @dataclass(frozen=True, eq=False)
-class LoopShape:
-    """The stretches in the order the belt meets them from the head: return strand, then carry strand.
-
-    Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
-    belt, bulk and rolls [kg], the rolls' as reduced to their rims where given, else all of it, on the safe
-    side; `least` the least tension for the sag [N].
-    """
-
-    stretches: tuple[Stretch, ...]
-    length: Array
-    mass: Array
-    least: Array
-    way: Array
-
-
-@dataclass(frozen=True, eq=False)
 class Line:
     """A conveyor in SI: m, kg, s, N, Pa, W, rad. Rubber and temperature are not in it (`line.covers`).
 
     Attributes
     ----------
-    stretches : tuple of Stretch
-        Carry strand from the tail, then return strand from the head: 2n of n sections, loads of their rolls with them.
-    sections : tuple of RouteSection
-        From the tail.
+    strands : Strands
+        The sections, and their stretches with the loads of their rolls.
+    roll_drags : tuple of tuple of float
+        Drag of each roll of one set at its rim, of every stretch [N].
     speed, flow, density, gravity : float
         Of the belt, the bulk, the site.
     drives : tuple of DriveUnit
@@ -249,8 +235,8 @@ class Line:
         What the flexure rests on, in words.
     """
 
-    stretches: tuple[Stretch, ...]
-    sections: tuple[RouteSection, ...]
+    strands: Strands
+    roll_drags: tuple[tuple[float, ...], ...]
     belt: BeltBody
     speed: float
     flow: float
@@ -281,32 +267,29 @@ class Line:
     support: Support
     rtol: float
     softened: bool
-    gauss_points: int
 
     @classmethod
-    def of(cls, conveyor: Conveyor, pressing: Pressing | None = None) -> Line:
+    def of(cls, conveyor: Conveyor, strands: Strands | None = None) -> Line:
         """Return the SI view of a conveyor.
 
         Parameters
         ----------
         conveyor : Conveyor
             The spec.
-        pressing : mapping of (section, strand) to float, optional
-            Mass with which tension presses on the rolls of a vertical curve [kg/m].
+        strands : Strands, optional
+            Its strands, where they are made already.
 
         Raises
         ------
-        NoSolutionError
-            The belt lifts off on a concave curve.
         InputError
             A law of roll drag does not hold at a load.
         """
         drive, calculation = conveyor.drive, conveyor.calculation
-        places, sections = Places(conveyor), route_sections(conveyor)
+        places, strands = Places(conveyor), strands or Strands.of(conveyor)
         efficiency = si(drive.efficiency)
         return cls(
-            stretches=stretches(conveyor, sections, pressing),
-            sections=sections,
+            strands=strands,
+            roll_drags=roll_drags(conveyor, strands.stretches),
             belt=_belt(conveyor),
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
@@ -337,7 +320,6 @@ class Line:
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
-            gauss_points=calculation.gauss_points,
         )
 
     @property
@@ -365,30 +347,34 @@ class Line:
         """Along the belt, of one strand [m]."""
         return math.fsum(section.length for section in self.sections)
 
-    @cached_property
+    @property
+    def sections(self) -> tuple[RouteSection, ...]:
+        """From the tail."""
+        return self.strands.sections
+
+    @property
+    def stretches(self) -> tuple[Stretch, ...]:
+        """Carry strand from the tail, then return strand from the head: 2n of n sections."""
+        return self.strands.stretches
+
+    @property
     def kinds(self) -> tuple[RollKind, ...]:
         """Rolls by the contact they share."""
-        return roll_kinds(self.stretches, self.gauss_points)
+        return self.strands.kinds
 
     @cached_property
+    def rotation(self) -> Array:
+        """Drag of all rolls of every stretch [N], shape (2n,)."""
+        whole = (
+            idler_rotation_resistance(math.fsum(drags), n_rolls=1, spacing=s.spacing, length=s.length)
+            for s, drags in zip(self.stretches, self.roll_drags, strict=True)
+        )
+        return np.fromiter(whole, float)
+
+    @property
     def loop(self) -> LoopShape:
         """The stretches as the belt meets them from the head."""
-        stretches = loop_order(self.stretches)
-        length = np.array([s.length for s in stretches])
-        moving = [s.line_mass + s.rim_mass / s.spacing for s in stretches]
-        return LoopShape(
-            stretches=stretches,
-            length=length,
-            mass=length * np.array(moving),
-            least=np.array([s.least_tension for s in stretches]),
-            way=np.concatenate([[0.0], np.cumsum(length)]),
-        )
-
-
-def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
-    """Put carry strand, return strand in the order the belt meets them from the head: return, carry."""
-    half = len(along) // 2
-    return (*along[half:], *along[:half])
+        return self.strands.loop
 
 
 def _flexure_source(calculation: Calculation) -> str:

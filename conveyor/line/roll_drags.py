@@ -17,6 +17,7 @@ from conveyor.laws.resistance import (
     service_roll_drag,
     usual_bearing,
 )
+from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import si
@@ -25,46 +26,39 @@ DragLaw = Callable[[float], float]
 """From the load of a roll [N] to its drag at the rim [N]."""
 
 
-def roll_at(idlers: IdlerSet, place: int) -> Roll:
-    """Roll at a place of the set, left to right."""
-    return idlers.roll_at(place)
+def roll_drags(conveyor: Conveyor, stretches: Sequence[Stretch]) -> tuple[tuple[float, ...], ...]:
+    """Drag of each roll of one set of every stretch at its rim [N], by its load; equal loads are computed once.
 
-
-class SetDrags:
-    """Drags of one strand's rolls, by their loads; equal loads are computed once.
-
-    Parameters
-    ----------
-    conveyor : Conveyor
-        Its belt speed and its air count.
-    idlers : IdlerSet
-        The sets of the strand.
-    strand : str
-        For messages.
+    Raises
+    ------
+    InputError
+        A maker's line falls below zero at a load, or the air is too cold for the grease.
     """
+    drags = {
+        strand: _SetDrags(
+            conveyor, conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_, strand
+        )
+        for strand in STRANDS
+    }
+    return tuple(drags[stretch.strand].of(stretch.loads) for stretch in stretches)
 
-    def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: str) -> None:
-        rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
+
+class _SetDrags:
+    """Drags of one strand's rolls, prepared once."""
+
+    def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: Strand) -> None:
+        rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
         self._laws = (
             [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
             if idlers.drag is None
             else [_evenly(si(idlers.drag) / idlers.rolls)] * idlers.rolls
         )
-        self._known: dict[tuple[int, float], float] = {}
         self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
+        self._known: dict[tuple[int, float], float] = {}
 
     def of(self, loads: Sequence[RollLoad]) -> tuple[float, ...]:
-        """Drag of each roll under its load [N].
-
-        Raises
-        ------
-        InputError
-            A maker's line falls below zero there, or the air is too cold for the grease.
-        """
-        return tuple(
-            self._drag(same, load.bulk_force + load.belt_force)
-            for same, load in zip(self._same, loads, strict=True)
-        )
+        """Of the rolls of a set under their loads [N]."""
+        return tuple(self._drag(same, load.force) for same, load in zip(self._same, loads, strict=True))
 
     def _drag(self, place: int, load: float) -> float:
         known = self._known.get((place, load))
@@ -73,7 +67,7 @@ class SetDrags:
         return known
 
 
-def _field(idlers: IdlerSet, roll: Roll, strand: str) -> str:
+def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
     name = "roll" if roll is idlers.roll else "middle_roll"
     return f"idlers.{strand}.{name}"
 
@@ -107,7 +101,7 @@ def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) 
     """Share of the rolls that are taken to be in service in the drag of a set [-], from the drags of its rolls [N]."""
     if conveyor.calculation.roll_drag != "in service" or idlers.drag is not None:
         return 0.0
-    rolls = [roll_at(idlers, place) for place in range(idlers.rolls)]
+    rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
     without = [roll.drag is None and roll.drag_law is None for roll in rolls]
     assumed = math.fsum(drag for drag, one in zip(drags, without, strict=True) if one)
     return assumed / math.fsum(drags) if assumed > 0.0 else 0.0

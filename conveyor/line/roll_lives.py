@@ -14,7 +14,7 @@ from conveyor.laws.roll_life import (
     rating_life_hours,
     system_life_hours,
 )
-from conveyor.line.stretches import Strand, Stretch, roll_at
+from conveyor.line.stretches import Strand, Stretch
 from conveyor.models import Roll
 from conveyor.units import si
 
@@ -53,7 +53,7 @@ def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | Non
     Steady load of this stretch, at this filling, all the time. The mass of the shell, thrust, impact and the belt's
     edge pressure are left out; seals, dirt and grease end most rolls before fatigue does.
     """
-    roll, load = roll_at(stretch.idlers, place), stretch.loads[place]
+    roll, load = stretch.idlers.roll_at(place), stretch.loads[place]
     if roll.bearing is None or load.force == 0.0:
         return None
     heavier = _heavier(roll, load, si(roll.bearing.distance), alone=len(stretch.loads) == 1)

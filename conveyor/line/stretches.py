@@ -1,4 +1,4 @@
-"""A conveyor cut into stretches, one a section and strand: geometry, masses, loads and drags of the rolls; SI."""
+"""A conveyor cut into stretches, one a section and strand: geometry, masses, loads of the rolls; SI."""
 
 from __future__ import annotations
 
@@ -11,15 +11,9 @@ from conveyor.errors import NoSolutionError
 from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
-from conveyor.line.roll_drags import SetDrags, roll_at
 from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
-
-__all__ = [
-    "STRANDS", "Pressing", "RouteSection", "Strand", "Stretch", "roll_at", "roll_masses", "route_sections",
-    "stretches",
-]  # fmt: skip
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
@@ -90,8 +84,6 @@ class Stretch:
         Load of each roll of one set.
     least_tension : float
         That keeps the sag between the sets as small as asked for [N].
-    drags : tuple of float
-        Drag of each roll of one set at its rim [N].
     set_mass, rim_mass : float
         Rotating mass of one set, and what of it resists acceleration at the rim [kg].
     span_flexure : float or None
@@ -112,7 +104,6 @@ class Stretch:
     bulk_mass: float
     loads: tuple[RollLoad, ...]
     least_tension: float
-    drags: tuple[float, ...]
     set_mass: float
     rim_mass: float
     span_flexure: float | None = None
@@ -178,9 +169,8 @@ class _Strand:
         self.set_mass, self.rim_mass = self.idlers.set_mass, self.idlers.rim_mass
         self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
         self.roll_length = si(self.idlers.roll.length)
-        self.radii = tuple(0.5 * si(roll_at(self.idlers, i).diameter) for i in range(self.idlers.rolls))
+        self.radii = tuple(0.5 * si(self.idlers.roll_at(i).diameter) for i in range(self.idlers.rolls))
         self.set_loads = SetLoads(conveyor, self.idlers)
-        self.set_drags = SetDrags(conveyor, self.idlers, strand)
         share = conveyor.calculation.flexure_share
         self.flexure = FlexureLaw(conveyor, self.set_loads) if share is None else None
 
@@ -222,7 +212,6 @@ class _Strand:
             bulk_mass=flow,
             loads=loads,
             least_tension=least,
-            drags=self.set_drags.of(loads),
             set_mass=self.set_mass,
             rim_mass=self.rim_mass,
             span_flexure=self._span(flow, spacing, inclination, least),

@@ -147,7 +147,9 @@ class Loadings:
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
         mixed = replace(
             line,
-            stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs),
+            strands=replace(
+                line.strands, stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs)
+            ),
             loading=tuple(
                 replace(
                     point,
@@ -161,7 +163,7 @@ class Loadings:
             replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
             for laden, bare in zip(self.full.along, self.empty.along, strict=True)
         )
-        unit_main = float(without_rubber(mixed).unit_main.sum())
+        unit_main = float(without_rubber(mixed.strands).unit_main.sum())
         return balance(Frame(mixed), along, unit_main, self.setting)
 
     def figures(self, loading: Loading) -> dict[str, float]:

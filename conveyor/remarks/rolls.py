@@ -12,7 +12,7 @@ from conveyor.laws.resistance import (
     SCRAPING_FACTOR,
     SERVICE_DRAG,
 )
-from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity, roll_at
+from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
@@ -176,8 +176,9 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
 
 def _drags_of(found: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
     """Drags of a roll in all sets of a strand [N]."""
-    places = [place for place in range(idlers.rolls) if roll_at(idlers, place) is roll]
-    return [s.drags[place] for s in found.line.stretches if s.strand == strand for place in places]
+    places = [place for place in range(idlers.rolls) if idlers.roll_at(place) is roll]
+    pairs = zip(found.line.stretches, found.line.roll_drags, strict=True)
+    return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
 
 
 def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[Said]:

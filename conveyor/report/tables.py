@@ -449,8 +449,8 @@ def rolls(a: CalculatedConveyor) -> Table:
     )  # fmt: skip
     rows = tuple(
         (r, roll, drag, roll_life(r.stretch, place, roll.curve.contact.speed))
-        for r in a.stretches
-        for place, (roll, drag) in enumerate(zip(r.rolls, r.stretch.drags, strict=True))
+        for r, drags in zip(a.stretches, a.line.roll_drags, strict=True)
+        for place, (roll, drag) in enumerate(zip(r.rolls, drags, strict=True))
     )
     heading = "Every roll of a set, contact at the highest line load"
     return Table("rolls", "Rolls", heading, columns, rows, printed=False)

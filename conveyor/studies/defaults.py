@@ -25,9 +25,8 @@ from conveyor.laws.resistance import (
     Default,
 )
 from conveyor.line.roll_drags import assumed_share
-from conveyor.line.stretches import STRANDS, Stretch
+from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import balance
-from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.studies.uncertainty import Effect, root_of_squares
@@ -73,15 +72,9 @@ def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed
     return Assumed(key, what, of.low / of.value, of.high / of.value, give, share)
 
 
-def along(key: str, used: Callable[[Conveyor, Stretch], float]) -> Share:
-    """Share of a force along the belt that rests on a default on every stretch."""
-
-    def share(found: CalculatedConveyor, force: Force) -> Shares:
-        if force.key != key:
-            return 0.0
-        return np.array([used(found.conveyor, stretch) for stretch in found.line.stretches])
-
-    return share
+def along(key: str, share: Callable[[CalculatedConveyor], Shares]) -> Share:
+    """Share of a force along the belt that rests on a default, of every stretch where they differ."""
+    return lambda found, force: share(found) if force.key == key else 0.0
 
 
 def usual(*keys: str) -> Share:
@@ -89,12 +82,13 @@ def usual(*keys: str) -> Share:
     return lambda _found, force: float(force.assumed and force.key in keys)
 
 
-def _drag(conveyor: Conveyor, stretch: Stretch) -> float:
-    return assumed_share(conveyor, stretch.idlers, stretch.drags)
+def _drag(found: CalculatedConveyor) -> Shares:
+    pairs = zip(found.line.stretches, found.line.roll_drags, strict=True)
+    return np.array([assumed_share(found.conveyor, stretch.idlers, drags) for stretch, drags in pairs])
 
 
-def _flexure(conveyor: Conveyor, _stretch: Stretch) -> float:
-    calculation = conveyor.calculation
+def _flexure(found: CalculatedConveyor) -> Shares:
+    calculation = found.conveyor.calculation
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
@@ -130,7 +124,7 @@ DEFAULTS: Final = (
     banded("flexure", "flexure of belt and bulk over load and sag", FLEXURE_COEFFICIENT,
            "calculation.flexure or flexure_share", along("flexure", _flexure)),
     banded("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION, "idlers.*.tilt_angle: 0 deg",
-           along("tilt", lambda _conveyor, _stretch: 1.0)),
+           along("tilt", lambda _found: 1.0)),
     Assumed("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding", usual("acceleration")),
     Assumed("skirts", "usual skirts", 0.5, 2.0, "route.feeding", usual("loading_skirts", "skirts")),
     Assumed("cleaners", "usual cleaners", 0.5, CLEANER_PRESSURE.high / CLEANER_PRESSURE.value, "route.cleaners",

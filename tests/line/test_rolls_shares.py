@@ -179,7 +179,7 @@ def test_five_rolls_with_their_shares(line):
     assert [load.bulk_force / total for load in loads] == pytest.approx(
         [0.05, 0.15, 0.6, 0.15, 0.05], rel=1e-12
     )
-    assert len(Line.of(made).stretches[1].drags) == 5
+    assert len(Line.of(made).roll_drags[1]) == 5
     with pytest.raises(InputError, match="not known for sets of 5 rolls"):
         SetLoads(made, made.idlers.carry).covered(100.0)
 

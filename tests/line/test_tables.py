@@ -73,7 +73,7 @@ def test_tables_show_drag_and_life_where_bearings_are_given(line, result):
     assert "idler set L10 life [h]" not in result.sections
     found = conveyor.analyse(carry_roll(line, bearing=LIFE, drag_law=MAKER))
     carry = found.rolls[found.rolls["strand"] == "carry"]
-    assert carry["rim drag [N]"][:3].tolist() == pytest.approx(found.line.stretches[0].drags, rel=1e-14)
+    assert carry["rim drag [N]"][:3].tolist() == pytest.approx(found.line.roll_drags[0], rel=1e-14)
     assert carry["rotation [rpm]"].to_numpy() == pytest.approx(60.0 * 5.0 / (math.pi * 0.159), rel=1e-12)
     assert carry["roll L10 life [h]"].notna().all()
     assert found.sections["idler set L10 life [h]"].notna().sum() == len(line.route.sections)

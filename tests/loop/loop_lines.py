@@ -84,7 +84,7 @@ def line(**changes: dict[str, Any]) -> Conveyor:
 def closed(conveyor: Conveyor, friction: float = FRICTION) -> Balance:
     """The loop around forces along the belt with an indentation of `friction` times the load."""
     made = Line.of(conveyor)
-    fixed = without_rubber(made)
+    fixed = without_rubber(made.strands)
     fixed = replace(fixed, flexure=0.002 * fixed.unit_main)
     along = along_the_belt(made, fixed, friction * fixed.unit_main)
     return balance(Frame(made), along, float(fixed.unit_main.sum()))
@@ -116,7 +116,7 @@ def told(conveyor: Conveyor, found: Balance) -> list[str]:
         temperature=conveyor.temperature,
         contacts=Contacts(found.line, {}, (), ()),
         balance=found,
-        fixed=without_rubber(found.line),
+        fixed=without_rubber(found.line.strands),
     )
     checked = checks(given, contacts=False)
     return [check.why.text() for check in checked if check.verdict != "pass" and check.why is not None]

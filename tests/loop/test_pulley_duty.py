@@ -27,7 +27,7 @@ def calculated(**changes):
     conveyor = line(**changes)
     found = closed(conveyor)
     contacts = Contacts(found.line, {}, (), ())
-    fixed = without_rubber(found.line)
+    fixed = without_rubber(found.line.strands)
     return CalculatedConveyor(conveyor, conveyor.temperature, contacts, found, fixed)
 
 

@@ -24,7 +24,11 @@ def ridden(conveyor, scenario):
     """A scenario on a conveyor without contacts."""
     found = closed(conveyor)
     steady = CalculatedConveyor(
-        conveyor, conveyor.temperature, Contacts(found.line, {}, (), ()), found, without_rubber(found.line)
+        conveyor,
+        conveyor.temperature,
+        Contacts(found.line, {}, (), ()),
+        found,
+        without_rubber(found.line.strands),
     )
     loop = CutLoop.of(steady)
     scene = ScenarioUnit.of(Scenario.from_data({"name": "test"} | scenario), conveyor)

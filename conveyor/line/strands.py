@@ -1,0 +1,104 @@
+"""Both strands of a line under their load: what lines share that differ in air, rubber or drives alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.line.roll_kinds import RollKind, roll_kinds
+from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
+from conveyor.models import Conveyor
+from conveyor.units import si
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LoopShape:
+    """The stretches in the order the belt meets them from the head: return strand, then carry strand.
+
+    Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
+    belt, bulk and rolls [kg], the rolls' as reduced to their rims where given, else all of it, on the safe
+    side; `least` the least tension for the sag [N].
+    """
+
+    stretches: tuple[Stretch, ...]
+    length: Array
+    mass: Array
+    least: Array
+    way: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Strands:
+    """All stretches of a line, SI.
+
+    Attributes
+    ----------
+    sections : tuple of RouteSection
+        From the tail.
+    stretches : tuple of Stretch
+        Carry strand from the tail, then return strand from the head: 2n of n sections.
+    gravity : float
+        Of the site [m/s²].
+    gauss_points : int
+        Of the quadrature along a roll.
+    """
+
+    sections: tuple[RouteSection, ...]
+    stretches: tuple[Stretch, ...]
+    gravity: float
+    gauss_points: int
+
+    @classmethod
+    def of(cls, conveyor: Conveyor, pressing: Pressing | None = None) -> Strands:
+        """Return the strands of a conveyor.
+
+        Parameters
+        ----------
+        conveyor : Conveyor
+            Its belt, idlers, material, route and calculation.
+        pressing : mapping of (section, strand) to float, optional
+            Mass with which tension presses on the rolls of a vertical curve [kg/m].
+
+        Raises
+        ------
+        NoSolutionError
+            The belt lifts off on a concave curve.
+        """
+        sections, calculation = route_sections(conveyor), conveyor.calculation
+        along = stretches(conveyor, sections, pressing)
+        return cls(sections, along, si(calculation.gravity), calculation.gauss_points)
+
+    @property
+    def flexes(self) -> bool:
+        """Whether the flexure over every span is known, not a share of the main resistance."""
+        return self.stretches[0].span_flexure is not None
+
+    @cached_property
+    def kinds(self) -> tuple[RollKind, ...]:
+        """Rolls by the contact they share."""
+        return roll_kinds(self.stretches, self.gauss_points)
+
+    @cached_property
+    def loop(self) -> LoopShape:
+        """The stretches as the belt meets them from the head."""
+        stretches = loop_order(self.stretches)
+        length = np.array([s.length for s in stretches])
+        moving = [s.line_mass + s.rim_mass / s.spacing for s in stretches]
+        return LoopShape(
+            stretches=stretches,
+            length=length,
+            mass=length * np.array(moving),
+            least=np.array([s.least_tension for s in stretches]),
+            way=np.concatenate([[0.0], np.cumsum(length)]),
+        )
+
+
+def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
+    """Put carry strand, return strand in the order the belt meets them from the head: return, carry."""
+    half = len(along) // 2
+    return (*along[half:], *along[:half])
