@@ -289,7 +289,7 @@ class Line:
         efficiency = si(drive.efficiency)
         return cls(
             strands=strands,
-            roll_drags=roll_drags(conveyor, strands.stretches),
+            roll_drags=roll_drags(conveyor, strands),
             belt=_belt(conveyor),
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Sequence
 
 from conveyor.errors import InputError
-from conveyor.laws.loading import RollLoad
 from conveyor.laws.resistance import (
     Default,
     bearing_roll_drag,
@@ -17,7 +16,8 @@ from conveyor.laws.resistance import (
     service_roll_drag,
     usual_bearing,
 )
-from conveyor.line.stretches import STRANDS, Strand, Stretch
+from conveyor.line.strands import Strands
+from conveyor.line.stretches import STRANDS, Strand
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import si
@@ -26,27 +26,25 @@ DragLaw = Callable[[float], float]
 """From the load of a roll [N] to its drag at the rim [N]."""
 
 
-def roll_drags(conveyor: Conveyor, stretches: Sequence[Stretch]) -> tuple[tuple[float, ...], ...]:
-    """Drag of each roll of one set of every stretch at its rim [N], by its load; equal loads are computed once.
+def roll_drags(conveyor: Conveyor, strands: Strands) -> tuple[tuple[float, ...], ...]:
+    """Drag of each roll of one set of every stretch at its rim, by its load [N].
 
     Raises
     ------
     InputError
         A maker's line falls below zero at a load, or the air is too cold for the grease.
     """
-    drags = {
-        strand: _SetDrags(
-            conveyor, conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_, strand
-        )
-        for strand in STRANDS
-    }
-    return tuple(drags[stretch.strand].of(stretch.loads) for stretch in stretches)
+    laws = {strand: _SetDrags(conveyor, strand) for strand in STRANDS}
+    sets, which = strands.distinct_sets
+    drags = [laws[strand].of(loads) for strand, loads in sets]
+    return tuple(drags[i] for i in which)
 
 
 class _SetDrags:
-    """Drags of one strand's rolls, prepared once."""
+    """Drags of one strand's rolls, prepared once; equal loads are computed once."""
 
-    def __init__(self, conveyor: Conveyor, idlers: IdlerSet, strand: Strand) -> None:
+    def __init__(self, conveyor: Conveyor, strand: Strand) -> None:
+        idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
         rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
         self._laws = (
             [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
@@ -56,9 +54,9 @@ class _SetDrags:
         self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
         self._known: dict[tuple[int, float], float] = {}
 
-    def of(self, loads: Sequence[RollLoad]) -> tuple[float, ...]:
+    def of(self, loads: Sequence[float]) -> tuple[float, ...]:
         """Of the rolls of a set under their loads [N]."""
-        return tuple(self._drag(same, load.force) for same, load in zip(self._same, loads, strict=True))
+        return tuple(map(self._drag, self._same, loads))
 
     def _drag(self, place: int, load: float) -> float:
         known = self._known.get((place, load))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.line.roll_kinds import RollKind, roll_kinds
-from conveyor.line.stretches import Pressing, RouteSection, Stretch, route_sections, stretches
+from conveyor.line.stretches import Pressing, RouteSection, Strand, Stretch, route_sections, stretches
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -77,6 +77,13 @@ class Strands:
     def flexes(self) -> bool:
         """Whether the flexure over every span is known, not a share of the main resistance."""
         return self.stretches[0].span_flexure is not None
+
+    @cached_property
+    def distinct_sets(self) -> tuple[list[tuple[Strand, tuple[float, ...]]], list[int]]:
+        """Each strand with loads of the rolls of one set that occur on it [N]; and of every stretch which it is."""
+        borne = [(s.strand, tuple(load.force for load in s.loads)) for s in self.stretches]
+        numbers = {each: i for i, each in enumerate(dict.fromkeys(borne))}
+        return list(numbers), [numbers[each] for each in borne]
 
     @cached_property
     def kinds(self) -> tuple[RollKind, ...]:

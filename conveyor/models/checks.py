@@ -223,8 +223,7 @@ def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The length coefficient stands for the secondary resistances of long conveyors only."""
-    length = conveyor.route.length
-    if conveyor.calculation.secondary == "C" and length <= SHORTEST_FOR_FACTOR:
+    if conveyor.calculation.secondary == "C" and (length := conveyor.route.length) <= SHORTEST_FOR_FACTOR:
         yield Problem(
             ("calculation", "secondary"),
             f'got "C", but route.sections are {display(length, "length")} long together and C holds for more than '

@@ -115,7 +115,7 @@ class Section(Model):
             return math.inf
         return si(self.curve_radius) * (1.0 if self.curve == "convex" else -1.0)
 
-    @property
+    @cached_property
     def rise(self) -> float:
         """Lift from tail end to head end [m]."""
         if self.slope is not None:
