@@ -7,35 +7,27 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Force,
-    Quiet,
-    Shelves,
-    UnitsOption,
-    app,
-    examples,
-    json_text,
-    print_text,
-    say,
-)
+from conveyor.cli.app import say
 from conveyor.cli.calibrate import shown
 from conveyor.cli.completion import compound_names
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.session import Session, command
 from conveyor.files import marks
 
 if TYPE_CHECKING:
+    from conveyor.anchoring import Anchored
     from conveyor.units import System
 
 
-@app.command(
+@command(
     short_help="Set a compound's level by rolling-resistance tests.",
-    epilog=examples(
+    without=("changed",),
+    examples_of=(
         "conveyor anchor mine.yaml --tests campaign.csv -o mine-tested.yaml",
         "conveyor anchor standard-cover --tests campaign.csv --name acme-x -o acme-x.yaml",
     ),
 )
 def anchor(
+    session: Session,
     compound: Annotated[
         str,
         typer.Argument(
@@ -64,35 +56,28 @@ def anchor(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the compound file (.yaml).")
     ] = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
 ) -> None:
     """What tests of a cover measured over the theory on their rolls: the level of the compound's indentation."""
-    to = Outputs(compound, tests, force=force)
+    to = session.outputs(compound, tests)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     from conveyor import anchoring
     from conveyor import shelf as store
     from conveyor.rolling_tests import read_rolling_tests
 
     found = anchoring.anchored(
-        store.compound(compound, extra=shelf or ()), read_rolling_tests(tests, source), name=name
+        store.compound(compound, extra=session.shelf or ()), read_rolling_tests(tests, source), name=name
     )
-    figures = json_text(anchoring.plain(found))
     if output is not None:
         to.add("compound file", output, {output: store.dump(found.compound, marks.FITTED).encode()})
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.terminal import console, wrapped
+    session.answer(anchoring.plain(found), to, lambda: _show(found, session.system()))
 
-        screen = console()
-        system: System = "SI" if units is None else units.value
-        for part in (anchoring.rows(found), anchoring.levels(found)):
-            screen.print(shown(part, system), "")
-        say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(found)))
-        if written:
-            say("", *written)
+
+def _show(found: Anchored, system: System) -> None:
+    """What the tests say, row by row and in all."""
+    from conveyor import anchoring
+    from conveyor.cli.terminal import console, wrapped
+
+    screen = console()
+    for part in (anchoring.rows(found), anchoring.levels(found)):
+        screen.print(shown(part, system), "")
+    say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(found)))

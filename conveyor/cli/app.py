@@ -142,6 +142,8 @@ Force = Annotated[
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
+Progress = Callable[[str, int, int], None]
+"""Called with what is going on, what is done and the whole."""
 _ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
 
@@ -216,7 +218,7 @@ def say(*lines: str) -> None:
 
 
 @contextmanager
-def progress(*, silent: bool) -> Iterator[Callable[[str, int, int], None] | None]:
+def progress(*, silent: bool) -> Iterator[Progress | None]:
     """A bar with the time left on stderr, for what takes longer than a second; none where output is piped."""
     if silent or not sys.stderr.isatty():
         yield None

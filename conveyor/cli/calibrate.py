@@ -8,27 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Changed,
-    Force,
-    Quiet,
-    Shelves,
-    Spec,
-    UnitsOption,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    read_spec,
-    say,
-)
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import Spec, say
+from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
 from conveyor.files import marks
 
 if TYPE_CHECKING:
+    from conveyor.analysis import CalibrationStudy
     from conveyor.report.columns import Table
     from conveyor.units import System
 
@@ -36,15 +22,16 @@ _OF_RUNS = ("run", "flow", "speed", "temperature", "measured", "before", "after"
 """Columns that a terminal has room for."""
 
 
-@app.command(
+@command(
     short_help="Calibrate a conveyor to measured power.",
-    epilog=examples(
+    examples_of=(
         "conveyor calibrate mine.yaml --measured runs.csv",
         'conveyor calibrate mine.yaml --measured runs.xlsx --error "2 %" -o calibration.yaml',
         "conveyor calibrate mine.yaml --measured runs.csv --factor indentation --factor idler_rotation",
     ),
 )
 def calibrate(
+    session: Session,
     spec: Spec,
     measured: Annotated[
         Path,
@@ -79,23 +66,17 @@ def calibrate(
             help="Write the part of the spec (.yaml) or every table (.xlsx).",
         ),
     ] = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Which factors on indentation, idler rotation and flexure measured power tells apart, with bands."""
-    to = Outputs(spec, measured, force=force)
+    to = session.outputs(spec, measured)
     is_book = output is not None and output.suffix.lower() == ".xlsx"
     to.file("--output", output, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if is_book else marks.TO_FILL_IN)
     import conveyor
-    from conveyor.report import calibrating, excel
+    from conveyor.report import excel
 
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
-    with progress(silent=quiet or as_json) as told:
+    line = session.read(spec)
+    system = session.system(line)
+    with session.progress() as told:
         found = conveyor.calibrate(
             line,
             measured,
@@ -103,29 +84,28 @@ def calibrate(
             factors=factors,
             progress=None if told is None else partial(told, "runs"),
         )
-    figures = json_text(found.to_dict())
     if output is not None and is_book:
         to.add("workbook", output, excel.files(found.contents(system), output, {}))
     elif output is not None:
         to.add("part of a spec", output, {output: found.fragment.encode()})
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.terminal import console, wrapped
+    session.answer(found.to_dict(), to, lambda: _show(found, system))
 
-        screen = console()
-        runs = calibrating.runs(found).only(*_OF_RUNS)
-        for part in (calibrating.factors(found), calibrating.correlation(found), runs):
-            if not part.empty:
-                screen.print(shown(part, system), "")
-                if part.note:
-                    say(part.note, "")
-        say("what to know:")
-        say(*(wrapped(line, screen.width, first="  - ", further="    ") for line in calibrating.lines(found)))
-        say("", "to paste into the spec:", found.fragment.rstrip())
-        if written:
-            say("", *written)
+
+def _show(found: CalibrationStudy, system: System) -> None:
+    """Factors, correlation, runs, and the part of the spec."""
+    from conveyor.cli.terminal import console, wrapped
+    from conveyor.report import calibrating
+
+    screen = console()
+    runs = calibrating.runs(found).only(*_OF_RUNS)
+    for part in (calibrating.factors(found), calibrating.correlation(found), runs):
+        if not part.empty:
+            screen.print(shown(part, system), "")
+            if part.note:
+                say(part.note, "")
+    say("what to know:")
+    say(*(wrapped(line, screen.width, first="  - ", further="    ") for line in calibrating.lines(found)))
+    say("", "to paste into the spec:", found.fragment.rstrip())
 
 
 def _share(given: str) -> float:

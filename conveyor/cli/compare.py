@@ -9,30 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    AsParquet,
-    Changed,
-    Force,
-    Quiet,
-    Shelves,
-    Spec,
-    TablesFolder,
-    UnitsOption,
-    WebPage,
-    Workbook,
-    app,
-    examples,
-    json_text,
-    one_of,
-    print_text,
-    progress,
-    read_spec,
-    say,
-    values,
-)
+from conveyor.cli.app import AsParquet, Spec, TablesFolder, WebPage, Workbook, one_of, values
 from conveyor.cli.completion import compound_names
 from conveyor.cli.outputs import Outputs
+from conveyor.cli.session import Session, command
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks
 
@@ -42,9 +22,9 @@ if TYPE_CHECKING:
     from conveyor.units import System
 
 
-@app.command(
+@command(
     short_help="Compare rubber compounds on a conveyor.",
-    epilog=examples(
+    examples_of=(
         "conveyor compare overland.yaml -c standard-cover -c low-rolling-resistance-cover",
         "conveyor compare overland.yaml -c s100 -c mine.yaml --temperature -30:40:5",
         "conveyor compare overland.yaml -c s100 -c s120 --speed 5,6 -o compounds.xlsx --html compounds.html",
@@ -52,6 +32,7 @@ if TYPE_CHECKING:
     ),
 )
 def compare(
+    session: Session,
     spec: Spec,
     compounds: Annotated[
         list[str],
@@ -114,15 +95,9 @@ def compare(
             metavar="FILE", help="Draw the loss tangents and the band the rolls excite to this file."
         ),
     ] = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
-    to = Outputs(spec, *compounds, force=force)
+    to = session.outputs(spec, *compounds)
     to.file("--output", output, ".xlsx", kind=marks.REPORT)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
     to.tables(tables, parquet=parquet)
@@ -131,9 +106,9 @@ def compare(
         to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     from conveyor.analysis import compare_compounds
 
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
-    with progress(silent=quiet or as_json) as told:
+    line = session.read(spec)
+    system = session.system(line)
+    with session.progress() as told:
         found = compare_compounds(
             line,
             compounds,
@@ -144,7 +119,7 @@ def compare(
             cover=one_of("--cover", cover, ("bottom", "top", "both")),
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
-            shelves=shelf or (),
+            shelves=session.shelf or (),
             progress=None if told is None else partial(told, "compounds"),
         )
     if not found.scenes:
@@ -153,18 +128,11 @@ def compare(
     from conveyor.report import comparing
 
     contents = comparing.of_comparison(found, system)
-    figures = json_text(comparing.plain(found))
     _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
     _figures(found, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.compare_tables import show
+    from conveyor.cli.compare_tables import show
 
-        show(contents)
-        if written:
-            say("", *written)
+    session.answer(comparing.plain(found), to, lambda: show(contents))
 
 
 def _reports(

@@ -8,39 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    AsParquet,
-    Changed,
-    Force,
-    ImageKind,
-    Quiet,
-    Shelves,
-    Spec,
-    TablesFolder,
-    UnitsOption,
-    WebPage,
-    Workbook,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    read_spec,
-    say,
-)
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import AsParquet, ImageKind, Spec, TablesFolder, WebPage, Workbook
+from conveyor.cli.session import Session, command
 from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import Analysis, Studies
     from conveyor.report.columns import Contents
-    from conveyor.units import System
 
 
-@app.command(
+@command(
     short_help="Power, forces and tensions of a conveyor.",
-    epilog=examples(
+    examples_of=(
         "conveyor power overland.yaml",
         "conveyor power overland.yaml -o report.xlsx --html report.html",
         "conveyor power overland.yaml --units us",
@@ -50,6 +29,7 @@ if TYPE_CHECKING:
     ),
 )
 def power(
+    session: Session,
     spec: Spec,
     output: Workbook = None,
     html: WebPage = None,
@@ -61,15 +41,9 @@ def power(
     plot_kind: Annotated[
         ImageKind, typer.Option("--plot-kind", help="Format of the figures.", case_sensitive=False)
     ] = ImageKind.PNG,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
-    to = Outputs(spec, force=force)
+    to = session.outputs(spec)
     to.file("--output", output, ".xlsx", kind=marks.REPORT)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
     to.tables(tables, parquet=parquet)
@@ -79,15 +53,14 @@ def power(
     from conveyor.analysis import studies
     from conveyor.report.tables import of_analysis
 
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
+    line = session.read(spec)
+    system = session.system(line)
     result = conveyor.analyse(line)
-    with progress(silent=quiet or as_json) as told:
+    with session.progress() as told:
         with spec_file.placing(spec):
             asked = studies(line, result, progress=told)
         result = result.beside(asked)
         shown = result.in_units(system)
-        figures = json_text(result.to_dict(asked))
         contents = of_analysis(shown, asked)
         wanted = _wanted(contents, output, html, tables, parquet)
         if plots is not None:
@@ -96,15 +69,9 @@ def power(
             if told is not None:
                 told("writing", done, len(wanted))
             to.add(what, where, made(where))
-        written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.power_tables import show
+    from conveyor.cli.power_tables import show
 
-        show(contents)
-        if written:
-            say("", *written)
+    session.answer(result.to_dict(asked), to, lambda: show(contents))
 
 
 Wanted = tuple[str, Path, Callable[[Path], Mapping[Path, bytes]]]

@@ -8,28 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Force,
-    Quiet,
-    Shelves,
-    UnitsOption,
-    WebPage,
-    Workbook,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    say,
-    values,
-)
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import WebPage, Workbook, say, values
+from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
 from conveyor.files import marks
 
 if TYPE_CHECKING:
-    from conveyor.units import System
+    from conveyor.analysis import VerificationSheet
 
 _AXES = {
     "--load": ("line_loads", "N/mm", "N/m", "lbf/in"),
@@ -41,16 +26,18 @@ _AXES = {
 """Options, what they are called in Python, and their units, the first without one."""
 
 
-@app.command(
+@command(
     "verify-sheet",
     short_help="Write a sheet for a belt maker to fill in.",
-    epilog=examples(
+    without=("changed",),
+    examples_of=(
         "conveyor verify-sheet standard-cover low-rolling-resistance-cover -o sheet.xlsx",
         'conveyor verify-sheet mine.yaml --load "1:8:1 N/mm" --roll "194 mm" --html sheet.html',
         "conveyor verify-sheet s100 --spec overland.yaml --temperature -10:30:10 -o sheet.xlsx",
     ),
 )
 def verify_sheet(
+    session: Session,
     compounds: Annotated[
         list[str],
         typer.Argument(metavar="COMPOUND...", help="Shelf names or compound files.", show_default=False),
@@ -86,50 +73,41 @@ def verify_sheet(
     ] = False,
     output: Workbook = None,
     html: WebPage = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
 ) -> None:
     """What compounds lose under rolls, beside empty columns for a maker's tests, as a workbook and a page."""
-    to = Outputs(spec, *compounds, force=force)
+    to = session.outputs(spec, *compounds)
     to.file("--output", output, ".xlsx", kind=marks.REPORT)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
-    if output is None and html is None and not as_json:
+    if output is None and html is None and not session.as_json:
         raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
     import conveyor
     from conveyor.report import excel, verifying
     from conveyor.report import html as page
 
-    line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    system: System = units.value if units is not None else "SI" if line is None else line.report.units
+    line = None if spec is None else session.read(spec)
     given = dict(zip(_AXES, (load, temperature, roll, speed, cover), strict=True))
     axes: dict[str, Any] = {
         _AXES[option][0]: values(text, option, *_AXES[option][1:])
         for option, text in given.items()
         if text is not None
     }
-    with progress(silent=quiet or as_json) as told:
+    with session.progress() as told:
         found = conveyor.verify_sheet(
             compounds,
             conveyor=line,
             softened=softened,
-            shelves=shelf or (),
+            shelves=session.shelf or (),
             progress=None if told is None else partial(told, "compounds"),
             **axes,
         )
-    contents = found.contents(system)
+    contents = found.contents(session.system(line))
     if output is not None:
         to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
     if html is not None:
         to.add("page", html, {html: page.build(contents, verifying.PARTS).encode()})
-    figures = json_text(found.to_dict())
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        without = sum(row.reason != "" for row in found.rows) + sum(row.reason != "" for row in found.sets)
-        say(
-            f"{len(found.rows)} rows, {len(found.sets)} of an idler set; {without} without a figure", *written
-        )
+    session.answer(found.to_dict(), to, lambda: _show(found))
+
+
+def _show(found: VerificationSheet) -> None:
+    without = sum(row.reason != "" for row in found.rows) + sum(row.reason != "" for row in found.sets)
+    say(f"{len(found.rows)} rows, {len(found.sets)} of an idler set; {without} without a figure")

@@ -1,0 +1,133 @@
+"""What every command that calculates is told by the same options, and how it reads, writes and answers."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import wraps
+from inspect import Parameter, Signature, signature
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_type_hints
+
+from conveyor.cli.app import (
+    AsJson,
+    Changed,
+    Force,
+    Progress,
+    Quiet,
+    Shelves,
+    UnitsOption,
+    app,
+    examples,
+    json_text,
+    print_text,
+    progress,
+    read_spec,
+    say,
+)
+from conveyor.cli.outputs import Outputs
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    from conveyor.models import Conveyor
+    from conveyor.units import System
+
+
+@dataclass(frozen=True)
+class Session:
+    """Units asked for, whether older files are replaced, what is printed, folders of compounds, fields changed."""
+
+    units: UnitsOption = None
+    force: Force = False
+    as_json: AsJson = False
+    quiet: Quiet = False
+    shelf: Shelves = None
+    changed: Changed = None
+
+    def outputs(self, *inputs: str | Path | None) -> Outputs:
+        """Files to write, none of them an input."""
+        return Outputs(*inputs, force=self.force)
+
+    def read(self, spec: Path) -> Conveyor:
+        """The conveyor of a spec with the fields changed.
+
+        Raises
+        ------
+        InputError
+            The spec is refused, or a change.
+        """
+        return read_spec(spec, self.shelf, self.changed)
+
+    def system(self, line: Conveyor | None = None) -> System:
+        """Units of what is shown and written: as asked for, else those of a spec, else SI."""
+        if self.units is not None:
+            return self.units.value
+        return "SI" if line is None else line.report.units
+
+    def progress(self) -> AbstractContextManager[Progress | None]:
+        """A bar on stderr; none where nothing or JSON is printed."""
+        return progress(silent=self.quiet or self.as_json)
+
+    def answer(self, figures: object, to: Outputs, show: Callable[[], None]) -> None:
+        """Write the files, then print the figures as JSON, or show them and name the files.
+
+        Raises
+        ------
+        InputError
+            A file cannot be written.
+        NoSolutionError
+            A figure is not finite.
+        """
+        text = json_text(figures)
+        written = to.save()
+        if self.as_json:
+            print_text(text)
+        elif not self.quiet:
+            show()
+            if written:
+                say("", *written)
+
+
+def command(
+    name: str | None = None, *, short_help: str, examples_of: tuple[str, ...], without: tuple[str, ...] = ()
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Register a command whose first parameter is a session; its options follow the command's own.
+
+    Parameters
+    ----------
+    name : str, optional
+        Of the command; else the function's.
+    short_help : str
+        In the list of commands.
+    examples_of : tuple of str
+        Its use, under its help.
+    without : tuple of str
+        Fields of the session that it does not offer.
+    """
+
+    def add(function: Callable[..., None]) -> Callable[..., None]:
+        hints = get_type_hints(function, include_extras=True)
+        asked = get_type_hints(Session, include_extras=True)
+        _, *own = signature(function).parameters.values()
+        shared = [
+            Parameter(field.name, Parameter.KEYWORD_ONLY, default=field.default, annotation=asked[field.name])
+            for field in dataclasses.fields(Session)
+            if field.name not in without
+        ]
+
+        @wraps(function)
+        def called(**given: Any) -> None:
+            of_session = {one.name: given.pop(one.name) for one in shared}
+            function(Session(**of_session), **given)
+
+        parameters = [
+            *(each.replace(annotation=hints[each.name], kind=Parameter.KEYWORD_ONLY) for each in own),
+            *shared,
+        ]
+        called.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+        called.__annotations__ = {each.name: each.annotation for each in parameters}
+        return app.command(name, short_help=short_help, epilog=examples(*examples_of))(called)
+
+    return add
