@@ -27,7 +27,7 @@ from pathlib import Path
 
 import numpy as np
 
-from conveyor.compound_file import Fitted, Request, fit_file
+from conveyor.fitting.compound import Fitted, Request, fit_file
 from conveyor.rubber import WLF, KrausLaw, PronySeries
 from conveyor.shelf import dump
 

@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor import fit_page, fit_verdict, fitting, shelf
-from conveyor.compound_file import Request, fit_file
+from conveyor import shelf
 from conveyor.errors import InputError
+from conveyor.fitting import page as fit_page
+from conveyor.fitting import told, verdict
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.rubber import PronySeries, equivalent_sweep
 from conveyor.spec import load
 
@@ -89,7 +91,7 @@ def test_an_equivalent_sweep_of_a_dense_series():
 
 def test_a_temperature_sweep_takes_given_shifts(tmp_path: Path, together):
     shifts = tmp_path / "shifts.csv"
-    shifts.write_text(fitting.shift_table(together), encoding="utf-8")
+    shifts.write_text(told.shift_table(together), encoding="utf-8")
     found = fit_file([FILES[2], shifts], Request("ramp", AT, replicas=0))
     assert found.rows.frequency.size == 41
     assert max(errors(found.compound, low=1.5, high=5.0)) < 0.1  # 41 rows over eight decades
@@ -182,8 +184,8 @@ def test_e_or_g_is_answered(tmp_path: Path):
 
 
 def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
-    criteria = fit_verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
-    assert fit_verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
+    criteria = verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
+    assert verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
     assert any(one.name.startswith("window covers") for one in criteria)
     page = fit_page.build(together, criteria, {"by": "A. Tester <b>", "number": "2026-17"})
     for words in (
@@ -199,7 +201,7 @@ def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
 
 
 def failing(found, conveyor=None) -> set[str]:
-    return {one.name for one in fit_verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
+    return {one.name for one in verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
 
 
 def test_each_fault_fails_its_own_criterion(tmp_path: Path):

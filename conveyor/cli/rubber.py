@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from conveyor.compound_file import Fitted, Tabulated
+    from conveyor.fitting.compound import Fitted, Tabulated
     from conveyor.models import RubberCompound
 
 EXPORTED: Final = (".inp", ".mac", ".csv")
@@ -141,8 +141,8 @@ def fit(
     quiet: Quiet = False,
 ) -> None:
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
-    from conveyor import compound_file
     from conveyor import shelf as shelf_of
+    from conveyor.fitting import compound as described
     from conveyor.units import in_si
 
     to = Outputs(*data, shift, strain, spec, force=force)
@@ -159,7 +159,7 @@ def fit(
         "instantaneous": None if instantaneous is None else in_si(instantaneous, "pressure"),
         "temperature": None if temperature is None else in_si(temperature, "temperature"),
     }  # fmt: skip
-    request = compound_file.Request(
+    request = described.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
         shift=shift,
@@ -177,20 +177,20 @@ def fit(
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
-    from conveyor import fitting
+    from conveyor.fitting import told
 
     files = [file for file in (*data, shift, strain) if file is not None]
     with _placed(files):
-        found = compound_file.from_files(data, request)
-    lines = fitting.lines(found)
+        found = described.from_files(data, request)
+    lines = told.lines(found)
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(fitting.figure(found), plot)})
+        to.add("figure", plot, {plot: plots.drawn(told.figure(found), plot)})
     if output is not None:
         to.add("compound file", output, {output: shelf_of.dump(found.compound, marks.FITTED).encode()})
     if write_shift is not None:
-        to.add("shift factors", write_shift, {write_shift: fitting.shift_table(found).encode()})
+        to.add("shift factors", write_shift, {write_shift: told.shift_table(found).encode()})
     _exported(found.compound, export, to)
     if html is not None or spec is not None:
         lines += _judged(found, spec, said, html, to)
@@ -202,7 +202,7 @@ def fit(
 
 
 def _said(words: str) -> tuple[str, str]:
-    from conveyor.fit_page import DOCUMENT
+    from conveyor.fitting.page import DOCUMENT
 
     name, separator, value = words.partition("=")
     if not separator or name.strip() not in DOCUMENT or not value.strip():
@@ -216,8 +216,9 @@ def _judged(
     found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], html: Path | None, to: Outputs
 ) -> list[str]:
     """Lines of the verdict; add the page to sign."""
-    from conveyor import fit_page, fit_verdict
-    from conveyor.compound_file import Tabulated
+    from conveyor.fitting import page as fit_page
+    from conveyor.fitting import verdict as fit_verdict
+    from conveyor.fitting.compound import Tabulated
     from conveyor.spec import load
 
     if isinstance(found, Tabulated):
@@ -244,10 +245,10 @@ def _placed(files: Sequence[Path]) -> Iterator[None]:
 
 def _exported(compound: RubberCompound, paths: Sequence[Path] | None, to: Outputs) -> None:
     """Add the input of other programs."""
-    from conveyor import finite_elements
+    from conveyor.fitting import programs
 
     for path in paths or ():
-        program, text = finite_elements.exported(compound, path.suffix.lower())
+        program, text = programs.exported(compound, path.suffix.lower())
         to.add(f"{program} input", path, {path: text.encode()})
 
 

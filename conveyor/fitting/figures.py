@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conveyor.compound_file import Fitted
-from conveyor.fitting import figure as band
-from conveyor.measured_rows import MeasuredRows
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.rows import MeasuredRows
+from conveyor.fitting.told import figure as band
 from conveyor.report.plots import colour, stacked
 from conveyor.rubber import ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, celsius

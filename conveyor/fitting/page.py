@@ -9,10 +9,10 @@ from typing import Final
 
 import numpy as np
 
-from conveyor.compound_file import Fitted
 from conveyor.files import marks
-from conveyor.fit_figures import figures
-from conveyor.fit_verdict import GLOSSARY, Criterion, kept, passed
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.figures import figures
+from conveyor.fitting.verdict import GLOSSARY, Criterion, kept, passed
 from conveyor.markup import Html, element, joined
 from conveyor.models.report import Paper
 from conveyor.report.columns import Column, Table
@@ -37,7 +37,7 @@ def build(
     found : Fitted
         The fit.
     criteria : sequence of Criterion
-        Of `conveyor.fit_verdict.verdict`.
+        Of `conveyor.fitting.verdict.verdict`.
     document : mapping of str to str
         Laboratory, number, specimen, instrument, method, measured, by; what is left out and what the files do not
         state stays blank, to be written by hand.

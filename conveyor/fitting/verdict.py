@@ -10,10 +10,10 @@ from typing import Final, Literal
 import numpy as np
 
 from conveyor.checks import rubber_coverage
-from conveyor.compound_file import Fitted
 from conveyor.errors import ConveyorError
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.rows import MeasuredRows
 from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
-from conveyor.measured_rows import MeasuredRows
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
