@@ -265,9 +265,10 @@ def bootstrap(
     if replicas < 1:
         raise InputError(f"replicas = {replicas} must be >= 1")
     series, rows = fit.series, fit.rows
-    problem = Penalised(rows, series.times, fit.held)
+    times = series.times
+    problem = Penalised(rows, times, fit.held)
     moduli = np.concatenate([[series.equilibrium], series.moduli])
-    fitted = rows.matrix(series.times) @ moduli
+    fitted = rows.matrix(times) @ moduli
     ratio, block = _ratios(
         1.0 + (rows.target / fitted - 1.0) * rows.trust, problem.leverage(moduli, fit.regularisation)
     )
@@ -291,7 +292,7 @@ def bootstrap(
         if shift is not None:
             drawn = replace(drawn, frequency=rows.frequency * 10.0 ** shift.moved[0])
             target = target * np.tile(10.0 ** -shift.moved[1], 2)
-        problem = Penalised(drawn, series.times, fit.held)
+        problem = Penalised(drawn, times, fit.held)
         bends = spread * generator.standard_normal(len(problem.bends))
         moduli = problem.solve(target, fit.regularisation, bends)
         if moduli[0] > 0.0:
@@ -306,18 +307,15 @@ def bootstrap(
             " equilibrium="
         )
     spectra = np.array(found)
+    equilibrium, moduli = spectra[:, 0], spectra[:, 1:]
     if superposition is None:
-        return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:])
+        return ReplicaBand(times, equilibrium, moduli)
     if law is not None:
-        return ReplicaBand(
-            series.times,
-            spectra[:, 0],
-            spectra[:, 1:],
-            laws=tuple(one.law for one in kept if one.law is not None),
-        )
+        laws = tuple(one.law for one in kept if one.law is not None)
+        return ReplicaBand(times, equilibrium, moduli, laws=laws)
     tables = np.array([one.shifts for one in kept])
     vertical = tables[:, 1] if np.any(superposition.log10_b_T_error) else None
-    return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:], tables[:, 0], vertical)
+    return ReplicaBand(times, equilibrium, moduli, tables[:, 0], vertical)
 
 
 @dataclass(frozen=True, eq=False)
