@@ -79,6 +79,7 @@ def _beside(axis: Axes) -> None:
         for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
             where = (x, 1.0 - _LINE * k)
             axis.annotate(words, where, xycoords="axes fraction", va="top", fontsize=8, color=shade)
+        mark.set_label("_")  # named; a page gives other colours to what has a label
 
 
 def _reduced(found: Fitted) -> str:

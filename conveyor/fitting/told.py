@@ -146,8 +146,8 @@ def _criterion(found: Fitted) -> Iterator[str]:
 
 def _consistency(found: Fitted) -> Iterator[str]:
     yield (
-        f"any positive spectrum leaves at least {found.fit.consistency_floor:.1%} rms of both: that much the data scatter or "
-        "contradict themselves"
+        f"any positive spectrum leaves at least {found.fit.consistency_floor:.1%} rms of both: that much the data "
+        "scatter or contradict themselves"
     )
     if found.entropic_floor is not None:
         yield (
