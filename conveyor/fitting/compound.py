@@ -25,7 +25,7 @@ from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.answered import read_answered
-from conveyor.laboratory.findings import DOUBTED, check_findings
+from conveyor.laboratory.findings import check_findings
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,
@@ -231,7 +231,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
 def _entropic_floor(
     read: Sequence[DmaData], shifts: DmaData | None, fit: PronyFit, reference: str, request: Request
 ) -> float | None:
-    """`Fitted.entropic_floor`: told from none by AICc, of curves whose moduli contradict each other."""
+    """`Fitted.entropic_floor`, where AICc leaves none without support."""
     curve = master_curve_of(read)
     if curve is None or shifts is None or shifts.log10_b_T is not None or request.vertical:
         return None
@@ -239,7 +239,7 @@ def _entropic_floor(
     b = 10.0 ** entropic(curve, shifts, kelvin_of(reference))
     left = consistency_floor(f, storage / b, loss / b)
     better = 4.0 * f.size * np.log(fit.consistency_floor / left)
-    return left if fit.consistency_floor > DOUBTED and better > NO_SUPPORT else None
+    return left if better > NO_SUPPORT else None
 
 
 def _read(

@@ -53,7 +53,7 @@ GLOSSARY: Final = (
     ("tan δ", "E''/E', loss over storage; δ is the phase angle"),
     ("isotherm", "E' and E'' over frequency at one temperature"),
     ("a_T", "shift factor: what frequencies at T are multiplied by to lie on the curve of the reference temperature"),
-    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless it was asked for"),
+    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless asked for; T/T_ref of an entropic network"),
     ("master curve", "all isotherms at their shifted frequencies"),
     ("WLF, Arrhenius", "formulas of a_T over temperature: near the glass transition, far above it"),
     ("van Gurp-Palmen", "phase angle over |E*|: free of frequency: isotherms of one material lie on one curve"),
@@ -63,6 +63,13 @@ GLOSSARY: Final = (
     ("E_e, E_inf", "modulus at rest, and at infinite frequency"),
     ("best positive spectrum", "the closest curve that any Prony series could give; what it leaves is in the data"),
     ("90 % band", "what nine tenths of the replicas of the fit keep to, data resampled by their own residuals"),
+    ("scatter", "of a row about the line through its neighbours, without any model"),
+    ("overlap", "frequencies that two neighbouring isotherms share on the master curve"),
+    ("correlation", "of each error with its neighbour's: near 0 for scatter, near 1 for a misfit with a shape"),
+    ("rms", "root mean square"),
+    ("AICc", "corrected Akaike criterion: how many terms, and how smooth a spectrum, the data support"),
+    ("replica", "a series that the same measurement could have given, with its own shifts"),
+    ("Poisson's ratio", "ν, sideways over lengthwise strain; turns G into E = 2(1 + ν) G"),
     ("window", "lowest to highest reduced frequency measured; beyond it nothing is known"),
 )  # fmt: skip
 

@@ -24,9 +24,12 @@ METHOD = (
 CALIBRATION = 1.1
 """Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/families.py).
 Without it some 3 % less: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-LEANING = float(np.log(2.0))
-"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: two (general
-knowledge). It moves a fit only where the two contradict each other [-]."""
+BARE = 1.3
+"""The same without penalty: the times of few lines are parameters too, at most as many as moduli, sqrt(2) [-]."""
+LEANING = 0.5
+"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: 1.6 (general
+knowledge; at two the band of friction holds the truth too often). It moves a fit where the two contradict each other
+[-]."""
 LEVERAGE_LIMIT = 0.9
 """Largest leverage a residual is freed of: beyond, it is rounding divided by rounding [-]."""
 DRAWS_PER_REPLICA = 20
@@ -217,7 +220,7 @@ def bootstrap(
     -----
     The data of a replica are the rows times ratios data/fit, drawn with their neighbours in circular blocks,
     E' and E'' of one frequency together. In logarithms the ratios are freed of their leverage h, by
-    1/sqrt(1 - L h), and widened by `CALIBRATION`; their mean is brought to 1. A block has
+    1/sqrt(1 - L h), and widened by `CALIBRATION` or `BARE`; their mean is brought to 1. A block has
     L = (1 + c)/(1 - c) rows, the time constant of a first-order process whose neighbours correlate by c;
     L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
@@ -270,7 +273,9 @@ def bootstrap(
     moduli = np.concatenate([[series.equilibrium], series.moduli])
     fitted = rows.matrix(times) @ moduli
     ratio, block = _ratios(
-        1.0 + (rows.target / fitted - 1.0) * rows.trust, problem.leverage(moduli, fit.regularisation)
+        1.0 + (rows.target / fitted - 1.0) * rows.trust,
+        problem.leverage(moduli, fit.regularisation),
+        CALIBRATION if fit.regularisation else BARE,
     )
     size = rows.frequency.size
     spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
@@ -365,7 +370,7 @@ def _drawn(
             yield None if np.any(np.diff(shifts[0]) >= 0.0) else _Shifted(shifts, moved, law)
 
 
-def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:
+def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float) -> tuple[FloatArray, int]:
     """Ratios to draw from, E' and E'' shape `(2, n)` with mean 1 each [-], and the length of a block [rows]."""
     error = (ratio - 1.0).reshape(2, -1)
     size = error.shape[1]
@@ -373,6 +378,6 @@ def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:
     together = float(np.sum(error[:, 1:] * error[:, :-1])) / total if total > 0.0 else 0.0
     told = together > 2.0 / np.sqrt(2 * size)
     block = min(max(1, size // 4), int(np.ceil((1.0 + together) / (1.0 - together)))) if told else 1
-    freed = np.log(ratio) * CALIBRATION / np.sqrt(1.0 - np.minimum(block * leverage, LEVERAGE_LIMIT))
+    freed = np.log(ratio) * widened / np.sqrt(1.0 - np.minimum(block * leverage, LEVERAGE_LIMIT))
     drawn = np.exp(freed).reshape(2, -1)
     return drawn / drawn.mean(axis=1, keepdims=True), block
