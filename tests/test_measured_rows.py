@@ -147,6 +147,22 @@ def test_the_law_that_is_asked_for_is_kept_and_lays_the_rows(alone):
         fit_file(FILES[0], Request("x", AT, law="wlf", vertical=True))
 
 
+def test_a_law_has_its_error_in_the_band(tmp_path: Path):
+    """Laws of the replicas hold the truth where it is that law, and scatter by what they miss where it is not."""
+    spread = {}
+    for name in ("wlf", "arrhenius"):
+        compound = fit_file(FILES[0], Request("x", AT, law=name)).compound
+        path = tmp_path / f"{name}.yaml"
+        path.write_text(shelf.dump(compound), encoding="utf-8")
+        read = shelf.read_compound(path)
+        laws = [shift.at(read.reference) for shift in read.prony.band.shift]
+        assert len(laws) == len(read.replicas(253.15)) == len(read.alternatives()) == 20
+        spread[name] = np.array([float(law.log10_a_T(253.15)) for law in laws])
+    truth = float(TRUTH.shift_law().log10_a_T(253.15))
+    assert spread["wlf"].min() < truth < spread["wlf"].max()
+    assert 0.0 < np.std(spread["wlf"]) < 0.05 < np.std(spread["arrhenius"])
+
+
 def test_errors_weigh_the_moduli(tmp_path: Path):
     """Of E' and E'' that disagree the fit follows the one that is stated to be known better."""
     f = np.logspace(-2.0, 4.0, 40)

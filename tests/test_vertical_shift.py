@@ -48,7 +48,7 @@ def found(files: tuple[Path, Path], **changes):
 
 
 def test_it_is_suggested_and_mends_the_contradiction(files: tuple[Path, Path]) -> None:
-    """T/T_ref is 0.88 to 1.08, which no positive spectrum has; with it 0.15 decades a kelvin leave 3 K, 1 %, in rows."""
+    """T/T_ref is 0.88 to 1.08, which no positive spectrum has; with it 0.15 decades a kelvin leave 3 K, 1 %."""
     plain, mended = found(files), found(files, vertical=True)
     assert plain.entropic_floor == pytest.approx(mended.fit.consistency_floor, rel=0.1)
     assert mended.fit.consistency_floor < 0.01 < 0.5 * plain.fit.consistency_floor
