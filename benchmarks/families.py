@@ -3,7 +3,7 @@
     python benchmarks/families.py [--seeds N] [--noise 0.01 0.02 0.03] [--family NAME ...]
 
 Each rubber is "measured" at nine temperatures, -16 to 38 degC, at ten frequencies, 0.1 to 100 Hz, with independent
-lognormal noise of E' and E'', and goes in as a laboratory's file would, through `conveyor.compound_file.fit_file`.
+lognormal noise of E' and E'', and goes in as a laboratory's file would, through `conveyor.fitting.compound.fit_file`.
 Errors are relative to the truth: root mean squares over the window of the master curve at 20 degC, and of log10 a_T;
 the friction of a 159 mm roll on 4 mm of cover at 5 m/s, 3 N/mm and 10 degC. Printed is the median of all fits of a
 family; friction has its worst, too. Coverage is the share of the truth inside the 90 % band of 20 replicas.
@@ -30,9 +30,9 @@ from pathlib import Path
 
 import numpy as np
 
-from conveyor.compound_file import Request, fit_file
 from conveyor.contact import solve_many
 from conveyor.errors import ConveyorError
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.indentation import RollContact, to_problem
 from conveyor.rubber import WLF, Arrhenius, PronySeries
 from conveyor.studies.compared import ends
@@ -216,7 +216,8 @@ def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[
         seconds=seconds,
     )
     try:
-        plain = nnls_series(2.0 * np.pi * found.frequency, found.storage, found.loss)
+        f, storage, loss = found.rows.curve
+        plain = nnls_series(2.0 * np.pi * f, storage, loss)
     except (RuntimeError, ConveyorError):
         return ours, None
     a, b = (np.interp(WARM, shifts.temperatures, row) for row in shifts.shifts)

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from conveyor.errors import NoSolutionError
-from conveyor.rubber import PronyFit, PronySeries, fit_prony, relaxation_fit, rows, term_count
+from conveyor.rubber import PronyFit, PronySeries, fit_prony, interconversion, rows, term_count
 from conveyor.rubber.non_negative import ROUNDING, non_negative, slope
 
 Solver = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -45,7 +45,7 @@ def spectrum(rng: np.random.Generator) -> tuple[PronySeries, np.ndarray]:
 @contextmanager
 def solver(used: Solver) -> Iterator[None]:
     """Put a solver in place of the package's."""
-    places = (rows, term_count, relaxation_fit)
+    places = (rows, term_count, interconversion)
     for place in places:
         place.non_negative = used
     try:

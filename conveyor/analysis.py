@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from conveyor import studies as study
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks
+from conveyor.measured.runs import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.remarks import assumptions, warnings
-from conveyor.runs import read_runs
 from conveyor.studies import calibration as calibration_study
 from conveyor.studies import cases as case_study
 from conveyor.studies import comparison as compound_study

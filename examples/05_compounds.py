@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 import conveyor
-from conveyor import fitting
-from conveyor.compound_file import Request, fit_file
+from conveyor.fitting import told
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.report import plots
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -30,7 +30,7 @@ def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Pat
         ROOT / "materials" / "s120.dma.csv",
         Request("S120", shift=ROOT / "materials" / "s120.shift.csv"),
     )
-    plots.save(fitting.figure(s120), folder / "rubber_s120.png")
+    plots.save(told.figure(s120), folder / "rubber_s120.png")
 
 
 def main(folder: Path | None) -> None:

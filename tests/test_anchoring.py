@@ -10,7 +10,7 @@ import pytest
 from conveyor import anchoring, shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.rolling_tests import read_rolling_tests
+from conveyor.measured.rolling_tests import read_rolling_tests
 from tests.test_cli import run
 
 HEAD = (

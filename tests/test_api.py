@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor.compound_file import Request, fit_file
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
-from conveyor.fitting import lines
+from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting.told import lines
 from conveyor.laboratory.answered import read_answered
 from conveyor.rubber import PronySeries
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from conveyor import shelf
-from conveyor.compound_file import Request, Tabulated, from_files
 from conveyor.errors import InputError
-from conveyor.finite_elements import INCOMPRESSIBLE, exported
+from conveyor.fitting.compound import Request, Tabulated, from_files
+from conveyor.fitting.programs import INCOMPRESSIBLE, exported
 from conveyor.models import RubberCompound
 from conveyor.rubber import PronySeries
 

@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor import fit_page, fit_verdict, fitting, shelf
-from conveyor.compound_file import Request, fit_file
+from conveyor import shelf
 from conveyor.errors import InputError
+from conveyor.fitting import page as fit_page
+from conveyor.fitting import told, verdict
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.rubber import PronySeries, equivalent_sweep
 from conveyor.spec import load
 
@@ -89,7 +91,7 @@ def test_an_equivalent_sweep_of_a_dense_series():
 
 def test_a_temperature_sweep_takes_given_shifts(tmp_path: Path, together):
     shifts = tmp_path / "shifts.csv"
-    shifts.write_text(fitting.shift_table(together), encoding="utf-8")
+    shifts.write_text(told.shift_table(together), encoding="utf-8")
     found = fit_file([FILES[2], shifts], Request("ramp", AT, replicas=0))
     assert found.rows.frequency.size == 41
     assert max(errors(found.compound, low=1.5, high=5.0)) < 0.1  # 41 rows over eight decades
@@ -145,6 +147,22 @@ def test_the_law_that_is_asked_for_is_kept_and_lays_the_rows(alone):
         fit_file(FILES[0], Request("x", AT, law="wlf", vertical=True))
 
 
+def test_a_law_has_its_error_in_the_band(tmp_path: Path):
+    """Laws of the replicas hold the truth where it is that law, and scatter by what they miss where it is not."""
+    spread = {}
+    for name in ("wlf", "arrhenius"):
+        compound = fit_file(FILES[0], Request("x", AT, law=name)).compound
+        path = tmp_path / f"{name}.yaml"
+        path.write_text(shelf.dump(compound), encoding="utf-8")
+        read = shelf.read_compound(path)
+        laws = [shift.at(read.reference) for shift in read.prony.band.shift]
+        assert len(laws) == len(read.replicas(253.15)) == len(read.alternatives()) == 20
+        spread[name] = np.array([float(law.log10_a_T(253.15)) for law in laws])
+    truth = float(TRUTH.shift_law().log10_a_T(253.15))
+    assert spread["wlf"].min() < truth < spread["wlf"].max()
+    assert 0.0 < np.std(spread["wlf"]) < 0.05 < np.std(spread["arrhenius"])
+
+
 def test_errors_weigh_the_moduli(tmp_path: Path):
     """Of E' and E'' that disagree the fit follows the one that is stated to be known better."""
     f = np.logspace(-2.0, 4.0, 40)
@@ -182,8 +200,8 @@ def test_e_or_g_is_answered(tmp_path: Path):
 
 
 def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
-    criteria = fit_verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
-    assert fit_verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
+    criteria = verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
+    assert verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
     assert any(one.name.startswith("window covers") for one in criteria)
     page = fit_page.build(together, criteria, {"by": "A. Tester <b>", "number": "2026-17"})
     for words in (
@@ -199,7 +217,7 @@ def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
 
 
 def failing(found, conveyor=None) -> set[str]:
-    return {one.name for one in fit_verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
+    return {one.name for one in verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
 
 
 def test_each_fault_fails_its_own_criterion(tmp_path: Path):

@@ -8,8 +8,8 @@ import openpyxl
 import pytest
 
 from conveyor.errors import InputError
+from conveyor.measured.runs import read_runs
 from conveyor.models import MeasuredRun
-from conveyor.runs import read_runs
 
 
 def table(folder: Path, *lines: str, name: str = "runs.csv") -> Path:

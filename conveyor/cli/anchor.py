@@ -62,7 +62,7 @@ def anchor(
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     from conveyor import anchoring
     from conveyor import shelf as store
-    from conveyor.rolling_tests import read_rolling_tests
+    from conveyor.measured.rolling_tests import read_rolling_tests
 
     found = anchoring.anchored(
         store.compound(compound, extra=session.shelf or ()), read_rolling_tests(tests, source), name=name

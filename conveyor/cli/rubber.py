@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from conveyor.compound_file import Fitted, Tabulated
+    from conveyor.fitting.compound import Fitted, Tabulated
     from conveyor.models import RubberCompound
 
 EXPORTED: Final = (".inp", ".mac", ".csv")
@@ -39,7 +39,7 @@ Export = Annotated[
 @app.command(
     short_help="Fit a compound to laboratory data.",
     epilog=examples(
-        "conveyor fit s120.dma.csv --shift s120.shift.csv -o s120.yaml",
+        "conveyor fit s120.dma.csv --shift s120.shift.csv --vertical -o s120.yaml -o s120.xlsx",
         'conveyor fit isotherms.csv --at "20 degC" --plot fit.png',
         'conveyor fit frequency_sweep.xlsx --sheet E --modulus-unit MPa --at "23 degC"',
         "conveyor fit isotherms.csv relaxation.csv ramp.csv --exclude isotherms.csv:12-15 --law wlf",
@@ -55,7 +55,13 @@ def fit(
         ),
     ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Write the compound file (.yaml).")
+        list[Path] | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write the compound file (.yaml) or the workbook (.xlsx); may be repeated.",
+        ),
     ] = None,
     reference_temperature: Annotated[
         str | None,
@@ -141,12 +147,17 @@ def fit(
     quiet: Quiet = False,
 ) -> None:
     """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
-    from conveyor import compound_file
     from conveyor import shelf as shelf_of
+    from conveyor.fitting import compound as described
     from conveyor.units import in_si
 
     to = Outputs(*data, shift, strain, spec, force=force)
-    to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
+    books = [path for path in output or () if path.suffix.lower() == ".xlsx"]
+    compounds = [path for path in output or () if path not in books]
+    for path in output or ():
+        to.file(
+            "--output", path, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if path in books else marks.COMPOUND
+        )
     to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
     to.file("--write-shift", write_shift, ".csv")
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
@@ -159,7 +170,7 @@ def fit(
         "instantaneous": None if instantaneous is None else in_si(instantaneous, "pressure"),
         "temperature": None if temperature is None else in_si(temperature, "temperature"),
     }  # fmt: skip
-    request = compound_file.Request(
+    request = described.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
         shift=shift,
@@ -177,32 +188,31 @@ def fit(
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
-    from conveyor import fitting
+    from conveyor.fitting import told
 
     files = [file for file in (*data, shift, strain) if file is not None]
     with _placed(files):
-        found = compound_file.from_files(data, request)
-    lines = fitting.lines(found)
+        found = described.from_files(data, request)
+    lines = told.lines(found)
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(fitting.figure(found), plot)})
-    if output is not None:
-        to.add("compound file", output, {output: shelf_of.dump(found.compound, marks.FITTED).encode()})
+        to.add("figure", plot, {plot: plots.drawn(told.figure(found), plot)})
+    for path in compounds:
+        to.add("compound file", path, {path: shelf_of.dump(found.compound, marks.FITTED).encode()})
     if write_shift is not None:
-        to.add("shift factors", write_shift, {write_shift: fitting.shift_table(found).encode()})
+        to.add("shift factors", write_shift, {write_shift: told.shift_table(found).encode()})
     _exported(found.compound, export, to)
-    if html is not None or spec is not None:
-        lines += _judged(found, spec, said, html, to)
+    if books or html is not None or spec is not None:
+        lines += _judged(found, spec, said, [*books, *([] if html is None else [html])], to)
     lines += to.save()
-    if output is not None:
-        lines.append(f'specs and --compound name the compound "{output.stem}" or by its path')
+    lines += [f'specs and --compound name the compound "{path.stem}" or by its path' for path in compounds]
     if not quiet:
         say(*lines)
 
 
 def _said(words: str) -> tuple[str, str]:
-    from conveyor.fit_page import DOCUMENT
+    from conveyor.fitting.tables import DOCUMENT
 
     name, separator, value = words.partition("=")
     if not separator or name.strip() not in DOCUMENT or not value.strip():
@@ -213,18 +223,22 @@ def _said(words: str) -> tuple[str, str]:
 
 
 def _judged(
-    found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], html: Path | None, to: Outputs
+    found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], paths: Sequence[Path], to: Outputs
 ) -> list[str]:
-    """Lines of the verdict; add the page to sign."""
-    from conveyor import fit_page, fit_verdict
-    from conveyor.compound_file import Tabulated
+    """Lines of the verdict; add the page to sign and the workbook."""
+    from conveyor.fitting import page, tables, verdict
+    from conveyor.fitting.compound import Tabulated
+    from conveyor.report import excel
     from conveyor.spec import load
 
     if isinstance(found, Tabulated):
-        raise InputError("--html: a Prony table has no measurement to judge")
-    criteria = fit_verdict.verdict(found, None if spec is None else load(spec))
-    if html is not None:
-        to.add("page", html, {html: fit_page.build(found, criteria, said).encode()})
+        raise InputError("--html, --spec, -o .xlsx: a Prony table has no measurement to judge")
+    criteria = verdict.verdict(found, None if spec is None else load(spec))
+    for path in paths:
+        if path.suffix.lower() == ".xlsx":
+            to.add("workbook", path, excel.files(tables.of_fit(found, criteria, said), path, {}))
+        else:
+            to.add("page", path, {path: page.build(found, criteria, said).encode()})
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 
@@ -244,10 +258,10 @@ def _placed(files: Sequence[Path]) -> Iterator[None]:
 
 def _exported(compound: RubberCompound, paths: Sequence[Path] | None, to: Outputs) -> None:
     """Add the input of other programs."""
-    from conveyor import finite_elements
+    from conveyor.fitting import programs
 
     for path in paths or ():
-        program, text = finite_elements.exported(compound, path.suffix.lower())
+        program, text = programs.exported(compound, path.suffix.lower())
         to.add(f"{program} input", path, {path: text.encode()})
 
 

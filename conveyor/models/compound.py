@@ -17,14 +17,13 @@ from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.models.rubber_data import (
     AbsoluteTemperature,
-    ArrheniusShift,
     FitStatistics,
     MeasuredRange,
     Prony,
+    Shift,
     Source,
     StrainDependence,
     TableShift,
-    WLFShift,
 )
 from conveyor.units import (
     Bounds,
@@ -38,7 +37,6 @@ from conveyor.units import (
 if TYPE_CHECKING:
     from conveyor.rubber import AmplitudeFactors, PronySeries, ShiftLaw
 
-Shift = TableShift | WLFShift | ArrheniusShift
 
 CONVERSION_ROUNDING = 1e-9
 """Relative difference of one temperature given in degC, degF or K: rounding of the conversion only."""
@@ -63,7 +61,7 @@ class RubberCompound(Model):
     reference_temperature: AbsoluteTemperature
     """Temperature at which the series holds and the shift is 1."""
     prony: Prony
-    shift: Annotated[Shift, Field(discriminator="law")] | None = None
+    shift: Shift | None = None
     """Temperature shift of all times; without it only the reference temperature is allowed."""
     range: MeasuredRange | None = None
     strain_dependence: StrainDependence | None = None
@@ -207,6 +205,8 @@ class RubberCompound(Model):
         band = self.prony.band
         if band is None:
             return ()
+        if band.shift is not None:
+            return band.shift
         count = len(band.equilibrium)
         if band.log10_a_t is None:
             return (self.shift,) * count

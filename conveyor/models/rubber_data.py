@@ -57,86 +57,6 @@ class PronyTerm(Model):
     """Relaxation time τ_i at the reference temperature."""
 
 
-class Band(Model):
-    """Replicas of a fitted series at the same times: what the data behind it allow as well."""
-
-    method: str
-    """How the replicas were drawn."""
-    equilibrium: Annotated[tuple[PositiveModulus, ...], Field(min_length=1)]
-    """E_e of each replica."""
-    unit: Literal["Pa", "kPa", "MPa", "GPa"]
-    """Unit of `moduli`."""
-    moduli: tuple[tuple[Annotated[Number, Field(ge=0)], ...], ...]
-    """E_i of each replica, in the order of the terms; 0 is a term that the replica does not have."""
-    log10_a_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_aT")] = None
-    """Shift of each replica at the temperatures of `shift`; that of the compound without it."""
-    log10_b_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_bT")] = None
-    """Vertical shift of each replica at the temperatures of `shift`; that of the compound without it."""
-
-    @model_validator(mode="after")
-    def _one_list_per_replica(self) -> Self:
-        lists = {"moduli": self.moduli, "log10_aT": self.log10_a_t, "log10_bT": self.log10_b_t}
-        refuse(
-            "Band",
-            [
-                Problem(
-                    (name,),
-                    f"got {len(rows)} lists for {len(self.equilibrium)} values of equilibrium, one list per replica is"
-                    " needed",
-                )
-                for name, rows in lists.items()
-                if rows is not None and len(rows) != len(self.equilibrium)
-            ],
-        )
-        return self
-
-    def series(self, times: Sequence[float]) -> tuple[PronySeries, ...]:
-        """Return the replicas.
-
-        Parameters
-        ----------
-        times : sequence of float
-            Relaxation times of the terms, in their order [s].
-
-        Returns
-        -------
-        tuple of PronySeries
-            One per replica, SI; terms of modulus 0 left out.
-        """
-        from conveyor.rubber import PronySeries
-
-        tau, scale = np.array(times), _PASCALS[self.unit]
-        found = []
-        for equilibrium, row in zip(self.equilibrium, self.moduli, strict=True):
-            moduli = np.array(row) * scale
-            found.append(PronySeries(si(equilibrium), moduli[moduli > 0.0], tau[moduli > 0.0]))
-        return tuple(found)
-
-
-class Prony(Model):
-    """Relaxation modulus E(t) = E_e + Σ E_i exp(-t/τ_i) at the reference temperature."""
-
-    equilibrium: PositiveModulus
-    """E_e, the modulus at rest."""
-    terms: Annotated[tuple[PronyTerm, ...], Field(max_length=500)]
-    """Terms, in any order, with distinct times."""
-    band: Band | None = None
-    """Replicas of the fit, for the uncertainty of every result."""
-
-    @model_validator(mode="after")
-    def _one_modulus_per_term(self) -> Self:
-        count = len(self.terms)
-        refuse(
-            "Prony",
-            [
-                Problem(("band", "moduli", i), f"got {len(row)} moduli, {count} are needed, one per term")
-                for i, row in enumerate(self.band.moduli if self.band else ())
-                if len(row) != count
-            ],
-        )
-        return self
-
-
 class TableShift(Model):
     """Measured shifts, interpolated and never extrapolated."""
 
@@ -202,6 +122,93 @@ class ArrheniusShift(Model):
         from conveyor.rubber import Arrhenius
 
         return Arrhenius(activation_energy=si(self.activation_energy), reference=reference)
+
+
+Shift = Annotated[TableShift | WLFShift | ArrheniusShift, Field(discriminator="law")]
+
+
+class Band(Model):
+    """Replicas of a fitted series at the same times: what the data behind it allow as well."""
+
+    method: str
+    """How the replicas were drawn."""
+    equilibrium: Annotated[tuple[PositiveModulus, ...], Field(min_length=1)]
+    """E_e of each replica."""
+    unit: Literal["Pa", "kPa", "MPa", "GPa"]
+    """Unit of `moduli`."""
+    moduli: tuple[tuple[Annotated[Number, Field(ge=0)], ...], ...]
+    """E_i of each replica, in the order of the terms; 0 is a term that the replica does not have."""
+    log10_a_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_aT")] = None
+    """Shift of each replica at the temperatures of `shift`; that of the compound without it."""
+    log10_b_t: Annotated[tuple[tuple[Number, ...], ...] | None, Field(alias="log10_bT")] = None
+    """Vertical shift of each replica at the temperatures of `shift`; that of the compound without it."""
+    shift: tuple[Shift, ...] | None = None
+    """Shift law of each replica, where that of the compound is a formula; that of the compound without it."""
+
+    @model_validator(mode="after")
+    def _one_list_per_replica(self) -> Self:
+        lists: dict[str, Sequence[object] | None] = {
+            "moduli": self.moduli, "log10_aT": self.log10_a_t, "log10_bT": self.log10_b_t, "shift": self.shift
+        }  # fmt: skip
+        refuse(
+            "Band",
+            [
+                Problem(
+                    (name,),
+                    f"got {len(rows)} lists for {len(self.equilibrium)} values of equilibrium, one list per replica is"
+                    " needed",
+                )
+                for name, rows in lists.items()
+                if rows is not None and len(rows) != len(self.equilibrium)
+            ],
+        )
+        return self
+
+    def series(self, times: Sequence[float]) -> tuple[PronySeries, ...]:
+        """Return the replicas.
+
+        Parameters
+        ----------
+        times : sequence of float
+            Relaxation times of the terms, in their order [s].
+
+        Returns
+        -------
+        tuple of PronySeries
+            One per replica, SI; terms of modulus 0 left out.
+        """
+        from conveyor.rubber import PronySeries
+
+        tau, scale = np.array(times), _PASCALS[self.unit]
+        found = []
+        for equilibrium, row in zip(self.equilibrium, self.moduli, strict=True):
+            moduli = np.array(row) * scale
+            found.append(PronySeries(si(equilibrium), moduli[moduli > 0.0], tau[moduli > 0.0]))
+        return tuple(found)
+
+
+class Prony(Model):
+    """Relaxation modulus E(t) = E_e + Σ E_i exp(-t/τ_i) at the reference temperature."""
+
+    equilibrium: PositiveModulus
+    """E_e, the modulus at rest."""
+    terms: Annotated[tuple[PronyTerm, ...], Field(max_length=500)]
+    """Terms, in any order, with distinct times."""
+    band: Band | None = None
+    """Replicas of the fit, for the uncertainty of every result."""
+
+    @model_validator(mode="after")
+    def _one_modulus_per_term(self) -> Self:
+        count = len(self.terms)
+        refuse(
+            "Prony",
+            [
+                Problem(("band", "moduli", i), f"got {len(row)} moduli, {count} are needed, one per term")
+                for i, row in enumerate(self.band.moduli if self.band else ())
+                if len(row) != count
+            ],
+        )
+        return self
 
 
 class MeasuredRange(Model):

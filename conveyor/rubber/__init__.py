@@ -16,7 +16,6 @@ from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testab
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
 from conveyor.rubber.prony import CreepSeries, PronySeries
-from conveyor.rubber.relaxation_fit import RelaxationFit, RelaxationMisfit, fit_relaxation, relaxation_misfit
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shifted
 from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from conveyor.rubber.shift_laws import ShiftComparison, compare_shift_laws
@@ -38,8 +37,6 @@ __all__ = [
     "Misfit",
     "PronyFit",
     "PronySeries",
-    "RelaxationFit",
-    "RelaxationMisfit",
     "ReplicaBand",
     "ShiftComparison",
     "ShiftFit",
@@ -57,10 +54,8 @@ __all__ = [
     "fit_arrhenius",
     "fit_kraus",
     "fit_prony",
-    "fit_relaxation",
     "fit_wlf",
     "kramers_kronig",
-    "relaxation_misfit",
     "shifted",
     "softened",
     "superpose",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.rows import kernel
+from conveyor.rubber.shift import ShiftLaw
 from conveyor.rubber.superposition import Superposition
 from conveyor.rubber.term_count import Penalised
 
@@ -22,9 +24,12 @@ METHOD = (
 CALIBRATION = 1.1
 """Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/families.py).
 Without it some 3 % less: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-LEANING = float(np.log(2.0))
-"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: two (general
-knowledge). It moves a fit only where the two contradict each other [-]."""
+BARE = 1.3
+"""The same without penalty: the times of few lines are parameters too, at most as many as moduli, sqrt(2) [-]."""
+LEANING = 0.5
+"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: 1.6 (general
+knowledge; at two the band of friction holds the truth too often). It moves a fit where the two contradict each other
+[-]."""
 LEVERAGE_LIMIT = 0.9
 """Largest leverage a residual is freed of: beyond, it is rounding divided by rounding [-]."""
 DRAWS_PER_REPLICA = 20
@@ -47,6 +52,8 @@ class ReplicaBand:
         Shift of each replica at the temperatures of the isotherms, shape `(replicas, t)` [decades].
     log10_b_T : numpy.ndarray, optional
         Its vertical shift, likewise [decades].
+    laws : tuple of ShiftLaw
+        Shift law of each replica, where rows were laid by a law.
 
     Raises
     ------
@@ -65,6 +72,7 @@ class ReplicaBand:
     moduli: FloatArray
     log10_a_T: FloatArray | None = None  # noqa: N815
     log10_b_T: FloatArray | None = None  # noqa: N815
+    laws: tuple[ShiftLaw, ...] = ()
 
     def __post_init__(self) -> None:
         """Check, copy, freeze."""
@@ -174,6 +182,7 @@ def bootstrap(
     superposition: Superposition | None = None,
     temperature: ArrayLike | None = None,
     *,
+    law: Callable[[FloatArray], ShiftLaw] | None = None,
     replicas: int = 200,
     seed: int = 0,
 ) -> ReplicaBand:
@@ -188,6 +197,8 @@ def bootstrap(
     temperature : array_like, optional
         Of every fitted row, shape `(m,)` [K], where other rows than the isotherms' were laid on their curve: a row
         between two isotherms moves with both, in proportion.
+    law : callable, optional
+        Makes a law of log10 a_T at the temperatures of the superposition: where rows were laid by that law.
     replicas : int
         Number of series, >= 1 [-].
     seed : int
@@ -209,7 +220,7 @@ def bootstrap(
     -----
     The data of a replica are the rows times ratios data/fit, drawn with their neighbours in circular blocks,
     E' and E'' of one frequency together. In logarithms the ratios are freed of their leverage h, by
-    1/sqrt(1 - L h), and widened by `CALIBRATION`; their mean is brought to 1. A block has
+    1/sqrt(1 - L h), and widened by `CALIBRATION` or `BARE`; their mean is brought to 1. A block has
     L = (1 + c)/(1 - c) rows, the time constant of a first-order process whose neighbours correlate by c;
     L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
@@ -222,7 +233,8 @@ def bootstrap(
 
     Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
     too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another
-    temperature most of an error of the shift takes back what it did to the curve.
+    temperature most of an error of the shift takes back what it did to the curve. A law is made anew of them, and of
+    what it missed of the shifts with signs drawn (wild bootstrap): where shifts do not follow it, the band is as wide.
 
     Coverage of the truth by the 90 % band: see docs/rubber.md, and benchmarks/families.py. At its worst frequency
     it is 50 to 75 %: at the ends of the window, and in valleys of E'' between lines of a spectrum that IS discrete.
@@ -239,6 +251,7 @@ def bootstrap(
     J. G. MacKinnon, H. White, J. Econometrics 29 (1985) 305-325 (leverage, HC2).
     G. Wahba, J. R. Stat. Soc. B 45 (1983) 133-150; D. Nychka, J. Am. Stat. Assoc. 83 (1988) 1134-1143 (bands of
     a penalised curve, from its prior).
+    C. F. J. Wu, Ann. Statist. 14 (1986) 1261-1295 (wild bootstrap).
 
     Examples
     --------
@@ -255,49 +268,41 @@ def bootstrap(
     if replicas < 1:
         raise InputError(f"replicas = {replicas} must be >= 1")
     series, rows = fit.series, fit.rows
-    if superposition is not None:
-        known = superposition.temperatures
-        at = (
-            known[superposition.isotherm]
-            if temperature is None
-            else np.asarray(temperature, dtype=np.float64)
-        )
-        if at.size != rows.frequency.size:
-            raise InputError(
-                f"the superposition has {at.size} rows, the fit {rows.frequency.size}: fit its master curve"
-            )
-    problem = Penalised(rows, series.times, fit.held)
+    times = series.times
+    problem = Penalised(rows, times, fit.held)
     moduli = np.concatenate([[series.equilibrium], series.moduli])
-    fitted = rows.matrix(series.times) @ moduli
+    fitted = rows.matrix(times) @ moduli
     ratio, block = _ratios(
-        1.0 + (rows.target / fitted - 1.0) * rows.trust, problem.leverage(moduli, fit.regularisation)
+        1.0 + (rows.target / fitted - 1.0) * rows.trust,
+        problem.leverage(moduli, fit.regularisation),
+        CALIBRATION if fit.regularisation else BARE,
     )
     size = rows.frequency.size
     spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
     generator = np.random.default_rng(seed)
     found: list[FloatArray] = []
-    shifts: list[FloatArray] = []
-    pair: list[FloatArray] = []
+    kept: list[_Shifted] = []
+    draws = None
+    if superposition is not None:
+        draws = _drawn(superposition, _temperatures(superposition, temperature, size), law, generator)
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
         lean = np.repeat(np.exp(LEANING * np.array([1.0, -1.0]) * generator.standard_normal()), size)
         drawn = replace(rows, scale=rows.scale * lean)
         target = drawn.target * ratio[:, taken].ravel()
-        if superposition is not None:
-            pair = pair or list(superposition.drawn(generator))
-            shift = pair.pop()
-            if np.any(np.diff(shift[0]) >= 0.0):
-                continue
-            moved = [np.interp(at, known, change) for change in shift - superposition.shifts]
-            drawn = replace(drawn, frequency=rows.frequency * 10.0 ** moved[0])
-            target = target * np.tile(10.0 ** -moved[1], 2)
-        problem = Penalised(drawn, series.times, fit.held)
+        shift = None if draws is None else next(draws)
+        if draws is not None and shift is None:
+            continue
+        if shift is not None:
+            drawn = replace(drawn, frequency=rows.frequency * 10.0 ** shift.moved[0])
+            target = target * np.tile(10.0 ** -shift.moved[1], 2)
+        problem = Penalised(drawn, times, fit.held)
         bends = spread * generator.standard_normal(len(problem.bends))
         moduli = problem.solve(target, fit.regularisation, bends)
         if moduli[0] > 0.0:
             found.append(moduli)
-            shifts += [] if superposition is None else [shift]
+            kept += [] if shift is None else [shift]
         if len(found) == replicas:
             break
     else:
@@ -306,14 +311,66 @@ def bootstrap(
             " the data hardly reach the rubbery plateau, or hardly tell the shifts; measure lower frequencies, or hold"
             " equilibrium="
         )
-    spectra, laws = np.array(found), np.array(shifts)
+    spectra = np.array(found)
+    equilibrium, moduli = spectra[:, 0], spectra[:, 1:]
     if superposition is None:
-        return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:])
-    vertical = laws[:, 1] if np.any(superposition.log10_b_T_error) else None
-    return ReplicaBand(series.times, spectra[:, 0], spectra[:, 1:], laws[:, 0], vertical)
+        return ReplicaBand(times, equilibrium, moduli)
+    if law is not None:
+        laws = tuple(one.law for one in kept if one.law is not None)
+        return ReplicaBand(times, equilibrium, moduli, laws=laws)
+    tables = np.array([one.shifts for one in kept])
+    vertical = tables[:, 1] if np.any(superposition.log10_b_T_error) else None
+    return ReplicaBand(times, equilibrium, moduli, tables[:, 0], vertical)
 
 
-def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:
+@dataclass(frozen=True, eq=False)
+class _Shifted:
+    """log10 a_T and log10 b_T of a replica, shape `(2, t)`, what they moved each row by, and their law [decades]."""
+
+    shifts: FloatArray
+    moved: list[FloatArray]
+    law: ShiftLaw | None
+
+
+def _temperatures(found: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
+    """Of every fitted row [K]."""
+    at = (
+        found.temperatures[found.isotherm]
+        if temperature is None
+        else np.asarray(temperature, dtype=np.float64)
+    )
+    if at.size != size:
+        raise InputError(f"the superposition has {at.size} rows, the fit {size}: fit its master curve")
+    return at
+
+
+def _drawn(
+    found: Superposition,
+    at: FloatArray,
+    maker: Callable[[FloatArray], ShiftLaw] | None,
+    generator: np.random.Generator,
+) -> Iterator[_Shifted | None]:
+    """Shifts without end that the isotherms allow as well; None for those that no law follows or that rise."""
+    known = found.temperatures
+    laid = found.shifts
+    if maker is not None:
+        laid = np.array([maker(laid[0]).log10_a_T(known), laid[1]])
+    missed = (found.shifts - laid)[0]
+    while True:
+        for drawn in reversed(found.drawn(generator)):
+            law, shifts = None, drawn
+            if maker is not None:
+                try:
+                    law = maker(drawn[0] + generator.choice([-2.0, 0.0], known.size) * missed)
+                except NoSolutionError:
+                    yield None
+                    continue
+                shifts = np.array([law.log10_a_T(known), drawn[1]])
+            moved = [np.interp(at, known, change) for change in shifts - laid]
+            yield None if np.any(np.diff(shifts[0]) >= 0.0) else _Shifted(shifts, moved, law)
+
+
+def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float) -> tuple[FloatArray, int]:
     """Ratios to draw from, E' and E'' shape `(2, n)` with mean 1 each [-], and the length of a block [rows]."""
     error = (ratio - 1.0).reshape(2, -1)
     size = error.shape[1]
@@ -321,6 +378,6 @@ def _ratios(ratio: FloatArray, leverage: FloatArray) -> tuple[FloatArray, int]:
     together = float(np.sum(error[:, 1:] * error[:, :-1])) / total if total > 0.0 else 0.0
     told = together > 2.0 / np.sqrt(2 * size)
     block = min(max(1, size // 4), int(np.ceil((1.0 + together) / (1.0 - together)))) if told else 1
-    freed = np.log(ratio) * CALIBRATION / np.sqrt(1.0 - np.minimum(block * leverage, LEVERAGE_LIMIT))
+    freed = np.log(ratio) * widened / np.sqrt(1.0 - np.minimum(block * leverage, LEVERAGE_LIMIT))
     drawn = np.exp(freed).reshape(2, -1)
     return drawn / drawn.mean(axis=1, keepdims=True), block

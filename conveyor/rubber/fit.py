@@ -61,6 +61,8 @@ class PronyFit:
         The same for the best of ALL positive spectra (ten lines a decade, three decades beyond the window,
         equilibrium free): no series does better by more than 0.1 %, so this much is noise or contradiction
         of the data [-].
+    best_errors : numpy.ndarray
+        Relative errors of that spectrum, as `errors`, shape `(2, n)` [-].
     regularisation : float
         Strength of the penalty on the curvature of the spectrum [-].
     freedom : float
@@ -89,6 +91,7 @@ class PronyFit:
     condition: float
     residual: float
     consistency_floor: float
+    best_errors: FloatArray = field(repr=False, compare=False)
     regularisation: float
     freedom: float
     storage_noise: float | None
@@ -293,6 +296,7 @@ def _judged(
         raise NoSolutionError(NO_TERM)
     series = PronySeries(float(moduli[0]), moduli[1:][terms], tau[terms])
     columns = rows.matrix(tau)[:, moduli > 0.0]
+    best = _best_errors(rows)
     f, omega = rows.frequency, rows.omega
     error1, error2 = series.storage(omega) / rows.storage - 1.0, series.loss(omega) / rows.loss - 1.0
     return PronyFit(
@@ -304,7 +308,8 @@ def _judged(
         grid_terms=int(tau.size),
         condition=float(np.linalg.cond(columns / np.linalg.norm(columns, axis=0))),
         residual=solution.residual,
-        consistency_floor=_floor(rows),
+        consistency_floor=float(np.sqrt(np.mean(best**2))),
+        best_errors=(best / rows.target).reshape(2, -1),
         regularisation=strength,
         freedom=solution.freedom,
         storage_noise=scatter(f, rows.storage),
@@ -341,9 +346,13 @@ def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike)
         If no term is active.
     """
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
-    return _floor(relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None))
+    best = _best_errors(
+        relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None)
+    )
+    return float(np.sqrt(np.mean(best**2)))
 
 
-def _floor(rows: Rows) -> float:
+def _best_errors(rows: Rows) -> FloatArray:
+    """Errors of the best of all positive spectra over the scale of the rows, shape `(2n,)` [-]."""
     tau = even_times(rows.omega, FLOOR_TERMS_PER_DECADE, FLOOR_EXTRA_DECADES)
-    return float(np.sqrt(np.mean((rows.matrix(tau) @ plain(rows, tau, None) - rows.target) ** 2)))
+    return np.asarray(rows.matrix(tau) @ plain(rows, tau, None) - rows.target)

@@ -8,11 +8,11 @@ from numpy.typing import ArrayLike
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.non_negative import non_negative
+from conveyor.rubber.rows import Rows, even_times, kernel
+from conveyor.rubber.term_count import Penalised, choose
 
 LINES_PER_DECADE = 2.0
-"""Lines so far apart give E'' a ripple of 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
-REACH = 0.5
-"""Beyond both ends of the times, so that what has begun before and ends after has lines of its own [decades]."""
+"""Of the first estimate: lines so far apart give E'' a ripple of 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
 MARGIN = 1.0
 """Left out at both ends: a line a decade beyond an end adds a tenth of its modulus to E'' there [decades]."""
 ROWS_PER_DECADE = 6.0
@@ -43,9 +43,10 @@ def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, F
 
     Notes
     -----
-    A series of times two to the decade is fitted to E(t), relative errors, moduli >= 0, and evaluated at
-    omega = 1/t (Park and Schapery 1999, by a Prony series). One per cent of E(t) is many per cent of a small E''. The
-    rows are no independent measurements: they carry the smoothness of the series.
+    A series is fitted to E(t), relative errors, moduli >= 0, its times and the penalty on its curvature chosen as those
+    of a frequency sweep (`conveyor.rubber.term_count.choose`), and evaluated at omega = 1/t (Park and Schapery 1999, by
+    a Prony series). One per cent of E(t) is many per cent of a small E'': of a tan delta of 0.2 two, of one of 0.05
+    eight. The rows are no independent measurements: they carry the smoothness of the series.
 
     References
     ----------
@@ -69,16 +70,37 @@ def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, F
             f"relaxation over {high - low:.2g} decades of time; {LEAST_DECADES:g} are needed, as a decade at either "
             "end says nothing certain of E' and E''"
         )
-    reach = high - low + 2.0 * REACH
-    tau = np.logspace(low - REACH, high + REACH, round(LINES_PER_DECADE * reach) + 1)
-    unit = float(e.min())
-    matrix = np.column_stack([np.ones_like(t), np.exp(-t[:, None] / tau)]) * (unit / e[:, None])
-    found = unit * non_negative(matrix, np.ones_like(t))
+    order = np.argsort(-t, kind="stable")
+    rows = _Relaxation.of(t[order], e[order])
+    tau, strength, _ = choose(rows, None)
+    found = Penalised(rows, tau, None).solve(rows.target, strength)
     inside = high - low - 2.0 * MARGIN
     omega = np.logspace(MARGIN - high, -low - MARGIN, round(ROWS_PER_DECADE * inside) + 1)
-    x = omega[:, None] * tau
-    loss = (x / (1.0 + x * x)) @ found[1:]
-    storage = found[0] + (x * x / (1.0 + x * x)) @ found[1:]
-    if not np.all(loss > 0.0):
-        raise InputError("relaxation: E(t) does not fall, no loss modulus follows from it")
+    storage, loss = np.split(kernel(omega, tau) @ found, 2)
     return omega / (2.0 * np.pi), storage, loss
+
+
+class _Relaxation(Rows):
+    """E(t) as rows of a fit, each at omega = 1/t; `loss` is a first estimate of E'' there."""
+
+    @classmethod
+    def of(cls, t: FloatArray, e: FloatArray) -> _Relaxation:
+        """Rows of times that fall [s] and E(t) [Pa]."""
+        frequency, scale, trust = 0.5 / (np.pi * t), np.concatenate([e, e]), np.ones(2 * t.size)
+        plain = cls(frequency, e, e, scale, trust)
+        tau = even_times(plain.omega, LINES_PER_DECADE)
+        unit = float(e.min())
+        loss = (
+            kernel(plain.omega, tau)[t.size :] @ non_negative(plain.matrix(tau) * unit, plain.target) * unit
+        )
+        if not np.all(loss > 0.0):
+            raise InputError("relaxation: E(t) does not fall, no loss modulus follows from it")
+        return cls(frequency, e, loss, scale, trust)
+
+    @property
+    def target(self) -> FloatArray:
+        return np.ones(self.frequency.size)
+
+    def matrix(self, tau: FloatArray) -> FloatArray:
+        decays = np.exp(-np.outer(1.0 / self.omega, 1.0 / tau))
+        return np.column_stack([np.ones_like(self.omega), decays]) / self.storage[:, None]

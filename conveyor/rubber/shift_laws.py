@@ -19,7 +19,7 @@ REMARKS = {
     "WLF": "two parameters, smooth; above the glass transition, not near its pole",
     "Arrhenius": "one parameter; a glass, or far above the glass transition",
     "table": (
-        "interpolates: no residual at its own points, so only `left_out` judges it, and that over twice"
+        "interpolates: no residual at its own points, so only a point left out judges it, and that over twice"
         " the spacing it has in use; it smooths no noise and never extrapolates"
     ),
 }

@@ -38,6 +38,7 @@ class _Kind(NamedTuple):
 _SAME: Final = {
     "text": _Kind(None, ""), "number": _Kind(None, ""), "verdict": _Kind(None, ""), "count": _Kind(None, ",.0f"),
     "ratio": _Kind("-", ".2f"), "share": _Kind("-", ".1%"), "factor": _Kind("-", ".3f"), "friction": _Kind("-", ".4f"),
+    "decades": _Kind("-", ".4f"),
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from conveyor.cli import app
-from conveyor.compound_file import Request, fit_file
 from conveyor.errors import InputError
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.laboratory.findings import FINDINGS, check_findings
 from conveyor.laboratory.moduli import equivalent_strain

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.compound_file import Request, fit_file
+from conveyor.fitting.compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronySeries, fit_prony
 from conveyor.rubber.non_negative import active_set, non_negative, slope

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from conveyor.errors import InputError
-from conveyor.measured_table import Meant, MeasuredRow, TableKind, read_rows
+from conveyor.measured.table import Meant, MeasuredRow, TableKind, read_rows
 from conveyor.models import MeasuredRun
 
 _RUNS: Final = TableKind(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from conveyor.errors import InputError
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.groups import ISOTHERM_GAP, temperature_groups
-from conveyor.rubber import Isotherm, ShiftLaw, Superposition, equivalent_sweep
+from conveyor.rubber import Isotherm, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -215,12 +215,52 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
     return moved, tuple(said)
 
 
+def entropic(read: DmaData, shifts: DmaData | None, reference: float) -> Array:
+    """log10 b_T of an entropic network, T/T_ref, for the rows of a master curve that was laid without it [decades].
+
+    Parameters
+    ----------
+    read : DmaData
+        The whole master curve.
+    shifts : DmaData or None
+        The shift factors that it was laid with.
+    reference : float
+        Where its b_T is 1 [K].
+
+    Raises
+    ------
+    InputError
+        There are no shift factors, or they have a vertical shift of their own.
+
+    Notes
+    -----
+    Derived: the ends of the window tell which frequencies were measured, f_max/a_T at the coldest and f_min/a_T at the
+    hottest isotherm; a row was measured where a_T brings it to their geometric mean. Rows of an isotherm of two decades
+    are some 8 K from there at most, 3 % of b_T.
+    """
+    frequency, _, _ = moduli_of(read)
+    if shifts is None or shifts.temperature is None or shifts.log10_a_T is None:
+        raise InputError(
+            f"{read.source}: --vertical: which temperature a row of a master curve was measured at its shift factors "
+            "tell; give them with --shift"
+        )
+    if shifts.log10_b_T is not None:
+        raise InputError(
+            f"{shifts.source}: has vertical shifts, the curve is laid with them; leave out --vertical"
+        )
+    order = np.argsort(shifts.temperature)
+    kelvin, a = shifts.temperature[order], shifts.log10_a_T[order]
+    middle = 0.5 * (np.log10(frequency.max() * frequency.min()) - a[0] - a[-1])
+    at = np.interp(middle - np.log10(frequency), -a, kelvin)
+    return np.log10([entropic_b_T(t, reference) for t in at.tolist()])
+
+
 def laid(
     parts: Sequence[Sweep],
     ramps: Sequence[tuple[int, DmaData]],
     law: ShiftLaw | None,
     found: Superposition | None,
-    whole: tuple[int, float, DmaData] | None,
+    whole: tuple[int, float, DmaData, Array | float] | None,
 ) -> tuple[MeasuredRows, tuple[str, ...]]:
     """Lay sweeps and temperature sweeps on the master curve of a shift law.
 
@@ -235,7 +275,7 @@ def laid(
     found : Superposition or None
         Of the sweeps, with their vertical shifts.
     whole : tuple or None
-        A master curve as it stands: number of its file, reference temperature [K], the file.
+        A master curve as it stands: number of its file, reference temperature [K], the file, log10 b_T of its rows.
     """
     columns: list[tuple[Any, ...]] = []
     vertical: dict[float, float] = {}
@@ -250,16 +290,16 @@ def laid(
             rows = rows[:, found.kept(one.frequency)]
         columns.append(_column(part.file, one.temperature, (rows[0], rows[1], rows[2]), shift))
     if whole is not None:
-        number, reference, read = whole
-        columns.append(_column(number, reference, _moduli(read, read.frequency), (0.0, 0.0)))
+        number, reference, read, b = whole
+        columns.append(_column(number, reference, moduli_of(read), (0.0, b)))
     said = []
     for number, read in ramps:
-        frequency, storage, loss = _moduli(read, read.frequency)
+        frequency, storage, loss = moduli_of(read)
         if read.temperature is None or law is None:
             raise InputError(
                 f"{read.source}: a temperature sweep needs shift factors: isotherms beside it, or --shift"
             )
-        if any(vertical.values()):
+        if any(vertical.values()) or (whole is not None and np.any(whole[3])):
             raise InputError(
                 f"{read.source}: a temperature sweep has no vertical shift of its own; leave out --vertical"
             )
@@ -280,7 +320,9 @@ def laid(
     )
 
 
-def _moduli(read: DmaData, frequency: Array | None) -> tuple[Array, Array, Array]:
+def moduli_of(read: DmaData) -> tuple[Array, Array, Array]:
+    """Frequency [Hz], E' and E'' [Pa]; refused where a file has them not."""
+    frequency = read.frequency
     if frequency is None or read.storage is None or read.loss is None:
         raise InputError(
             f"{read.source}: E' and E'' with their frequency are needed; give it a column frequency_Hz"
@@ -292,7 +334,7 @@ def _column(
     file: int,
     temperature: float | Array,
     moduli: tuple[Array, Array, Array],
-    shift: tuple[float | Array, float],
+    shift: tuple[float | Array, float | Array],
 ) -> tuple[Any, ...]:
     """Rows of one sweep, as the fields of `MeasuredRows`."""
     one = np.ones(moduli[0].size)

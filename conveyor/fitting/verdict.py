@@ -10,10 +10,10 @@ from typing import Final, Literal
 import numpy as np
 
 from conveyor.checks import rubber_coverage
-from conveyor.compound_file import Fitted
 from conveyor.errors import ConveyorError
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.rows import MeasuredRows
 from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
-from conveyor.measured_rows import MeasuredRows
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -43,13 +43,17 @@ KRAMERS_KRONIG: Final = 0.1
 """Of one modulus predicted from the other (general knowledge) [-]."""
 BEYOND_BEST: Final = 0.01
 """Left by the fit beyond what the best positive spectrum leaves: as much as a good instrument scatters [-]."""
+ENDS: Final = 0.05
+"""Of E' and E'' in the mean over the half decade at either end of the window [-]."""
+END: Final = 0.5
+"""Rows of an end: so far from it, three at six to the decade (general knowledge) [decades]."""
 
 GLOSSARY: Final = (
     ("E', E''", "storage and loss modulus, in tension: stress in phase and out of phase over strain"),
     ("tan δ", "E''/E', loss over storage; δ is the phase angle"),
     ("isotherm", "E' and E'' over frequency at one temperature"),
     ("a_T", "shift factor: what frequencies at T are multiplied by to lie on the curve of the reference temperature"),
-    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless it was asked for"),
+    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless asked for; T/T_ref of an entropic network"),
     ("master curve", "all isotherms at their shifted frequencies"),
     ("WLF, Arrhenius", "formulas of a_T over temperature: near the glass transition, far above it"),
     ("van Gurp-Palmen", "phase angle over |E*|: free of frequency: isotherms of one material lie on one curve"),
@@ -59,6 +63,13 @@ GLOSSARY: Final = (
     ("E_e, E_inf", "modulus at rest, and at infinite frequency"),
     ("best positive spectrum", "the closest curve that any Prony series could give; what it leaves is in the data"),
     ("90 % band", "what nine tenths of the replicas of the fit keep to, data resampled by their own residuals"),
+    ("scatter", "of a row about the line through its neighbours, without any model"),
+    ("overlap", "frequencies that two neighbouring isotherms share on the master curve"),
+    ("correlation", "of each error with its neighbour's: near 0 for scatter, near 1 for a misfit with a shape"),
+    ("rms", "root mean square"),
+    ("AICc", "corrected Akaike criterion: how many terms, and how smooth a spectrum, the data support"),
+    ("replica", "a series that the same measurement could have given, with its own shifts"),
+    ("Poisson's ratio", "ν, sideways over lengthwise strain; turns G into E = 2(1 + ν) G"),
     ("window", "lowest to highest reduced frequency measured; beyond it nothing is known"),
 )  # fmt: skip
 
@@ -76,7 +87,10 @@ class Criterion:
     @property
     def line(self) -> str:
         """In one line."""
-        return f"{self.name}: " + (f"{self.calculated} ({self.required})" if self.calculated else self.why)
+        why = f"; {self.why}" if self.verdict == "FAIL" else ""
+        return f"{self.name}: " + (
+            f"{self.calculated} ({self.required}){why}" if self.calculated else self.why
+        )
 
 
 def verdict(found: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
@@ -89,7 +103,7 @@ def verdict(found: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion,
     conveyor : Conveyor, optional
         Its rolls, speed and temperature tell which frequencies the rubber has to be known at.
     """
-    made = (_noise, _shifts, _shape, _collapse, _consistent, _residual)
+    made = (_noise, _shifts, _shape, _collapse, _consistent, _residual, _ends)
     return (
         *(one for of in made for one in of(found)),
         *(() if conveyor is None else _covered(found, conveyor)),
@@ -232,10 +246,10 @@ def _collapse(found: Fitted) -> Iterator[Criterion]:
 
 
 def _consistent(found: Fitted) -> Iterator[Criterion]:
-    yield _most(
-        "best positive spectrum of E' and E''", found.fit.consistency_floor, DOUBTED, _percent,
-        "more is in the data: two strains, two set-ups, an outlier",
-    )  # fmt: skip
+    why = "more is in the data: two strains, two set-ups, an outlier"
+    if found.entropic_floor is not None:
+        why = f"with b_T = T/T_ref {found.entropic_floor:.1%}: a vertical shift is missing, --vertical"
+    yield _most("best positive spectrum of E' and E''", found.fit.consistency_floor, DOUBTED, _percent, why)
     known = found.consistency
     if known is None:
         yield _open("Kramers-Kronig", "too few rows beyond a decade from the ends of the window")
@@ -253,6 +267,23 @@ def _residual(found: Fitted) -> Iterator[Criterion]:
         "left by the series", fit.residual, most, _percent,
         "of E' and E'', against the best positive spectrum and the scatter",
     )  # fmt: skip
+
+
+def _ends(found: Fitted) -> Iterator[Criterion]:
+    fit = found.fit
+    decades, trust = np.log10(fit.rows.frequency), fit.rows.trust.reshape(2, -1)
+    slow, fast = decades <= decades[0] + END, decades >= decades[-1] - END
+    ends = [(f"{label}, {side} end", k, here) for side, here in (("slow", slow), ("fast", fast))
+            for k, label in enumerate(("E'", "E''")) if trust[k, here].any()]  # fmt: skip
+    means = [
+        [float(np.average(errors[k, here], weights=trust[k, here])) for _, k, here in ends]
+        for errors in (fit.errors, fit.best_errors)
+    ]
+    worst = int(np.argmax(np.abs(means[0])))
+    why = f"{ends[worst][0]}; the best positive spectrum has {means[1][worst]:+.1%} there"
+    if abs(means[1][worst]) > ENDS:
+        why += ": the data contradict themselves"
+    yield _most("ends of the window", abs(means[0][worst]), ENDS, _percent, why)
 
 
 def _covered(found: Fitted, conveyor: Conveyor) -> Iterator[Criterion]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from conveyor.errors import InputError
-from conveyor.measured_table import Meant, MeasuredRow, TableKind, read_rows
+from conveyor.measured.table import Meant, MeasuredRow, TableKind, read_rows
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.units import text
 

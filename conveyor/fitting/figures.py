@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conveyor.compound_file import Fitted
-from conveyor.fitting import figure as band
-from conveyor.measured_rows import MeasuredRows
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.rows import MeasuredRows
+from conveyor.fitting.told import figure as band
 from conveyor.report.plots import colour, stacked
 from conveyor.rubber import ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
@@ -79,6 +79,7 @@ def _beside(axis: Axes) -> None:
         for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
             where = (x, 1.0 - _LINE * k)
             axis.annotate(words, where, xycoords="axes fraction", va="top", fontsize=8, color=shade)
+        mark.set_label("_")  # named; a page gives other colours to what has a label
 
 
 def _reduced(found: Fitted) -> str:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from conveyor.compound_file import Fitted, Tabulated
 from conveyor.errors import InputError
+from conveyor.fitting.compound import Fitted, Tabulated
 from conveyor.report.plots import colour, keyed, master_curve, stacked
 from conveyor.rubber.superposition import STRAY
 from conveyor.units import text
@@ -147,8 +147,13 @@ def _criterion(found: Fitted) -> Iterator[str]:
 def _consistency(found: Fitted) -> Iterator[str]:
     yield (
         f"any positive spectrum leaves at least {found.fit.consistency_floor:.1%} rms of both: that much the data "
-        "contradict themselves"
+        "scatter or contradict themselves"
     )
+    if found.entropic_floor is not None:
+        yield (
+            "  with the vertical shift of an entropic network, b_T = T/T_ref, it would leave "
+            f"{found.entropic_floor:.1%}: try --vertical"
+        )
     known = found.consistency
     if known is None:
         yield "  Kramers-Kronig: not tested, the window has too few rows beyond a decade from its ends"

@@ -1,0 +1,1 @@
+"""From files of a laboratory to a compound, the page that is signed, and the input of other programs."""

@@ -1,0 +1,289 @@
+"""From laboratory files to a compound: master curve, fit, band, shift, strain, provenance, and what is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from conveyor.arguments import checked
+from conveyor.errors import InputError
+from conveyor.fitting.described import add_shift, as_fitted, mega, of_series, strain_of
+from conveyor.fitting.laying import (
+    kelvin_of,
+    laid_out,
+    law_maker,
+    laws_of,
+    master_curve_of,
+    reference_of,
+    stored_law,
+)
+from conveyor.fitting.request import Request
+from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
+from conveyor.laboratory import DmaData
+from conveyor.laboratory.answered import read_answered
+from conveyor.laboratory.findings import check_findings
+from conveyor.models import RubberCompound
+from conveyor.rubber import (
+    WLF,
+    Arrhenius,
+    KramersKronig,
+    PronyFit,
+    PronySeries,
+    ShiftComparison,
+    Superposition,
+    bootstrap,
+    fit_prony,
+    kramers_kronig,
+    testable,
+)
+from conveyor.rubber.fit import consistency_floor
+from conveyor.rubber.term_count import NO_SUPPORT
+
+__all__ = ["Fitted", "Request", "Tabulated", "fit_file", "from_files"]
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A compound and everything needed to judge it.
+
+    Attributes
+    ----------
+    compound : RubberCompound
+        As the shelf holds it.
+    fit : PronyFit
+        Series, errors, criterion.
+    consistency : KramersKronig or None
+        Whether E' and E'' belong together.
+    superposition : Superposition or None
+        Where isotherms were shifted.
+    laws : tuple of ShiftComparison
+        Table, WLF and Arrhenius on the shifts, the best first; empty without shifts.
+    understood : tuple of str
+        What was read from each file, one sentence a decision.
+    entropic_floor : float or None
+        What the best positive spectrum would leave if a master curve had the vertical shift of an entropic network,
+        where that is told from none [-].
+    rows : MeasuredRows
+        Every row as measured, with its shift.
+    files : tuple of str
+        That the rows are numbered by.
+    metadata : mapping of str to str
+        What the files state of themselves.
+    """
+
+    compound: RubberCompound
+    fit: PronyFit
+    consistency: KramersKronig | None
+    superposition: Superposition | None
+    laws: tuple[ShiftComparison, ...]
+    understood: tuple[str, ...]
+    entropic_floor: float | None
+    rows: MeasuredRows
+    files: tuple[str, ...]
+    metadata: Mapping[str, str]
+
+
+@dataclass(frozen=True, eq=False)
+class Tabulated:
+    """A compound of a Prony table, and what was read of it."""
+
+    compound: RubberCompound
+    understood: tuple[str, ...]
+
+
+@checked
+def from_files(data: Path | Sequence[Path], request: Request) -> Fitted | Tabulated:
+    """Make a compound of what the files hold: a Prony table as it stands, anything else by `fit_file`.
+
+    Parameters
+    ----------
+    data : Path or sequence of Path
+        A file alone, or the files of one rubber.
+    request : Request
+        What they are to become; of a table name, reference, shift, strain, ν and equilibrium modulus.
+
+    Raises
+    ------
+    InputError
+        As `fit_file`; a table whose equilibrium modulus is not known or not > 0.
+    NoSolutionError
+        No solid fits the data.
+    """
+    paths = [data] if isinstance(data, Path) else list(data)
+    if len(paths) > 1:
+        return fit_file(paths, request)
+    several = request.shift is not None or request.strain is not None
+    read = read_answered(paths[0], request.reading, poisson_ratio=request.poisson_ratio, several=several)
+    return _tabulated(read, request) if read.kind == "Prony series" else fit_file(paths, request)
+
+
+def _tabulated(read: DmaData, request: Request) -> Tabulated:
+    if read.time is None or read.modulus is None:
+        raise InputError(f"{read.source}: holds no relaxation times with their moduli")
+    equilibrium = request.equilibrium
+    if equilibrium is None:
+        if read.instantaneous is None:
+            raise InputError(
+                f"{read.source}: E_e is not stated: add a column 'E_0 [MPa]', or give --instantaneous or --equilibrium"
+            )
+        equilibrium = read.instantaneous - float(np.sum(read.modulus))
+        if equilibrium <= 0.0:
+            raise InputError(
+                f"{read.source}: the moduli add up to more than E_0 = {mega(read.instantaneous, 6)}"
+            )
+    shifts = None if request.shift is None else _of_kind(request.shift, "shift factors", request)
+    strains = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
+    series = PronySeries(equilibrium, read.modulus, read.time)
+    window = tuple(1.0 / (2.0 * np.pi * float(t)) for t in (np.max(read.time), np.min(read.time)))
+    described = of_series([read], request, reference_of([read], request), series, window)
+    described["missing"] = ["the measurement behind the table", "density"]
+    add_shift(described, None, shifts, _law_of_table(shifts, described, request))
+    if strains is not None:
+        described["strain_dependence"] = strain_of(request, strains)
+    return Tabulated(
+        _compound(described, Path((shifts or read).source)),
+        tuple(
+            f"{Path(each.source).name}: {line}"
+            for each in (read, shifts, strains)
+            if each
+            for line in each.understood
+        ),
+    )
+
+
+def _law_of_table(
+    shifts: DmaData | None, described: Mapping[str, Any], request: Request
+) -> WLF | Arrhenius | None:
+    reference = kelvin_of(described["reference_temperature"])
+    return stored_law(laws_of(None, shifts, reference), reference, request)
+
+
+@checked
+def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
+    """Fit the files of one rubber and describe the result as a compound.
+
+    Parameters
+    ----------
+    data : Path or sequence of Path
+        One master curve, or isotherms, sweeps at one temperature, relaxation curves and temperature sweeps in any
+        number of files; files of shift factors and strain sweeps among them are taken as `shift` and `strain`. Of
+        any layout `conveyor.laboratory.read_dma` understands.
+    request : Request
+        What they are to become.
+
+    Raises
+    ------
+    InputError
+        A file is refused or of another kind, or a value is missing or outside its range.
+    NoSolutionError
+        No solid fits the data.
+    """
+    paths = [data] if isinstance(data, Path) else list(data)
+    read, shifts, strains, said = _read(paths, request)
+    if request.terms_per_decade is not None and not 0.1 <= request.terms_per_decade <= 20.0:
+        raise InputError(f"--terms-per-decade: got {request.terms_per_decade:g}, allowed: >= 0.1 and <= 20")
+    reference = reference_of(read, request)
+    rows, superposition, told = laid_out(read, shifts, reference, request)
+    f, e1, e2 = rows.curve
+    place = ", ".join(each.source for each in read)
+    accepted = check_findings(place, (f, e1, e2), request.accept, 2.0 * (1.0 + request.poisson_ratio))
+    fit = fit_prony(
+        f, e1, e2, terms_per_decade=request.terms_per_decade, equilibrium=request.equilibrium,
+        storage_error=request.storage_error, loss_error=request.loss_error,
+    )  # fmt: skip
+    laws = laws_of(superposition, shifts, kelvin_of(reference))
+    law = stored_law(laws, kelvin_of(reference), request)
+    advised = _entropic_floor(read, shifts, fit, reference, request)
+    if request.vertical and superposition is None and shifts is not None and shifts.temperature is not None:
+        shifts = replace(shifts, log10_b_T=np.log10(shifts.temperature / kelvin_of(reference)))
+    maker = None if law is None or superposition is None else law_maker(superposition, law)
+    band = None
+    if request.replicas:
+        band = bootstrap(fit, superposition, rows.temperature, law=maker, replicas=request.replicas)
+    described = as_fitted(read, request, (reference, fit), band)
+    described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted, *said, *told])
+    add_shift(described, superposition, shifts, law)
+    if strains is not None:
+        described["strain_dependence"] = strain_of(request, strains)
+        described["missing"].remove("strain dependence")
+    files = [file for file in (*read, shifts, strains) if file is not None]
+    return Fitted(
+        compound=_compound(described, Path((shifts or read[0]).source)),
+        fit=fit,
+        consistency=kramers_kronig(f, e1, e2) if testable(f) else None,
+        superposition=superposition,
+        laws=laws,
+        understood=(
+            *(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
+            *(*said, *told, *accepted),
+        ),
+        entropic_floor=advised,
+        rows=rows,
+        files=tuple(Path(each.source).name for each in read),
+        metadata={key: value for each in reversed(files) for key, value in each.metadata.items()},
+    )
+
+
+def _entropic_floor(
+    read: Sequence[DmaData], shifts: DmaData | None, fit: PronyFit, reference: str, request: Request
+) -> float | None:
+    """`Fitted.entropic_floor`, where AICc leaves none without support."""
+    curve = master_curve_of(read)
+    if curve is None or shifts is None or shifts.log10_b_T is not None or request.vertical:
+        return None
+    f, storage, loss = moduli_of(curve)
+    b = 10.0 ** entropic(curve, shifts, kelvin_of(reference))
+    left = consistency_floor(f, storage / b, loss / b)
+    better = 4.0 * f.size * np.log(fit.consistency_floor / left)
+    return left if better > NO_SUPPORT else None
+
+
+def _read(
+    paths: Sequence[Path], request: Request
+) -> tuple[list[DmaData], DmaData | None, DmaData | None, tuple[str, ...]]:
+    """Files of curves, shift factors, strain sweeps; what was left out."""
+    several = len(paths) > 1 or request.shift is not None or request.strain is not None
+    files = [
+        read_answered(p, request.reading, poisson_ratio=request.poisson_ratio, several=several) for p in paths
+    ]
+    curves = [file for file in files if file.kind in CURVES or len(files) == 1]
+    others: dict[str, list[DmaData]] = {"shift factors": [], "strain sweep": []}
+    for file in files:
+        if file not in curves and file.kind not in others:
+            raise InputError(f"{file.source}: holds a {file.kind}; it is read alone, not beside other files")
+        if file not in curves:
+            others[file.kind].append(file)
+    for kind, path in (("shift factors", request.shift), ("strain sweep", request.strain)):
+        if path is not None:
+            others[kind].append(_of_kind(path, kind, request))
+        if len(others[kind]) > 1:
+            raise InputError(f"{others[kind][1].source}: a second file of {kind}; give one")
+    if not curves:
+        raise InputError(
+            f"{paths[0]}: no file holds a master curve, isotherms, relaxation or a temperature sweep"
+        )
+    kept, said = without(curves, request.exclude)
+    shifts, strains = (next(iter(others[kind]), None) for kind in others)
+    return kept, shifts, strains, said
+
+
+def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
+    """The compound; what contradicts itself in its shift is a matter of the file the shift came from."""
+    try:
+        return RubberCompound.from_data(described)
+    except InputError as error:
+        if not str(error).startswith("shift"):
+            raise
+        raise InputError(f"{shifted_by}: {error}") from None
+
+
+def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
+    answers = {key: value for key, value in request.reading.items() if key not in {"kind", "sheet"}}
+    read = read_answered(path, answers, poisson_ratio=request.poisson_ratio, several=True)
+    if read.kind != kind:
+        raise InputError(f"{path}: holds {read.kind}, {kind} are needed here")
+    return read

@@ -1,0 +1,195 @@
+"""A fit as a compound file says it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import InputError
+from conveyor.fitting.request import Request
+from conveyor.laboratory import DmaData
+from conveyor.rubber import WLF, Arrhenius, PronyFit, PronySeries, ReplicaBand, ShiftLaw, Superposition
+from conveyor.rubber.band import METHOD
+from conveyor.units.sentences import ZERO_CELSIUS
+
+Array = NDArray[np.float64]
+
+DIGITS = 12
+"""Of a series in a compound file: read back, it is the fit to 1e-11."""
+_BAND_DIGITS = 6  # the band is known to one or two
+_ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
+_UNKNOWN = "not stated"
+_FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run of one
+
+
+def as_fitted(
+    read: Sequence[DmaData],
+    request: Request,
+    found: tuple[str, PronyFit],
+    band: ReplicaBand | None,
+) -> dict[str, Any]:
+    """What a compound file says of a fit at its reference temperature, with its band."""
+    reference, fit = found
+    described = of_series(read, request, reference, fit.series, fit.window)
+    if band is not None:
+        described["prony"]["band"] = _band(band)
+    described["fit"] = {
+        "storage_rms": _six(round(fit.storage.rms, _ERROR_DECIMALS)),
+        "loss_rms": _six(round(fit.loss.rms, _ERROR_DECIMALS)),
+        "storage_worst": _six(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
+        "loss_worst": _six(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
+        "method": _method(fit, request),
+    }
+    described["missing"] = ["strain dependence", "density"]
+    return described
+
+
+def of_series(
+    read: Sequence[DmaData], request: Request, reference: str, series: PronySeries, window: Sequence[float]
+) -> dict[str, Any]:
+    """What a compound file says of a series at its reference temperature."""
+    stated = {key: value for each in reversed(read) for key, value in each.metadata.items()}
+    prony: dict[str, Any] = {
+        "equilibrium": mega(series.equilibrium),
+        "terms": [
+            {"modulus": mega(modulus), "time": f"{time:.{DIGITS}g} s"}
+            for modulus, time in zip(series.moduli, series.times, strict=True)
+        ],
+    }
+    return {
+        "name": request.name,
+        "kind": "measured",
+        "source": {
+            "origin": stated.get("origin", _UNKNOWN),
+            "licence": stated.get("licence", _UNKNOWN),
+            "data": ", ".join(Path(each.source.partition("[")[0]).name for each in read),
+        },
+        "poisson_ratio": request.poisson_ratio,
+        "strain": stated.get("strain", _UNKNOWN),
+        "reference_temperature": reference,
+        "prony": prony,
+        "range": {
+            "frequency": [f"{limit:.{DIGITS}g} Hz" for limit in window],
+            "temperature": [reference] * 2,
+        },
+    }
+
+
+def mega(modulus: float, digits: int = DIGITS) -> str:
+    """A modulus [Pa] as it is written."""
+    return f"{modulus / 1e6:.{digits}g} MPa"
+
+
+def _six(value: float) -> float:
+    return float(f"{value:.6g}")
+
+
+def _band(band: ReplicaBand) -> dict[str, Any]:
+    described: dict[str, Any] = {
+        "method": METHOD,
+        "equilibrium": [mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
+        "unit": "MPa",
+        "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
+    }
+    shifts = {"log10_aT": band.log10_a_T, "log10_bT": band.log10_b_T}
+    described |= {
+        key: [[_six(y) for y in row] for row in rows] for key, rows in shifts.items() if rows is not None
+    }
+    return described | ({"shift": [_law(law, _BAND_DIGITS) for law in band.laws]} if band.laws else {})
+
+
+def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
+    """A formula of a_T."""
+    if isinstance(law, WLF):
+        return {"law": "wlf", "c1": float(f"{law.c1:.{digits}g}"), "c2": f"{law.c2:.{digits}g} K"}
+    if isinstance(law, Arrhenius):
+        return {"law": "arrhenius", "activation_energy": f"{law.activation_energy / 1e3:.{digits}g} kJ/mol"}
+    raise TypeError(type(law).__name__)
+
+
+def _method(fit: PronyFit, request: Request) -> str:
+    equilibrium = "free" if request.equilibrium is None else "held"
+    left = f"leaves {fit.residual:.1%} rms of both, the best positive spectrum of all {fit.consistency_floor:.1%}"
+    if request.terms_per_decade is not None:
+        return (
+            f"NNLS on relative errors of E' and E'', {request.terms_per_decade:g} times per decade inside the data "
+            f"window, equilibrium {equilibrium}; {left}"
+        )
+    scatter = (
+        ""
+        if fit.storage_noise is None or fit.loss_noise is None
+        else f"; scatter of the data from row to row {fit.storage_noise:.1%} (E') and {fit.loss_noise:.1%} (E'')"
+    )
+    return (
+        f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "
+        f"per decade to a decade beyond the data window and penalty {fit.regularisation:g} on the curvature of the "
+        f"spectrum by AICc, outliers without weight, equilibrium {equilibrium}; {left}{scatter}"
+    )
+
+
+def add_shift(
+    described: dict[str, Any],
+    superposition: Superposition | None,
+    shifts: DmaData | None,
+    law: WLF | Arrhenius | None,
+) -> None:
+    """Shift table and the range of temperature that it opens."""
+    vertical: Array | None = None
+    if superposition is not None:
+        kelvin, decades = superposition.temperatures, superposition.log10_a_T
+        vertical = superposition.log10_b_T if np.any(superposition.log10_b_T) else None
+    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
+        kelvin, decades, vertical = shifts.temperature, shifts.log10_a_T, shifts.log10_b_T
+    else:
+        described["missing"].append("temperature shift: known at the reference temperature only")
+        return
+    order = np.argsort(kelvin)
+    temperatures = [f"{t - ZERO_CELSIUS:.{DIGITS}g} degC" for t in kelvin[order]]
+    described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
+    if law is not None:
+        described["shift"] = _law(law, DIGITS)
+        described["missing"].append("vertical shift (none applied)")
+        return
+    described["shift"] = {
+        "law": "table",
+        "temperature": temperatures,
+        "log10_aT": [float(f"{y:.{DIGITS}g}") for y in decades[order]],
+    }
+    if vertical is None:
+        described["missing"].append("vertical shift (none applied)")
+    else:
+        described["shift"]["log10_bT"] = [float(f"{y:.{DIGITS}g}") for y in vertical[order]]
+
+
+def strain_of(request: Request, sweeps: DmaData) -> dict[str, Any]:
+    """Strain dependence: runs of four rows and more; shorter ones are strays."""
+    if request.reference_strain is None:
+        raise InputError(
+            f"{request.strain}: at which strain was the master curve measured? Give it, e.g. "
+            '--reference-strain "0.1 %"; everything is counted from it'
+        )
+    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= _FEWEST_STRAINS]
+    if not runs or any(run.temperature is None or run.frequency is None for run in runs):
+        raise InputError(
+            f"{request.strain}: sweeps of four strains and more, each at a stated temperature and frequency"
+        )
+    return {
+        "reference_strain": request.reference_strain,
+        "reference_note": sweeps.metadata.get("reference_strain", ""),
+        "source": Path(sweeps.source).name,
+        "sweeps": [
+            {
+                "temperature": f"{(run.temperature or 0.0) - ZERO_CELSIUS:.6g} degC",
+                "frequency": f"{run.frequency:.6g} Hz",
+                "strain": [_six(100.0 * strain) for strain in run.strain],
+                "unit": "MPa",
+                "storage": [_six(modulus / 1e6) for modulus in run.storage],
+                "loss": [_six(modulus / 1e6) for modulus in run.loss],
+            }
+            for run in runs
+        ],
+    }

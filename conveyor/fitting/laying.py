@@ -1,0 +1,261 @@
+"""Which temperature, shift and law each file of one rubber is laid on the master curve by."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
+
+import numpy as np
+
+from conveyor.errors import InputError
+from conveyor.fitting.described import DIGITS, Array
+from conveyor.fitting.request import Request
+from conveyor.fitting.rows import CURVES, MeasuredRows, Sweep, entropic, laid, overridden, sweeps
+from conveyor.laboratory import DmaData
+from conveyor.laboratory.groups import ISOTHERM_GAP
+from conveyor.rubber import (
+    WLF,
+    Arrhenius,
+    ShiftComparison,
+    ShiftLaw,
+    ShiftTable,
+    Superposition,
+    compare_shift_laws,
+    fit_arrhenius,
+    fit_wlf,
+    superpose,
+)
+from conveyor.rubber.shift_laws import LEAST_TEMPERATURES
+from conveyor.rubber.strain import SAME_TEMPERATURE
+from conveyor.units import in_si
+from conveyor.units.sentences import ZERO_CELSIUS, celsius
+
+_REFERENCE_NAMES = frozenset(
+    {
+        "referencetemperature",
+        "referencetemp",
+        "reftemperature",
+        "tref",
+        "referenztemperatur",
+        "bezugstemperatur",
+    }
+)
+_NUMBER = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
+_SMALLEST_ERROR = (
+    1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
+)
+
+
+def laid_out(
+    read: Sequence[DmaData], shifts: DmaData | None, reference: str, request: Request
+) -> tuple[MeasuredRows, Superposition | None, tuple[str, ...]]:
+    """Every row with its shift, the superposition of isotherms, and what was done."""
+    for each in read:
+        if each.kind not in CURVES:
+            raise InputError(
+                f"{each.source}: holds a {each.kind}; a master curve or isotherms with E' and E'' over frequency are "
+                "needed"
+            )
+    kelvin, whole = kelvin_of(reference), master_curve_of(read)
+    ramps = [(k, each) for k, each in enumerate(read) if each.kind == "temperature sweep"]
+    stated = {k: kelvin_of(t) for k, each in enumerate(read) for _, t in _stated(each)}
+    parts, said = ([], ()) if whole else sweeps(read, {0: kelvin} | stated if len(read) == 1 else stated)
+    if request.vertical and whole is None and len(parts) < 2:
+        raise InputError(f"{read[0].source}: --vertical shifts isotherms; this file holds a {read[0].kind}")
+    superposition = None
+    dynamic = [part for part in parts if read[part.file].kind != "relaxation"]
+    chain = dynamic if len(dynamic) > 1 else parts
+    if len(chain) > 1:
+        isotherms = [part.isotherm for part in chain]
+        superposition = superpose(isotherms, kelvin, vertical=request.vertical, by=request.by)
+        if shifts is not None:
+            superposition, told = overridden(superposition, shifts)
+            said += told
+        _check_order(read, chain, superposition, request.by)
+        for part in parts:
+            low, high = superposition.temperatures[0], superposition.temperatures[-1]
+            if part not in chain and (request.vertical or not low <= part.isotherm.temperature <= high):
+                raise InputError(
+                    f"{read[part.file].source}:{part.first_row}: relaxation beside isotherms is laid by their shift "
+                    f"factors, {celsius(low):.0f} to {celsius(high):.0f} degC, without vertical shift; fit it alone, "
+                    "or leave it out"
+                )
+    law = _law(superposition, shifts, kelvin, request) if superposition is not None or ramps else None
+    if law is None and any(part.isotherm.temperature != kelvin for part in parts):
+        raise InputError(f"{read[0].source}: one sweep; the reference is its temperature, leave out --at")
+    curve = None
+    if whole is not None:
+        b = 0.0 if not request.vertical else entropic(whole, shifts, kelvin)
+        curve = (read.index(whole), kelvin, whole, b)
+    rows, told = laid(parts, ramps, law, superposition, curve)
+    return rows, superposition, (*said, *told)
+
+
+def master_curve_of(read: Sequence[DmaData]) -> DmaData | None:
+    """The file that is a master curve as it stands: the only one beside temperature sweeps."""
+    curves = [each for each in read if each.kind != "temperature sweep"]
+    return curves[0] if len(curves) == 1 and curves[0].kind == "master curve" else None
+
+
+def _law(
+    superposition: Superposition | None, shifts: DmaData | None, reference: float, request: Request
+) -> ShiftLaw | None:
+    """The law that rows are laid by: the one asked for, of the shifts found or given; None without shifts."""
+    stored = stored_law(laws_of(superposition, shifts, reference), reference, request)
+    if stored is not None:
+        return stored
+    if superposition is not None:
+        return ShiftTable(superposition.temperatures, superposition.log10_a_T, reference)
+    if shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
+        return ShiftTable(shifts.temperature, shifts.log10_a_T, reference)
+    return None
+
+
+def stored_law(laws: Sequence[ShiftComparison], reference: float, request: Request) -> WLF | Arrhenius | None:
+    """The formula that a person chose in place of the table, at the reference [K]."""
+    if request.law == "table":
+        return None
+    if request.vertical:
+        raise InputError(
+            f"--law {request.law}: it has no vertical shift; keep the table, or leave out --vertical"
+        )
+    if not laws:
+        raise InputError(
+            f"--law {request.law}: shifts at {LEAST_TEMPERATURES} temperatures and more are needed"
+        )
+    (found,) = (law for law in laws if law.name.lower() == request.law)
+    if isinstance(found.law, WLF | Arrhenius):
+        return _moved(found.law, reference)
+    raise InputError(f"--law {request.law}: the shifts do not follow it: {found.remark}")
+
+
+def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
+    """The same law, with a_T = 1 at another temperature [K]."""
+    if isinstance(law, Arrhenius):
+        return Arrhenius(law.activation_energy, reference)
+    c2 = law.c2 + reference - law.reference
+    return WLF(law.c1 * law.c2 / c2, c2, reference)
+
+
+def law_maker(found: Superposition, law: WLF | Arrhenius) -> Callable[[Array], WLF | Arrhenius]:
+    """What makes a law of the same kind of other log10 a_T at the temperatures of the isotherms, as `laws_of` does."""
+    kelvin, fit = found.temperatures, fit_wlf if isinstance(law, WLF) else fit_arrhenius
+    nearest = int(np.argmin(np.abs(kelvin - law.reference)))
+    error = np.maximum(found.log10_a_T_error, _SMALLEST_ERROR)
+
+    def made(decades: Array) -> WLF | Arrhenius:
+        return _moved(
+            fit(kelvin, decades - decades[nearest], kelvin[nearest], error=error).law, law.reference
+        )
+
+    return made
+
+
+def reference_of(read: Sequence[DmaData], request: Request) -> str:
+    """Reference temperature: given, or stated by a file; one that contradicts the other is refused."""
+    given = request.reference_temperature
+    if given is not None:
+        kelvin_of(given)
+    whole = master_curve_of(read)
+    if whole is None and (len(read) > 1 or read[0].kind == "isotherms"):
+        stated = [text for each in read if each.kind == "isotherms" for _, text in _stated(each)]
+        if given or stated:
+            return given or stated[0]
+        told = {k: kelvin_of(text) for k, each in enumerate(read) for _, text in _stated(each)}
+        middle = sorted(part.isotherm.temperature for part in sweeps(read, told)[0])
+        if middle:
+            return f"{middle[len(middle) // 2] - ZERO_CELSIUS:.{DIGITS}g} degC"
+    one = whole or read[0]
+    if one.kind == "temperature sweep" and given is None:
+        raise InputError(f"{one.source}: a temperature sweep needs isotherms beside it, or --shift and --at")
+    told_of = [*_stated(one), *([] if given is None else [("--at", given)])]
+    if not told_of:
+        raise InputError(
+            f'{one.source}: the temperature of the master curve is not stated; give it, e.g. --at "20 degC", or write '
+            '"# reference_temperature: 20 degC" into the file'
+        )
+    place, first = told_of[0]
+    for other, temperature in told_of[1:]:
+        if abs(kelvin_of(temperature) - kelvin_of(first)) > SAME_TEMPERATURE:
+            raise InputError(
+                f"{place}: the temperature is {first}, but {other} says {temperature}: "
+                + ("leave out --at, or correct the file" if other == "--at" else "correct one of them")
+            )
+    return given or first
+
+
+def kelvin_of(temperature: str, place: str = "--at") -> float:
+    """A written temperature [K], refused below absolute zero."""
+    kelvin = in_si(temperature, "temperature")
+    if kelvin <= 0.0:
+        raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
+    return kelvin
+
+
+def _stated(read: DmaData) -> Iterator[tuple[str, str]]:
+    """Where a file states the temperature of its curve, and which: a remark, a column that does not vary."""
+    data = read.source.partition("[")[0]
+    for key, value in read.metadata.items():
+        if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or not re.search(r"\d", value):
+            continue
+        number = _NUMBER.match(value)
+        place = f'{data}:{read.metadata_rows[key]}: "{key}"'
+        if number is None or number[2] is None:
+            raise InputError(
+                f'{place}: {value[:40]!r} is no temperature with its unit; write it as in "40 degC"'
+            )
+        temperature = f"{number[1].replace(',', '.')} {number[2].replace('°', 'deg')}"
+        kelvin_of(temperature, place)
+        yield place, temperature
+    constant = read.kind in {"master curve", "relaxation"} and read.temperature is not None
+    if constant and read.temperature is not None and float(np.ptp(read.temperature)) <= ISOTHERM_GAP:
+        mean = float(np.mean(read.temperature)) - ZERO_CELSIUS
+        yield f"{data}:{read.row_numbers[0]}: column of the temperature", f"{mean:.{DIGITS}g} degC"
+
+
+def _check_order(read: Sequence[DmaData], parts: Sequence[Sweep], found: Superposition, by: str) -> None:
+    """Refuse shifts that do not fall with temperature, with the exchange of two temperatures that would mend them."""
+    shifts = found.log10_a_T
+    rising = np.flatnonzero(np.diff(shifts) >= 0.0)
+    if not rising.size:
+        return
+    names = [f"{celsius(t):.2f} degC" for t in found.temperatures.tolist()]
+    ordered = sorted(parts, key=lambda part: part.isotherm.temperature)
+    rows, cold = [part.first_row for part in ordered], int(rising[0])
+    advice = (
+        "its rows may carry another temperature, or the isotherms are too alike to be placed; correct the "
+        "temperatures, or leave one out"
+    )
+    for i, j in combinations(range(shifts.size), 2):
+        order = np.arange(shifts.size)
+        order[[i, j]] = j, i
+        if np.all(np.diff(shifts[order]) < 0.0):
+            advice = (
+                f"with the temperatures of the isotherms at {names[i]} (from row {rows[i]} on) and {names[j]} "
+                f"(from row {rows[j]} on) exchanged all shifts fall: are they exchanged in the file?"
+            )
+            break
+    if by != "both":
+        advice += f" Or place them by both moduli, without --by {by}"
+    place = f"{read[ordered[cold + 1].file].source}:{rows[cold + 1]}"
+    raise InputError(
+        f"{place}: the isotherm at {names[cold + 1]} lies on the master curve as if it were colder "
+        f"than the one at {names[cold]} (log10 a_T {shifts[cold + 1]:+.3f} and {shifts[cold]:+.3f}); {advice}"
+    )
+
+
+def laws_of(
+    superposition: Superposition | None, shifts: DmaData | None, reference: float
+) -> tuple[ShiftComparison, ...]:
+    """How well each law follows the shifts; with too few of them none can be judged."""
+    if superposition is not None:
+        kelvin, decades = superposition.temperatures, superposition.log10_a_T
+        error = np.maximum(superposition.log10_a_T_error, _SMALLEST_ERROR)
+    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
+        kelvin, decades, error = shifts.temperature, shifts.log10_a_T, None
+    else:
+        return ()
+    if kelvin.size < LEAST_TEMPERATURES:
+        return ()
+    return compare_shift_laws(kelvin, decades, reference, error=error)

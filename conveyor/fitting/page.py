@@ -1,0 +1,84 @@
+"""The page that a laboratory signs: the verdict on one sheet, figures and glossary behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import date
+from typing import Final
+
+from conveyor.files import marks
+from conveyor.fitting import tables
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.figures import figures
+from conveyor.fitting.verdict import GLOSSARY, Criterion, passed
+from conveyor.markup import Html, element, joined
+from conveyor.models.report import Paper
+from conveyor.report.page import Part, bullets, facts, page, table
+from conveyor.report.page import verdict as mark
+from conveyor.report.svg import figure, inline
+
+_LINE: Final = "flex: 1; border-top: 1px solid; padding-top: .2rem; margin-top: 2.6rem"
+
+
+def build(
+    found: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
+) -> Html:
+    """Return the page of a fit.
+
+    Parameters
+    ----------
+    found : Fitted
+        The fit.
+    criteria : sequence of Criterion
+        Of `conveyor.fitting.verdict.verdict`.
+    document : mapping of str to str
+        Laboratory, number, specimen, instrument, method, measured, by; what is left out and what the files do not
+        state stays blank, to be written by hand.
+    paper : {"A4", "Letter"}
+        To print on.
+    """
+    stated = {key.lower(): value for key, value in found.metadata.items()}
+    said = [(name, document.get(name) or stated.get(name) or Html("&nbsp;")) for name in tables.DOCUMENT]
+    compound = found.compound
+    drawn = [figure(inline(made, f"fit-{name}", caption), caption) for name, caption, made in figures(found)]
+    parts = (
+        Part("verdict", "Verdict", _verdict(found, criteria)),
+        Part("figures", "Figures", joined(drawn)),
+        Part("tables", "Shifts and files", joined(_tables(found))),
+        Part("read", "What was read and done", element("div", bullets(found.understood), class_="note")),
+        Part("unknown", "Not known", bullets(compound.missing)),
+        Part("glossary", "Glossary", _glossary()),
+    )
+    return page(
+        compound.name, "Master curve of a rubber", facts(said, "facts document"), parts,
+        f"{marks.maker()}, {date.today().isoformat()}", paper=paper,
+    )  # fmt: skip
+
+
+def _verdict(found: Fitted, criteria: Sequence[Criterion]) -> Html:
+    """The verdict, its criteria, what the compound is, and lines to sign on: the first sheet."""
+    count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
+    counted = joined(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
+    word = "pass" if passed(tuple(criteria)) else "FAIL"
+    line = element("p", element("strong", "Master curve: "), mark(word), Html("&ensp; Criteria: "), counted)
+    shown = table(tables.judged(criteria), "Every criterion, and what it requires")
+    names = ("measured by, date", "approved by, date")
+    signed = element(
+        "div",
+        *(element("div", name, style=_LINE) for name in names),
+        style="display: flex; gap: 3rem",
+        class_="keep",
+    )
+    sheet = element("div", line, facts(tables.facts(found)), shown, signed, style="break-after: page")
+    return joined([sheet])
+
+
+def _tables(found: Fitted) -> list[Html]:
+    """Tables behind the figures, with their headings as captions."""
+    every = (tables.shifts(found), tables.laws(found), tables.files(found))
+    return [table(shown, shown.heading) for shown in every if not shown.empty]
+
+
+def _glossary() -> Html:
+    said = ((element("dt", element("strong", term)), element("dd", words)) for term, words in GLOSSARY)
+    return element("dl", *(element("div", *both, class_="keep") for both in said), style="columns: 18rem")

@@ -1,0 +1,166 @@
+"""Every table of a fit, declared once: those of the page that is signed, and the rest of the workbook."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from operator import attrgetter, itemgetter
+from typing import Final
+
+import numpy as np
+
+from conveyor.files import marks
+from conveyor.fitting.compound import Fitted
+from conveyor.fitting.verdict import GLOSSARY, Criterion, kept
+from conveyor.models.report import Paper
+from conveyor.report.columns import Column, Contents, ReportHead, Table
+from conveyor.units.sentences import celsius
+
+DOCUMENT: Final = ("laboratory", "number", "specimen", "instrument", "method", "measured", "by")
+"""What is said of the document: given, or stated by the files under these names."""
+
+
+def of_fit(
+    found: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
+) -> Contents:
+    """Return every table of a fit.
+
+    Parameters
+    ----------
+    found : Fitted
+        The fit.
+    criteria : sequence of Criterion
+        Of `conveyor.fitting.verdict.verdict`.
+    document : mapping of str to str
+        Laboratory, number, specimen, instrument, method, measured, by; what is left out the files may state.
+    paper : {"A4", "Letter"}
+        To print on.
+    """
+    stated = {key.lower(): value for key, value in found.metadata.items()}
+    said = {name: words for name in DOCUMENT if (words := document.get(name) or stated.get(name))}
+    pairs = (("what", itemgetter(0)), ("words", itemgetter(1)))
+    plain = tuple(Column(label, "text", get) for label, get in pairs)
+    parts = (
+        judged(criteria),
+        Table("about", "Verdict", "The master curve", plain, (*said.items(), *facts(found))),
+        shifts(found), laws(found), files(found), master_curve(found), series(found),
+        Table("read", "Read and done", "What was read and done", plain[1:], tuple(("", w) for w in found.understood)),
+        Table("unknown", "Read and done", "Not known", plain[1:], tuple(("", w) for w in found.compound.missing)),
+        Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
+        Table("provenance", "Read and done", "Made by", plain[1:], (("", marks.maker()),)),
+    )  # fmt: skip
+    head = ReportHead(found.compound.name, "Master curve of a rubber", said, "", paper)
+    return Contents(head, tuple(part for part in parts if not part.empty), "SI")
+
+
+def judged(criteria: Sequence[Criterion]) -> Table:
+    """One row a criterion."""
+    columns = (
+        Column("criterion", "text", attrgetter("name")),
+        Column("calculated", "text", attrgetter("calculated")),
+        Column("required", "text", attrgetter("required")),
+        Column("verdict", "verdict", attrgetter("verdict")),
+        Column("what it says", "text", attrgetter("why")),
+    )
+    return Table("criteria", "Verdict", "Criteria", columns, tuple(criteria))
+
+
+def facts(found: Fitted) -> list[tuple[str, str]]:
+    """What a reader asks first, in words."""
+    fit, compound = found.fit, found.compound
+    low, high = fit.window
+    law = kept(found).name if found.laws else "none"
+    kelvin = () if compound.range is None else compound.range.kelvin
+    return [
+        ("window", f"{low:.2g} to {high:.2g} Hz at {celsius(compound.reference):.4g} °C"),
+        ("temperatures", " to ".join(f"{celsius(t):.0f} °C" for t in dict.fromkeys(kelvin))),
+        ("shift law kept", law),
+        ("rows", f"{found.rows.frequency.size} of {len(found.files)} file{'s' * (len(found.files) > 1)}"),
+        ("terms", f"{fit.active_terms}, E_e {fit.series.equilibrium / 1e6:.3g} MPa"),
+        ("error of the series, rms", f"E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}"),
+        ("strain", compound.strain or "not stated"),
+        ("Poisson's ratio", f"{compound.poisson_ratio:g}"),
+    ]
+
+
+def shifts(found: Fitted) -> Table:
+    """Shift factors of isotherms; no rows without them."""
+    shifted = found.superposition
+    columns = ("temperature", "log10 a_T", "standard error", "log10 b_T")
+    kinds = ("temperature", "decades", "decades", "decades")
+    rows: list[tuple[float, ...]] = []
+    if shifted is not None:
+        arrays = (shifted.temperatures, shifted.log10_a_T, shifted.log10_a_T_error, shifted.log10_b_T)
+        rows = [tuple(row) for row in np.array(arrays).T.tolist()]
+    return Table("shifts", "Shifts", "Shift factors found", _numbered(columns, kinds), rows)
+
+
+def laws(found: Fitted) -> Table:
+    """How well each law follows the shifts."""
+    columns = (
+        Column("law", "text", attrgetter("name")),
+        Column("rms", "decades", attrgetter("rms")),
+        Column("worst", "decades", attrgetter("worst")),
+        Column("at", "temperature", attrgetter("worst_temperature")),
+        Column("a shift left out is missed by", "decades", attrgetter("left_out")),
+        Column("remark", "text", attrgetter("remark")),
+    )
+    return Table(
+        "laws", "Shifts", "Shift laws", columns, tuple(law for law in found.laws if law.law is not None)
+    )
+
+
+def files(found: Fitted) -> Table:
+    """Error of the series, file by file."""
+
+    def rms(which: int, number: int) -> float:
+        return float(np.sqrt(np.mean(found.fit.errors[which][found.rows.file == number] ** 2)))
+
+    columns = (
+        Column("file", "text", lambda k: found.files[k]),
+        Column("rows", "count", lambda k: int(np.count_nonzero(found.rows.file == k))),
+        Column("E', rms", "share", lambda k: rms(0, k), key="storage"),
+        Column("E'', rms", "share", lambda k: rms(1, k), key="loss"),
+    )
+    numbers = tuple(k for k in range(len(found.files)) if (found.rows.file == k).any())
+    return Table("files", "Files", "Error of the series, file by file", columns, numbers)
+
+
+def master_curve(found: Fitted) -> Table:
+    """Every row as measured, where it was laid, and the series there."""
+    rows, (f, storage, loss) = found.rows, found.rows.curve
+    omega, made = 2.0 * np.pi * f, found.fit.series
+    numbers = np.array([
+        rows.temperature, rows.frequency, rows.storage, rows.loss, f, storage, loss, made.storage(omega),
+        made.loss(omega), *found.fit.errors,
+    ]).T.tolist()  # fmt: skip
+    kinds = (
+        ("temperature", "frequency", "pressure", "pressure")
+        + ("frequency",)
+        + ("pressure",) * 4
+        + ("share",) * 2
+    )
+    names = (
+        "temperature", "frequency", "E'", "E''", "reduced frequency", "reduced E'", "reduced E''", "E' of the series",
+        "E'' of the series", "error of E'", "error of E''",
+    )  # fmt: skip
+    named = [(found.files[k], *row) for k, row in zip(rows.file.tolist(), numbers, strict=True)]
+    columns = _numbered(("file", *names), ("text", *kinds))
+    return Table("master_curve", "Master curve", "Rows as measured, as laid, and the series", columns, named)
+
+
+def series(found: Fitted) -> Table:
+    """Terms of the series, the modulus at rest first."""
+    made = found.fit.series
+    rows = [("E_e", None, made.equilibrium)]
+    rows += [
+        (f"E_{k}", tau, e)
+        for k, (tau, e) in enumerate(zip(made.times.tolist(), made.moduli.tolist(), strict=True), 1)
+    ]
+    columns = _numbered(("term", "relaxation time", "modulus"), ("text", "time", "pressure"))
+    return Table("series", "Series", "Prony series at the reference temperature", columns, rows)
+
+
+def _numbered(names: Sequence[str], kinds: Sequence[str]) -> tuple[Column, ...]:
+    """Columns of rows that are tuples."""
+    pairs = enumerate(zip(names, kinds, strict=True))
+    return tuple(Column(name, kind, itemgetter(k), key=f"column_{k}") for k, (name, kind) in pairs)

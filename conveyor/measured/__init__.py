@@ -1,0 +1,1 @@
+"""Tables of what was measured on conveyors and belts: power, rolling resistance."""
