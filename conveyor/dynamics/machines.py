@@ -13,8 +13,8 @@ from conveyor.dynamics.loop import Cells, CutLoop
 from conveyor.dynamics.wave import SPEED_POINTS, Beginning, Chain, Machines
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import start_force, typical_reduced_mass
-from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
-from conveyor.line.line import DriveUnit
+from conveyor.laws.waves import BELT_RETARDATION, DRIVE_DRAG, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
+from conveyor.line.line import BeltBody, DriveUnit
 from conveyor.line.scenes import ScenarioUnit, StarterUnit
 
 Array = NDArray[np.float64]
@@ -236,7 +236,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
     chain = Chain(
         mass=filled([one.mass for one in cells], 1.0, most),
         stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
-        retardation=BELT_RETARDATION.value if line.belt.retardation is None else line.belt.retardation,
+        retardation=retardation(line.belt),
         weight=filled([one.weight for one in cells], 0.0, most),
         friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
         sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
@@ -248,6 +248,8 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         held=held,
         carriage=np.broadcast_to(carriage, held.shape),
         winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
+        sag=filled([one.sag for one in cells], 0.0, most - 1),
+        relaxing=line.belt.relaxing or (0.0, 1.0),
     )  # fmt: skip
     moving = np.array([[line.speed * ride.scene.running] for ride in rides])
     start = Beginning(
@@ -258,6 +260,13 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         rims=moving * np.ones_like(chain.rim),
     )
     return cells, chain, start
+
+
+def retardation(belt: BeltBody) -> float:
+    """τ of the belt [s]: as given, none beside a standard solid, else the default."""
+    if belt.retardation is not None:
+        return belt.retardation
+    return BELT_RETARDATION.value if belt.relaxing is None else 0.0
 
 
 def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
@@ -275,7 +284,7 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
         most = friction * (cells.resisting(line.speed, 1.0) + cells.stuck)
         share = -float(cells.weight.sum()) / float(most.sum())
         resisting = most * min(1.0, max(-1.0, share))
-        resisting = _taut(ride.setting, resisting, most, cells.weight)
+        resisting = _taut(ride.setting, resisting, most, cells)
         driving = np.zeros_like(shares)
         driving[0] = float(resisting.sum() + cells.weight.sum())
     against = resisting + cells.weight
@@ -285,14 +294,16 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
     if line.take_up.keeps_length:  # it holds the mean of the loop
         length = np.diff(cells.at)
         tension = tension - float(along[1:] @ length) / float(length.sum())
+    tension[1:] = np.maximum(tension[1:], cells.slack)  # slack from the begin: as its check says
     return resisting, tension, driving
 
 
-def _taut(setting: float, resisting: Array, most: Array, weight: Array) -> Array:
+def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
     """Friction at rest that keeps the belt from being slack, where it can [N]."""
+    weight = cells.weight
     tension = setting + np.cumsum(resisting + weight)[:-1]
     for i in range(1, tension.size):
-        tension[i] = max(tension[i], 0.0, tension[i - 1] + weight[i] - most[i])
+        tension[i] = max(tension[i], cells.slack[i], tension[i - 1] + weight[i] - most[i])
     for i in range(tension.size - 2, -1, -1):
         tension[i] = max(tension[i], tension[i + 1] - weight[i + 1] - most[i + 1])
     held = np.append(np.diff(tension, prepend=setting) - weight[:-1], resisting[-1])
@@ -314,4 +325,5 @@ def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Ma
     running = np.array([[ride.scene.running] for ride in rides])
     level = line.speed + np.where(running, start.driving, steady) / slope
     limits = np.array([ride.limits() for ride in rides])
-    return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed)
+    drag = DRIVE_DRAG.value * (1.0 / line.efficiency - 1.0) * rated
+    return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed, drag)

@@ -34,7 +34,7 @@ def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
     share = np.clip(step * np.arange(steps) / time, 0.0, 1.0)[:, None, None]
     driving = Machines(
         np.array([[1e9]]), np.full((steps, 1, 1), 1e6), share, np.zeros((steps, 1, 1)),
-        np.full((1, 1, 65), force), 1.0,
+        np.full((1, 1, 65), force), 1.0, np.zeros((1, 1)),
     )  # fmt: skip
     return run(chain, driving, begun(chain), step=step, samples=steps)
 
