@@ -77,7 +77,6 @@ def power(
     import conveyor
     from conveyor import spec as spec_file
     from conveyor.analysis import studies
-    from conveyor.report.tables import of_analysis
 
     line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
@@ -88,7 +87,7 @@ def power(
         result = result.beside(asked)
         shown = result.in_units(system)
         figures = json_text(result.to_dict(asked))
-        contents = of_analysis(shown, asked)
+        contents = shown.contents(asked)
         wanted = _wanted(contents, output, html, tables, parquet)
         if plots is not None:
             wanted.append(("figures", plots, lambda folder: _drawn(shown, asked, folder, plot_kind)))

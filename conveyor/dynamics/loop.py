@@ -56,8 +56,8 @@ class CutLoop:
         Of every stretch f0, f1, f2 of f0 + f1 v + f2 v² [N].
     lumps : tuple
         What stands at places.
-    drives : ndarray, shape (d,)
-        Distance of the drives [m].
+    drives, pulleys : ndarray
+        Distance of the drives, and of every pulley of the line [m].
     stiffness : float
         EA [N].
     hanging : ndarray, shape (2n,)
@@ -73,6 +73,7 @@ class CutLoop:
     friction: Array
     lumps: tuple[_Lump, ...]
     drives: Array
+    pulleys: Array
     stiffness: float
     hanging: Array
 
@@ -139,6 +140,7 @@ class CutLoop:
             friction=_over_speed(line.speed, [_along(one)[0] for one in slower], friction, line)[:, order],
             lumps=tuple(_lumps(steady, distance)),
             drives=np.array([distance(drive.spot) for drive in line.drives]),
+            pulleys=np.array([distance(pulley.spot) for pulley in line.pulleys]),
             stiffness=stiffness,
             hanging=np.array([
                 sag_factor(

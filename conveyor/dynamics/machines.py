@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,12 +37,16 @@ class Ride:
         The belt as its spec loads it: settings of the starters are made for it.
     setting : float
         What the take-up is set to [N].
+    units, braking : tuple or None
+        Starters and forces of the brakes [N] of every drive, instead of those of scenario and line.
     """
 
     scene: ScenarioUnit
     loop: CutLoop
     given: CutLoop
     setting: float
+    units: tuple[StarterUnit, ...] | None = None
+    braking: tuple[float, ...] | None = None
 
     @property
     def drives(self) -> tuple[DriveUnit, ...]:
@@ -52,7 +56,12 @@ class Ride:
     @cached_property
     def starters(self) -> tuple[StarterUnit, ...]:
         """Of every drive, with a time where one is needed."""
-        return tuple(self._starter(drive) for drive in self.drives)
+        return self.units or tuple(self._starter(drive) for drive in self.drives)
+
+    @property
+    def brakes(self) -> tuple[float, ...]:
+        """Force of every drive's brake at the belt [N]."""
+        return self.braking or tuple(self.loop.line.brakes)
 
     def _starter(self, drive: DriveUnit) -> StarterUnit:
         line = self.loop.line
@@ -67,8 +76,7 @@ class Ride:
         if rigid is None:
             raise NoSolutionError(f'drive "{drive.name}" does not reach full speed: give its starter a time')
         time = rigid * STEEPEST[unit.ramp] if unit.kind == "inverter" else rigid
-        return StarterUnit(unit.kind, unit.ramp, time, unit.stop_time or time, unit.delay, unit.initial, unit.limit,
-                           unit.slip, (*unit.assumed, "time"))  # fmt: skip
+        return replace(unit, time=time, stop_time=unit.stop_time or time, assumed=(*unit.assumed, "time"))
 
     @cached_property
     def rated(self) -> Array:
@@ -143,7 +151,7 @@ class Ride:
 
     def _of_drive(self, d: int, times: Array) -> tuple[Array, Array, Array]:
         """The same of one drive; what it is told later stands."""
-        unit, force = self.starters[d], self.loop.line.brakes[d]
+        unit, force = self.starters[d], self.brakes[d]
         reference = np.full(times.size, float(self.scene.running))
         share, brake = reference, force * (1.0 - reference)
         for told in self.scene.happenings:
@@ -198,8 +206,43 @@ class Ride:
         return np.asarray(self.rated[:, None] * np.array(each))
 
 
+@dataclass(frozen=True, eq=False)
+class Size:
+    """A figure that was sought for a scenario.
+
+    Attributes
+    ----------
+    scenario : str
+        Its name.
+    label, kind : str
+        What was sought, and its kind of quantity.
+    value : float
+        SI.
+    error : float or None
+        Distance to the next smaller one tried, over it [-]; None where the smallest looked at serves already.
+    most : float or None
+        The largest tried that serves too; None where every larger one does.
+    governs, why : str
+        What fails with the next smaller one; of a delay what has the least margin.
+    ride : Ride
+        The scenario with it.
+    """
+
+    scenario: str
+    label: str
+    kind: str
+    value: float
+    error: float | None
+    most: float | None
+    governs: str
+    why: str
+    ride: Ride
+
+
 def _gain(unit: StarterUnit, since: Array) -> Array:
     """Share of the motor's torque that its starter lets through."""
+    if unit.fill:
+        return np.asarray(np.interp(since, *np.transpose(unit.fill)))
     if unit.kind in {"direct", "inverter"} or unit.time is None:
         return np.ones_like(since)
     x = np.clip(since / unit.time, 0.0, 1.0)

@@ -27,7 +27,10 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int_]
 
 _BLOCK = 32  # steps between two looks for extremes
-_NEWTON, _NEAR = 60, 1e-4  # steps for a tension at most, and a relative one after which the rest is its square
+_NEWTON, _NEAR = (
+    60,
+    1e-4,
+)  # steps for a tension at most, and a relative one after which the rest is its square
 SPEED_POINTS = 65  # points of the motors' limits over speed
 
 
@@ -244,9 +247,12 @@ class _BeltLaw:
             self.sag = np.where(self.bears, chain.sag, 1.0)
             tension = np.where(self.bears, tension, 1.0)
             if tension.min() <= 0.0:
-                raise NoSolutionError("a belt that hangs between idlers bears tension only: the begin is slack")
+                raise NoSolutionError(
+                    "a belt that hangs between idlers bears tension only: the begin is slack"
+                )
+        self.gives, self.softens = 1.0 / self.k, 2.0 * self.k * self.sag
         self.root = self.tension = tension
-        self.apart = tension / self.k - self._slack(tension)
+        self.apart = self.gives * tension - (self.sag / tension**2 if self.hangs else 0.0)
         share, time = chain.relaxing
         self.fades = math.exp(-step / time)
         self.branch_k = share * np.where(self.bears, self.k, 0.0)
@@ -254,14 +260,12 @@ class _BeltLaw:
         self.branch = np.zeros_like(tension)
         self._ease()
 
-    def _slack(self, tension: Array) -> Array:
-        """Belt that hangs between the idlers [m]."""
-        return self.sag / tension**2 if self.hangs else np.zeros_like(tension)
-
     def _ease(self) -> None:
         """Share of k that the cells have at their tension; without sag 1."""
         self.eased = (
-            1.0 / (1.0 + 2.0 * self.k * self.sag / self.root**3) if self.hangs else np.ones_like(self.root)
+            1.0 / (1.0 + self.softens / (self.root * self.root * self.root))
+            if self.hangs
+            else np.ones_like(self.root)
         )
 
     def stretch(self, way: Array) -> Array:
@@ -271,13 +275,14 @@ class _BeltLaw:
             self.root = self.k * self.apart
         else:
             for _ in range(_NEWTON):  # concave and rising: from below each step falls short of the root
-                slack = self.sag / self.root**2
-                wanted = self.root + (self.apart + slack - self.root / self.k) / (
-                    1.0 / self.k + 2.0 * slack / self.root
-                )
-                earlier, self.root = self.root, np.maximum(wanted, 0.25 * self.root)
-                if float((np.abs(self.root - earlier) / earlier).max()) < _NEAR:
+                earlier = self.root
+                slack = self.sag / (earlier * earlier)
+                change = (self.apart + slack - self.gives * earlier) / (self.gives + 2.0 * slack / earlier)
+                self.root = np.maximum(earlier + change, 0.25 * earlier)
+                if float((np.abs(change) - _NEAR * earlier).max()) < 0.0:
                     break
+            else:
+                raise NoSolutionError("the tension of a slack belt has no answer: look for extreme inputs")
         self._ease()
         if self.branch_k.any():
             self.branch = self.fades * self.branch + self.eased * self.fed * way

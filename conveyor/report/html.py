@@ -27,6 +27,8 @@ PARTS: Final = (
     ("rolls", "Roll contacts"),
     ("rubber", "Rubber"),
     ("start-stop", "Start and stop"),
+    ("dynamics", "Starting and stopping"),
+    ("through-time", "Through time"),
     ("belt", "Belt, pulleys and curves"),
     ("load-states", "Load states"),
     ("load-cases", "Load cases"),

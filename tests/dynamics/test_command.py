@@ -8,7 +8,7 @@ import pytest
 
 from conveyor.dynamics import design
 from conveyor.dynamics import follow as following
-from conveyor.dynamics.design import shortest_ramp
+from conveyor.dynamics.design import size
 from conveyor.dynamics.follow import follow, standard_scenarios
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Scenario
@@ -118,10 +118,13 @@ def test_the_shortest_ramp_keeps_every_criterion():
     start = {"name": "start", "begins": "at rest", "loading": "full", "events": [{"do": "start"}]}
     taut = data()["route"] | {"take_up": {"kind": "gravity", "tension": "60 kN"}}
     conveyor = from_data(data() | {"route": taut, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
-    time, found = shortest_ramp(conveyor, Scenario.from_data(start), least=4.0, most=40.0)
-    assert 4.0 <= time < 40.0
-    assert found.ride.starters[0].time == pytest.approx(time, rel=1e-6)
-    with pytest.raises(InputError, match="needs an inverter"):
-        shortest_ramp(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}))
-    with pytest.raises(NoSolutionError, match="fails even with a ramp of 2 s"):
-        shortest_ramp(conveyor, Scenario.from_data(start), least=1.0, most=2.0)
+    scenario = Scenario.from_data(start)
+    found = size(conveyor, scenario, "ramp", between=(4.0, 40.0))
+    assert 4.0 <= found.value < 40.0
+    assert found.ride.starters[0].time == pytest.approx(found.value, rel=1e-12)
+    assert 0.0 < found.error < 0.05
+    assert found.governs
+    with pytest.raises(InputError, match="a ramp needs inverters"):
+        size(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
+    with pytest.raises(NoSolutionError, match="nothing between 1 and 2"):
+        size(conveyor, scenario, "ramp", between=(1.0, 2.0))
