@@ -410,8 +410,8 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
         yield "route.take_up not given: a weight on the slack side of the drive"
     if any(float(followed.record.slipped.max()) > 0.0 for followed in found.followed):
         yield (
-            f"a drive without power whose belt slips is braked by {DRIVE_DRAG.value:.0%} of its loss at rated power, "
-            "general knowledge"
+            f"drag of a drive without power, whose belt slips, not given: {DRIVE_DRAG.value:.0%} of its loss at rated "
+            "power, general knowledge"
         )
     for followed in found.followed:
         yield from _assumed_drives(followed.ride)

@@ -301,9 +301,13 @@ def _remarks(found: CalculatedDynamics, every: tuple[Check, ...], system: System
 
 
 def drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
-    """Four figures a scenario."""
+    """Five figures a scenario, the first of which moves."""
     for one in found.followed:
         for draw, words in (
+            (
+                dynamics_plots.profile,
+                "tension and speed round the loop; the tail is dashed, shaded what occurs",
+            ),
             (dynamics_plots.tension_map, "tension over place and time; the tail is white, slack belt red"),
             (dynamics_plots.envelope, "highest and lowest tension round the loop"),
             (dynamics_plots.speeds, "speeds at drives and tail"),
