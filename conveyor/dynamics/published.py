@@ -54,28 +54,26 @@ class EvenLoop:
 
     def followed(self, times: float, led: Array, step: float) -> tuple[Record, Array]:
         """Follow it with the drive led to speeds over time; places of its masses beside [m]."""
-        at, mass, friction = np.zeros(1), np.zeros(1), np.zeros(1)
+        at, lying = np.zeros(1), np.zeros((2, 1))
         for length, line_mass, newtons in self.strands:
             cells = max(1, round(length / wave_speed(self.stiffness, line_mass=line_mass) / step))
             at = np.append(at, at[-1] + length * np.arange(1, cells + 1) / cells)
-            for name, whole in (("mass", length * line_mass), ("friction", newtons)):
-                part = np.full(cells + 1, whole / cells)
-                part[[0, -1]] *= 0.5
-                old = mass if name == "mass" else friction
-                new = np.append(old, part[1:])
-                new[old.size - 1] += part[0]
-                mass, friction = (new, friction) if name == "mass" else (mass, new)
-        n = at.size - 1
+            part = np.outer([length * line_mass, newtons], np.ones(cells + 1)) / cells
+            part[:, [0, -1]] *= 0.5
+            lying = np.hstack([lying[:, :-1], lying[:, -1:] + part[:, :1], part[:, 1:]])
+        n, (mass, friction) = at.size - 1, lying
         friction[[0, -1]] = 0.0
         node = n if self.drive is None else int(np.argmin(np.abs(at - self.drive)))
         chain = Chain(
             mass=mass[None], stiffness=self.stiffness / np.diff(at)[None], retardation=0.0,
             weight=np.zeros((1, n + 1)),
             friction=np.stack([
-                (1.0 - self.rising) * friction[None], self.rising / self.speed * friction[None], np.zeros((1, n + 1)),
+                (1.0 - self.rising) * friction[None],
+                self.rising / self.speed * friction[None],
+                np.zeros((1, n + 1)),
             ]),
-            sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]), rim=np.ones((1, 1)),
-            grip=np.full((1, 1), 1e12), backstop=np.zeros((1, 1), bool), held=np.array([self.held]),
+            sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]),
+            rim=np.ones((1, 1)), grip=np.full((1, 1), 1e12), backstop=np.zeros((1, 1), bool), held=np.array([self.held]),
             carriage=np.array([self.carriage]), winch=np.zeros((2, 1)), sag=np.zeros((1, n)),
         )  # fmt: skip
         step = 0.95 * chain.longest_step

@@ -13,9 +13,11 @@ from conveyor.dynamics.follow import follow, standard_scenarios
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.dynamics_tables import of_dynamics, plain
+from conveyor.report.result_schema import result_schema
 from conveyor.spec import from_data
 from tests.command_line import run
 from tests.loop.loop_lines import SECOND, data, line
+from tests.report.test_result_schema import faults
 from tests.validation.test_start_stop_limits import ridden
 
 STOP = {
@@ -57,6 +59,9 @@ def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(sp
     found = json.loads(out)
     scenario = found["scenarios"][0]
     assert scenario["scenario"] == "power failure"
+    schema = result_schema()
+    assert list(faults(found, schema, schema)) == []
+    assert list(faults(found, schema["$defs"]["dynamics"], schema)) == []
     assert scenario["lowest_tension_N"] < scenario["highest_tension_N"]
     assert 0.0 <= scenario["error"] <= 0.05
     assert abs(scenario["energy_error"]) < 1e-3
