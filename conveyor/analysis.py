@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, wraps
+from functools import cached_property, partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
@@ -32,8 +32,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.drawing import AnalysisPlots, ComparisonPlots
+    from conveyor.dynamics.follow import CalculatedDynamics
     from conveyor.report.columns import Contents, Table
     from conveyor.report.files import FileKind
+    from conveyor.report.tables import Further
     from conveyor.units import System
 
 Given = ParamSpec("Given")
@@ -93,7 +95,8 @@ class Analysis(CalculatedConveyor):
         """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
         from conveyor.report.tables import of_analysis
 
-        return of_analysis(self.beside(studies).in_units(chosen(self.conveyor.report.units, system)), studies)
+        shown = self.beside(studies).in_units(chosen(self.conveyor.report.units, system))
+        return of_analysis(shown, studies, _further(studies, shown.conveyor.report.units))
 
     @cached_property
     def tables(self) -> dict[str, Table]:
@@ -132,7 +135,7 @@ class Analysis(CalculatedConveyor):
         """
         from conveyor.report.tables import plain
 
-        return plain(self, studies)
+        return plain(self, studies, _further(studies, "SI"))
 
     @checked
     def to_excel(
@@ -322,10 +325,13 @@ class Studies(study.CalculatedStudies):
     cases: CaseStudy | None = None
     duty: DutyStudy | None = None
     uncertainty: UncertaintyStudy | None = None
+    dynamics: CalculatedDynamics | None = None
 
     def __repr__(self) -> str:
         held = [
-            name for name in ("states", "cases", "duty", "uncertainty") if getattr(self, name) is not None
+            name
+            for name in ("states", "cases", "duty", "uncertainty", "dynamics")
+            if getattr(self, name) is not None
         ]
         return f"Studies({', '.join(held) or 'nothing asked for'})"
 
@@ -480,14 +486,31 @@ verify_sheet = _facing(verification_study.verification, VerificationSheet)
 def studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: study.Progress | None = None
 ) -> Studies:
-    """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`."""
+    """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
     found = study.studies(conveyor, given, progress=progress)
     return Studies(
         states=None if found.states is None else _faced(found.states, StateStudy),
         cases=None if found.cases is None else _faced(found.cases, CaseStudy),
         duty=None if found.duty is None else _faced(found.duty, DutyStudy),
         uncertainty=None if found.uncertainty is None else _faced(found.uncertainty, UncertaintyStudy),
+        dynamics=_followed(conveyor, progress) if conveyor.scenarios else None,
     )
+
+
+def _followed(conveyor: Conveyor, progress: study.Progress | None) -> CalculatedDynamics:
+    """Scenarios of a spec through time."""
+    from conveyor.dynamics.follow import follow
+
+    return follow(conveyor, progress=None if progress is None else partial(progress, "scenarios"))
+
+
+def _further(studies: Studies | None, system: System) -> Further | None:
+    """What scenarios add to a report."""
+    if studies is None or studies.dynamics is None:
+        return None
+    from conveyor.report.dynamics_tables import further
+
+    return further(studies.dynamics, system)
 
 
 def calibrate(

@@ -22,7 +22,8 @@ from conveyor.contact.closed_forms import (
     hunter_at_load,
     plane_modulus,
 )
-from conveyor.laws import loading, power, pulley, resistance, tension, transition
+from conveyor.dynamics.published import harrison, lodewijks, nordell_ciozda
+from conveyor.laws import loading, power, pulley, resistance, tension, transition, waves
 from conveyor.rubber.prony import PronySeries
 
 _PROTOTYPE = "Bessel-Galerkin prototype"
@@ -34,6 +35,10 @@ _HELIX = "Helix shaft report"
 _TRANSITION = "ISO 5293:2004"
 _LEMMON = "Lemmon (2013), finite elements"
 _IDENTITY = "J*(ω) E*(ω) = 1"
+_SONG = "Song et al. (2012)"
+_NORDELL = "Nordell and Ciozda (1984), measured"
+_HARRISON = "Harrison (1983, 1985), measured"
+_LODEWIJKS = "Lodewijks (1996), finite elements"
 
 _RTOL = 1e-6
 _PLACE_TOLERANCE = 1e-5  # of a, e, Δ in units of R: they converge more slowly than friction
@@ -156,7 +161,8 @@ def run() -> list[ReferenceCheck]:
     Returns
     -------
     list of Check
-        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, compliance times modulus.
+        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, compliance times modulus,
+        starts and stops.
 
     Examples
     --------
@@ -172,6 +178,7 @@ def run() -> list[ReferenceCheck]:
         _pulley_shaft(),
         _transition(),
         _compliance_identity(),
+        _starts_and_stops(),
     )
     return [check for group in groups for check in group]
 
@@ -357,3 +364,20 @@ def _compliance_identity() -> Iterator[ReferenceCheck]:
         off = float(np.max(np.abs(product - 1.0)))
         quantity = f"worst of 24 decades of ω [-], {name}"
         yield ReferenceCheck(_IDENTITY, quantity, 1.0, 1.0 + off, off, _IDENTITY_TOLERANCE)
+
+
+def _starts_and_stops() -> Iterator[ReferenceCheck]:
+    """Published waves; allowed is what their readings and what they do not print leave open."""
+    bulk = 600.0 / 3.6 / 2.5
+    speed = waves.wave_speed(104e6, line_mass=27.0 + 11.25 + bulk)
+    yield _printed(_SONG, "wave speed of the loaded strand [m/s]", "995.6", speed)
+    for where, measured, got in zip(
+        ("above the drive", "at the take-up"), (3.72, 5.86), nordell_ciozda(), strict=True
+    ):
+        yield _close(_NORDELL, f"arrival of the front of a stop {where} [s]", measured, got, 0.015)
+    start = harrison()
+    yield _close(_HARRISON, "return belt at rest after the start until [s]", 7.6, start.still, 0.07)
+    yield _close(_HARRISON, "way of the take-up's carriage at 7 s, about [m]", 2.0, start.carriage, 0.1)
+    yield _close(_HARRISON, "slow period of the take-up, motors not printed [s]", 24.9, start.period, 0.15)
+    for shape, printed in (("linear", 0.0246), ("cosine", 0.0303), ("S", 0.0382)):
+        yield _close(_LODEWIJKS, f"peak strain, 30 s, {shape} ramp [-]", printed, lodewijks(shape), 0.15)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from enum import StrEnum
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -25,6 +27,7 @@ from conveyor.cli.app import (
     say,
 )
 from conveyor.cli.outputs import Outputs
+from conveyor.cli.study import executor_of
 from conveyor.errors import InputError
 from conveyor.files import marks
 
@@ -33,6 +36,16 @@ if TYPE_CHECKING:
     from conveyor.models import Conveyor, Scenario
     from conveyor.report.columns import Contents
     from conveyor.units import System
+
+
+class Sought(StrEnum):
+    """What can be sized."""
+
+    RAMP = "ramp"
+    BRAKE = "brake"
+    DELAY = "delay"
+    TAKE_UP = "take-up"
+
 
 _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png": marks.FIGURE, ".svg": marks.FIGURE,
           ".pdf": marks.FIGURE}  # fmt: skip
@@ -44,7 +57,8 @@ _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png"
         "conveyor dynamics overland.yaml",
         'conveyor dynamics overland.yaml --scenario "start full" -o start.png',
         "conveyor dynamics overland.yaml -o starts.xlsx -o starts.html",
-        'conveyor dynamics overland.yaml --scenario "start full" --shortest-ramp',
+        'conveyor dynamics overland.yaml --scenario "start full" --size ramp',
+        'conveyor dynamics downhill.yaml --scenario "emergency stop" --size brake',
         "conveyor dynamics overland.yaml --json | jq .scenarios",
     ),
 )
@@ -66,12 +80,13 @@ def dynamics(
     error: Annotated[
         float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
     ] = 0.01,
-    shortest_ramp: Annotated[
-        bool,
+    size: Annotated[
+        Sought | None,
         typer.Option(
-            "--shortest-ramp", help="Find the shortest ramp that keeps every criterion, of each scenario."
+            help="Find the least of it with which each scenario keeps every criterion.", case_sensitive=False
         ),
-    ] = False,
+    ] = None,
+    workers: Annotated[int, typer.Option(metavar="N", help="Processes.", min=1, max=64)] = 1,
     units: UnitsOption = None,
     force: Force = False,
     as_json: AsJson = False,
@@ -89,14 +104,17 @@ def dynamics(
     line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
     chosen = _chosen(line, scenario)
-    if shortest_ramp:
-        from conveyor.dynamics.design import shortest_ramp as sought
+    with ExitStack() as stack:
+        told = stack.enter_context(progress(silent=quiet or as_json))
+        executor = stack.enter_context(executor_of(None, workers)) if workers > 1 else None
+        how: Any = {"executor": executor, "workers": workers,
+                    "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
+        if size is None:
+            found = follow(line, chosen, error=error, **how)
+        else:
+            from conveyor.dynamics.design import sized
 
-        chosen = tuple(_ramped(one, line, sought(line, one)[0]) for one in chosen)
-    with progress(silent=quiet or as_json) as told:
-        found = follow(
-            line, chosen, error=error, progress=None if told is None else partial(told, "scenarios")
-        )
+            found = sized(line, chosen, size.value, error=error, **how)
     contents = of_dynamics(found, system)
     figures = json_text(plain(found))
     for path in output or ():
@@ -121,16 +139,6 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
         if name not in every:
             raise InputError(f'--scenario: got "{name}", there are: {", ".join(every)}')
     return tuple(every[name] for name in names) if names else tuple(every.values())
-
-
-def _ramped(scenario: Scenario, line: Conveyor, time: float) -> Scenario:
-    """The scenario with the ramp found, which its name tells."""
-    from conveyor.models import Starter
-
-    starter = (scenario.starter or line.drive.starter or Starter()).replace(
-        time=f"{time:.4g} s", stop_time=f"{time:.4g} s"
-    )
-    return scenario.replace(name=f"{scenario.name}, ramp {time:.3g} s", starter=starter, duration=None)
 
 
 def _write(found: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:

@@ -51,7 +51,6 @@ def power(
     import conveyor
     from conveyor import spec as spec_file
     from conveyor.analysis import studies
-    from conveyor.report.tables import of_analysis
 
     line = session.read(spec)
     system = session.system(line)
@@ -61,7 +60,7 @@ def power(
             asked = studies(line, result, progress=told)
         result = result.beside(asked)
         shown = result.in_units(system)
-        contents = of_analysis(shown, asked)
+        contents = shown.contents(asked)
         wanted = _wanted(contents, output, html, tables, parquet)
         if plots is not None:
             wanted.append(("figures", plots, lambda folder: _drawn(shown, asked, folder, plot_kind)))

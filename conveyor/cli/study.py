@@ -96,7 +96,7 @@ def study(
         known = stack.enter_context(Answers(answers))
         before = len(known)
         told = stack.enter_context(progress(silent=quiet or as_json))
-        executor = stack.enter_context(_executor(scheduler, workers)) if scheduler or workers > 1 else None
+        executor = stack.enter_context(executor_of(scheduler, workers)) if scheduler or workers > 1 else None
         run(
             campaign,
             known,
@@ -124,7 +124,7 @@ def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:
         yield point
 
 
-def _executor(scheduler: str | None, workers: int) -> Executor:
+def executor_of(scheduler: str | None, workers: int) -> Executor:
     """Processes of this machine, or a cluster."""
     if scheduler is None:
         from concurrent.futures import ProcessPoolExecutor

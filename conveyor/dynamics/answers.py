@@ -10,20 +10,32 @@ import numpy as np
 
 from conveyor.checks import Check, compared, verdict
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
-from conveyor.laws.belt import CLASSIC_SAFETY, RATED_START, belt_safety
+from conveyor.laws.belt import (
+    CLASSIC_SAFETY,
+    DUTY_SAFETY,
+    RATED_START,
+    SPLICE_SAFETY,
+    belt_safety,
+    needed_strength,
+)
 from conveyor.laws.motion import bulk_slip_limits
 from conveyor.laws.vertical_curve import lift_off_radius
-from conveyor.units.sentences import Said, quoted, said
+from conveyor.laws.waves import MOVING_SAG, SLACK_SAG
+from conveyor.units.sentences import Said, percent, quoted, said
 
 FULL_SPEED: Final = 0.95
 """Speed over the steady one at which a start is over [-]; general knowledge: motors run within their slip."""
+_MORE: Final = f"{RATED_START:g} times the tension allowed in steady running, general knowledge"
 OVERSPEED: Final = 1.1
 """Speed over the steady one that a belt may reach without power [-]; general knowledge."""
+
+_BACKWARD: Final = 0.02
+"""Speed backward over the steady one that a swing may reach [-]; general knowledge."""
 
 
 @dataclass(frozen=True)
 class Peak:
-    """An extreme tension of a stretch: N, s, and the least that its sag allows in steady running [N]."""
+    """Extreme tensions of a stretch or at a pulley: N, s; the least for the sag in steady running [N], and sag [-]."""
 
     section: str
     strand: str
@@ -32,25 +44,38 @@ class Peak:
     lowest: float
     lowest_at: float
     least_for_sag: float
+    sag: float
+
+    @classmethod
+    def of(cls, found: Followed, cells: slice, section: str, strand: str = "", least: float = 0.0) -> Peak:
+        """Of some cells."""
+        record = found.record
+        high, low = int(record.highest[cells].argmax()), int(record.lowest[cells].argmin())
+        return cls(
+            section, strand, float(record.highest[cells][high]), float(record.highest_at[cells][high]),
+            float(record.lowest[cells][low]), float(record.lowest_at[cells][low]), least,
+            float(found.sag[cells].max()),
+        )  # fmt: skip
 
 
 def peaks(found: Followed) -> Iterator[Peak]:
     """Extreme tensions of every stretch, as the belt meets them from the take-up."""
-    record, shape = found.record, found.line.loop
+    shape = found.line.loop
     for k, cells in found.stretches():
         stretch = shape.stretches[k]
-        high, low = int(record.highest[cells].argmax()), int(record.lowest[cells].argmin())
-        yield Peak(
-            stretch.section, stretch.strand, float(record.highest[cells][high]), float(record.highest_at[cells][high]),
-            float(record.lowest[cells][low]), float(record.lowest_at[cells][low]), float(shape.least[k]),
-        )  # fmt: skip
+        yield Peak.of(found, cells, stretch.section, stretch.strand, float(shape.least[k]))
+
+
+def at_pulley(found: Followed, pulley: int) -> Peak:
+    """Extreme tensions of the belt on both sides of a pulley of the line."""
+    return Peak.of(found, found.beside(pulley), found.line.pulleys[pulley].name)
 
 
 def _strength(found: Followed) -> Iterator[Check]:
     belt = found.line.belt
     i = int(found.record.highest.argmax())
     where = f"{found.place(i)}, {found.record.highest_at[i]:.1f} s"
-    most = "1.5 times the tension in steady running, general knowledge"
+    most = f"DIN 22101:1982 in steady running; {_MORE}"
     if belt.strength is not None:
         needed = CLASSIC_SAFETY["steel cord" if belt.steel_cord else "textile"] / RATED_START
         safety = belt_safety(found.highest, nominal_strength=belt.strength, belt_width=belt.width)
@@ -62,20 +87,43 @@ def _strength(found: Followed) -> Iterator[Check]:
         tension = found.highest / belt.width
         why = said("the belt bears {}", (tension, "belt rating"))
         yield compared("dynamic_rating", "belt tension per width", tension, "at most", RATED_START * belt.rating,
-                       "belt rating", source=most, why=why, where=where)  # fmt: skip
+                       "belt rating", source=_MORE, why=why, where=where)  # fmt: skip
 
 
-def _slack(found: Followed) -> Iterator[Check]:
-    i = int(found.record.lowest.argmin())
-    at = found.record.lowest_at[i]
-    why = said(
-        f"the belt goes slack in {quoted(found.place(i))} at {at:.1f} s: down to {{}}, from then on the figures are "
-        "none of a real belt; raise the take-up's tension, or slow the motion by ramps or flywheels",
-        (found.lowest, "force"),
-    )
-    made = compared("dynamic_slack", "lowest tension", found.lowest, "at least", 0.0, "force", why=why,
-                    where=f"{found.place(i)}, {at:.1f} s")  # fmt: skip
-    yield replace(made, asked=said("not slack: at least 0"))
+def _splice(found: Followed) -> Iterator[Check]:
+    """The belt is strong enough for a splice anywhere at its highest tension."""
+    belt = found.line.belt
+    if belt.strength is None or belt.splice_strength is None:
+        return
+    i = int(found.record.highest.argmax())
+    needed = needed_strength(
+        found.highest / (RATED_START * belt.width), splice_strength=belt.splice_strength,
+        s0=SPLICE_SAFETY[belt.splice_making], s1=DUTY_SAFETY[belt.duty],
+    )  # fmt: skip
+    why = said("a splice there requires a belt of {}, given: {}", (needed, "belt strength"),
+               (belt.strength, "belt strength"))  # fmt: skip
+    yield compared(
+        "dynamic_splice", "belt strength for the splice", belt.strength, "at least", needed, "belt strength", why=why,
+        source=f"DIN 22101:2002, {_MORE}", where=f"{found.place(i)}, {found.record.highest_at[i]:.1f} s",
+    )  # fmt: skip
+
+
+def _sag(found: Followed) -> Iterator[Check]:
+    """How far the belt sags between its idlers; from a tenth of the span on it is slack."""
+    i = int(found.sag.argmax())
+    sag, at = float(found.sag[i]), f"{found.place(i)}, {found.record.lowest_at[i]:.1f} s"
+    least = float(found.cells.slack[i])
+    help_ = "raise the take-up's tension, or slow the motion by ramps or flywheels"
+    slack = said(f"the belt goes slack in {quoted(found.place(i))} at {found.record.lowest_at[i]:.1f} s: down to {{}}; "
+                 f"{help_}", (float(found.record.lowest[i]), "force"))  # fmt: skip
+    yield compared(
+        "dynamic_slack", "belt is taut", float(found.record.lowest[i]), "at least", least, "force", why=slack, where=at,
+        source=f"sag of {SLACK_SAG.value:.0%} of the span, general knowledge",
+    )  # fmt: skip
+    most = MOVING_SAG.value
+    why = said(f"the belt sags by {percent(sag)} of the span in {quoted(found.place(i))}; {help_}")
+    made = compared("dynamic_sag", "sag over the span", sag, "at most", most, "fraction", why=why, where=at)
+    yield replace(made, found=said(percent(sag)), asked=said(f"at most {percent(most)} (general knowledge)"))
 
 
 def _lift_off(found: Followed) -> Iterator[Check]:
@@ -106,6 +154,62 @@ def _grip(found: Followed) -> Iterator[Check]:
         )
         yield replace(made, found=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
                       asked=said("no slip"))  # fmt: skip
+
+
+def _torque(found: Followed) -> Iterator[Check]:
+    """Motors have torque left where they are led, and what they give is within what is installed."""
+    for d, (drive, unit) in enumerate(zip(found.ride.drives, found.ride.starters, strict=True)):
+        name, most = quoted(drive.name), float(found.ride.limits()[d].max() / found.ride.rated[d])
+        torque = float(np.abs(found.torque[:, d]).max())
+        if unit.kind == "inverter":
+            why = said(f'"{name}" runs at its torque limit, off its ramp: slow the ramp, or raise the limit')
+            made = compared(
+                "dynamic_torque", f"torque of {name} over rated", torque, "at most", most, "safety", why=why
+            )
+            yield replace(made, verdict=verdict(holds=torque < most))
+        if drive.power is not None:
+            turned = found.record.drives["motor"][:, d] * found.record.drives["rim"][:, d]
+            power = float(np.abs(turned).max()) / found.line.efficiency
+            why = said(
+                f'"{name}" gives {{}}, its torque limit allows {{}}',
+                (power, "power"),
+                (most * drive.power, "power"),
+            )
+            yield compared("dynamic_power", f"motor power of {name}", power, "at most", OVERSPEED * most * drive.power,
+                           "power", source="torque limit at overspeed", why=why)  # fmt: skip
+
+
+def _backward(found: Followed) -> Iterator[Check]:
+    """A belt does not roll back; what holds it does so by the spec's word."""
+    least = float(found.belt_speed.min())
+    why = said("the belt rolls back at {}: a backstop or a brake is needed", (-least, "speed"))
+    yield compared(
+        "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACKWARD * found.line.speed,
+        "speed", source="the swing of a wave, general knowledge", why=why,
+    )  # fmt: skip
+    for d, drive in enumerate(found.ride.drives):
+        held = max(0.0, -float(found.record.drives["holding"][:, d].min()))
+        if not found.ride.backstops[d] or held == 0.0:
+            continue
+        shown = said("{} at the belt", (held, "force"))
+        if drive.radius is not None:
+            shown = said("{} at the pulley's shaft", (held * drive.radius, "moment"))
+        assumed = found.ride.assumed_backstop
+        why = said("the spec names no backstop (drive.backstop); one is assumed")
+        yield Check("dynamic_backstop", said(f"backstop of {quoted(drive.name)}"), held, None, "force", shown,
+                    said("a backstop"), "not checked" if assumed else "pass", why if assumed else None)  # fmt: skip
+
+
+def _take_up(found: Followed) -> Iterator[Check]:
+    """The carriage moves no further than the take-up's travel for start, stop and reserve."""
+    duty = found.ride.given.steady.take_up.travel
+    if duty is None or found.line.take_up.keeps_length:
+        return
+    way = float(np.ptp(found.travel))
+    room = duty.whole - duty.tensioning
+    why = said("the carriage of the take-up moves by {}, once the belt is taut its computed travel has {}",
+               (way, "length"), (room, "length"))  # fmt: skip
+    yield compared("dynamic_travel", "way of the take-up's carriage", way, "at most", room, "length", why=why)
 
 
 def _end(found: Followed) -> Iterator[Check]:
@@ -153,7 +257,7 @@ def _bulk(found: Followed) -> Iterator[Check]:
 
 
 CRITERIA: Final[tuple[Callable[[Followed], Iterator[Check]], ...]] = (
-    _strength, _slack, _lift_off, _grip, _end, _bulk,
+    _strength, _splice, _sag, _lift_off, _grip, _torque, _backward, _take_up, _end, _bulk,
 )  # fmt: skip
 
 

@@ -1,82 +1,248 @@
-"""The shortest ramp of a start or stop that keeps every criterion."""
+"""Sizes that keep every criterion of a start or stop: ramp, brake, delay between drives, tension of the take-up."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, Final, Literal, TypeAlias
+
 import numpy as np
 
+from conveyor.checks import Check
 from conveyor.dynamics.answers import CRITERIA
-from conveyor.dynamics.follow import Followed, prepared_rides, side_by_side
+from conveyor.dynamics.follow import (
+    ERROR,
+    CalculatedDynamics,
+    Followed,
+    prepared_rides,
+    refined,
+    side_by_side,
+)
+from conveyor.dynamics.machines import Ride, Size
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.models import Conveyor, Scenario, Starter
+from conveyor.laws.take_up import take_up_mass
+from conveyor.models import Conveyor, Scenario, TakeUp
 
-_TIMES, _ROUNDS, _CELLS = 8, 2, 80
+Sought: TypeAlias = Literal["ramp", "brake", "delay", "take-up"]
+
+_TRIED, _ROUNDS, _CELLS = 8, 3, 80
+_RAMPS, _DELAYS = (5.0, 600.0), (0.0, 120.0)  # [s]
+_BRAKES = (0.02, 5.0)  # over the rated force of all motors
+_SETTINGS = (0.25, 8.0)  # over the setting as given
+_NOT_SIZED: Final = frozenset({"dynamic_travel"})
+"""Criteria that a size does not decide: the take-up is built for the travel it needs."""
 
 
-def shortest_ramp(
-    conveyor: Conveyor, scenario: Scenario, *, least: float = 5.0, most: float = 600.0
-) -> tuple[float, Followed]:
-    """Find the shortest ramp with which a scenario keeps every criterion, and every longer one tried does too.
+def size(
+    conveyor: Conveyor,
+    scenario: Scenario,
+    sought: Sought,
+    *,
+    between: tuple[float, float] | None = None,
+) -> Size:
+    """Find the least ramp, brake force or tension of the take-up that keeps every criterion, or the best delay.
 
     Parameters
     ----------
     conveyor : Conveyor
         The spec.
     scenario : Scenario
-        A start or a stop led by inverters; the shape of the ramp is that of its starter, or of the first drive's.
-    least, most : float
-        Times to look between [s].
+        A start or a stop.
+    sought : {"ramp", "brake", "delay", "take-up"}
+        Time of the ramps of all drives; force of all brakes together, shared as they are given, else as the drive
+        force; time from one drive to the next, that with the lowest peak; tension of the take-up, and its weight. A
+        stop must rest within the duration of its scenario.
+    between : tuple of float, optional
+        Where to look: s, N at the belt, N; without it 5 to 600 s, 2 to 500 % of the motors' rated force, 0 to 120 s,
+        a quarter to eight times the setting.
 
     Returns
     -------
-    time : float
-        Of the ramp [s], to about a tenth.
-    found : Followed
-        The scenario with it.
+    Size
+        Of those tried the smallest from which on all serve, up to the largest that serves.
 
     Raises
     ------
     InputError
-        The starter is no inverter, or the times are not in order.
+        The scenario has nothing of the kind: no inverter, no brake, one drive.
     NoSolutionError
-        Not even the longest ramp keeps every criterion: the message says what fails.
+        Nothing between the ends serves: the message says what fails with the one that fails least.
     """
-    if not 0.0 < least < most:
-        raise InputError(f"least = {least}, most = {most}: 0 < least < most is needed")
-    starter = scenario.starter or conveyor.drive.starter or Starter()
-    if starter.kind != "inverter":
+    (ride,), _ = prepared_rides(conveyor, (scenario,))
+    made, ends, kind = _MAKERS[sought](ride)
+    low, high = between or ends
+    if not (0.0 <= low < high and (low > 0.0 or sought == "delay")):
+        raise InputError(f"between {low:g} and {high:g}: 0 < low < high is needed")
+    if sought == "delay":
+        return _best_delay(ride, made, low, high)
+    least, most, below, fails = _least(scenario.name, made, low, high)
+    error = None if below is None else least / below - 1.0
+    first = fails[0] if fails else None
+    found = Size(
+        scenario.name, _LABELS[sought], kind, least, error, most, "" if first is None else first.subject.text(),
+        "" if first is None or first.why is None else first.why.text(), _named(made(least), sought, least),
+    )  # fmt: skip
+    return _of_take_up(conveyor, scenario, found) if sought == "take-up" else found
+
+
+def sized(
+    conveyor: Conveyor, scenarios: Sequence[Scenario], sought: Sought, *, error: float = ERROR, **how: Any
+) -> CalculatedDynamics:
+    """Size every scenario, and follow it with what was found; arguments and errors as of `size` and `follow`."""
+    found = tuple(size(conveyor, one, sought) for one in scenarios)
+    _, given = prepared_rides(conveyor, scenarios)
+    return CalculatedDynamics(conveyor, given, refined([one.ride for one in found], error, **how), found)
+
+
+def _ramped(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:
+    units = ride.starters
+    others = [unit.kind for unit in units if unit.kind != "inverter"]
+    if others:
+        raise InputError(f'scenario "{ride.scene.name}": a ramp needs inverters, a starter is "{others[0]}"')
+
+    def made(time: float) -> Ride:
+        return replace(ride, units=tuple(replace(unit, time=time, stop_time=time) for unit in units))
+
+    return made, _RAMPS, "duration"
+
+
+def _braked(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:
+    if all(happening.do != "brake" for happening in ride.scene.happenings):
         raise InputError(
-            f'scenario "{scenario.name}": a ramp needs an inverter, its starter is "{starter.kind}"'
+            f'scenario "{ride.scene.name}": no brake grips in it; give it an event {{do: brake}}'
         )
-    best: Followed | None = None
-    for _ in range(_ROUNDS):
-        times = np.geomspace(least, most, _TIMES).tolist()
-        tried = [_ramped(scenario, starter, time, i) for i, time in enumerate(times)]
-        rides, _ = prepared_rides(conveyor, tried)
-        found = side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS)
-        failing = [i for i, one in enumerate(found) if _fails(one)]
-        first = failing[-1] + 1 if failing else 0
-        if first == len(found):
-            if best is None:
-                why = "; ".join(_fails(found[-1]))
-                raise NoSolutionError(
-                    f'scenario "{scenario.name}" fails even with a ramp of {most:.4g} s: {why}'
-                )
-            break
-        best, most = found[first], times[first]
+    given = np.array(ride.brakes, dtype=float)
+    shares = given / given.sum() if given.sum() > 0.0 else np.array([drive.share for drive in ride.drives])
+    rated = float(ride.rated.sum())
+
+    def made(force: float) -> Ride:
+        return replace(ride, braking=tuple((force * shares).tolist()))
+
+    return made, (_BRAKES[0] * rated, _BRAKES[1] * rated), "force"
+
+
+def _delayed(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:
+    if len(ride.drives) == 1:
+        raise InputError(f'scenario "{ride.scene.name}": one drive only, nothing to delay')
+
+    def made(time: float) -> Ride:
+        units = tuple(replace(unit, delay=d * time) for d, unit in enumerate(ride.starters))
+        return replace(ride, units=units)
+
+    return made, _DELAYS, "duration"
+
+
+def _tightened(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:
+    def made(setting: float) -> Ride:
+        return replace(ride, setting=setting)
+
+    return made, (_SETTINGS[0] * ride.setting, _SETTINGS[1] * ride.setting), "force"
+
+
+_MAKERS: Final = {"ramp": _ramped, "brake": _braked, "delay": _delayed, "take-up": _tightened}
+_LABELS: Final = {
+    "ramp": "time of the ramp",
+    "brake": "force of all brakes at the belt",
+    "delay": "delay from drive to drive",
+    "take-up": "tension of the take-up",
+}
+
+
+def _followed(made: Callable[[float], Ride], values: list[float]) -> list[Followed]:
+    """All tried side by side, on cells that a search can do with."""
+    rides = [made(value) for value in values]
+    return side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS)
+
+
+def _checks(found: Followed) -> list[Check]:
+    every = [check for criterion in CRITERIA for check in criterion(found)]
+    return [check for check in every if check.key not in _NOT_SIZED]
+
+
+def _failing(found: Followed) -> list[Check]:
+    """What of it fails."""
+    return [check for check in _checks(found) if check.failed]
+
+
+def _least(
+    name: str, made: Callable[[float], Ride], low: float, high: float
+) -> tuple[float, float | None, float | None, list[Check]]:
+    """The least value of the last run of those that serve, its largest, the next smaller one and what fails there."""
+    most: float | None = None
+    for k in range(_ROUNDS):
+        values = np.geomspace(low, high, _TRIED).tolist()
+        failing = [_failing(one) for one in _followed(made, values)]
+        serve = [i for i, of in enumerate(failing) if not of]
+        if not serve:
+            if k:  # between the last two nothing serves but the upper end itself: it was tried before
+                return high, most, values[-2], failing[-2]
+            nearest = min(failing, key=len)
+            why = "; ".join(check.why.text() for check in nearest if check.why is not None)
+            raise NoSolutionError(
+                f'scenario "{name}": nothing between {low:.4g} and {high:.4g} (SI) keeps every check; at best: {why}'
+            )
+        first = last = serve[-1]
+        while first and not failing[first - 1]:
+            first -= 1
+        if k == 0 and last < len(values) - 1:
+            most = values[last]
         if first == 0:
-            break
-        least = times[first - 1]
+            return values[0], most, None, []
+        low, high, fails = values[first - 1], values[first], failing[first - 1]
+    return high, most, low, fails
+
+
+def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: float) -> Size:
+    """The delay with the lowest peak of those that keep every criterion."""
+    best: tuple[float, float, Followed] | None = None
+    for _ in range(_ROUNDS):
+        values = np.linspace(low, high, _TRIED).tolist()
+        found = _followed(made, values)
+        serve = [(one.highest, value, one) for value, one in zip(values, found, strict=True)
+                 if not _failing(one)]  # fmt: skip
+        if not serve and best is None:
+            why = "; ".join(check.why.text() for check in _failing(found[-1]) if check.why is not None)
+            raise NoSolutionError(
+                f'scenario "{ride.scene.name}": no delay to {high:.4g} s keeps every criterion: {why}'
+            )
+        best = min([*serve, *([best] if best else [])], key=lambda one: one[0])
+        step = (high - low) / (_TRIED - 1)
+        low, high = max(low, best[1] - step), min(high, best[1] + step)
     assert best is not None  # noqa: S101 a first round that finds nothing raises
-    return most, best
+    _, value, one = best
+    margins = [check for check in _checks(one) if check.margin is not None]
+    governs = min(margins, key=lambda check: check.margin or 0.0)
+    return Size(
+        ride.scene.name, _LABELS["delay"], "duration", value, step / value if value else None, None,
+        governs.subject.text(), f"lowest peak: {one.highest / 1e3:.1f} kN", _named(made(value), "delay", value),
+    )  # fmt: skip
 
 
-def _ramped(scenario: Scenario, starter: Starter, time: float, i: int) -> Scenario:
-    """The scenario with a ramp of a time [s]."""
-    changed = starter.replace(time=f"{time:.9g} s", stop_time=f"{time:.9g} s")
-    return scenario.replace(name=f"{scenario.name} {i}", starter=changed, duration=None)
+def _named(ride: Ride, sought: str, value: float) -> Ride:
+    """The scenario under a name that says what was found."""
+    figure = f"{value:.3g} s" if sought in {"ramp", "delay"} else f"{value / 1e3:.3g} kN"
+    return replace(ride, scene=replace(ride.scene, name=f"{ride.scene.name}, {sought} {figure}"))
 
 
-def _fails(found: Followed) -> list[str]:
-    """What of it fails, in words."""
-    checks = [check for criterion in CRITERIA for check in criterion(found)]
-    return [check.why.text() for check in checks if check.failed and check.why is not None]
+def _of_take_up(conveyor: Conveyor, scenario: Scenario, found: Size) -> Size:
+    """The same calculated with the tension in the spec; of a weight its mass."""
+    given = conveyor.route.take_up or TakeUp.from_data({"kind": "gravity"})
+    unit = given.replace(tension=f"{found.value:.9g} N", mass=None)
+    (ride,), _ = prepared_rides(conveyor.replace(route=conveyor.route.replace(take_up=unit)), (scenario,))
+    found = replace(found, ride=_named(ride, "take-up", found.value))
+    if given.kind != "gravity":
+        return found
+    line = ride.loop.line
+
+    def mass(tension: float | None) -> float | None:
+        if tension is None:
+            return None
+        return take_up_mass(
+            tension, reeving=line.take_up.reeving, gravity=line.gravity, strands=line.take_up.strands
+        )
+
+    value = mass(found.value)
+    assert value is not None  # noqa: S101 it has a tension
+    return replace(
+        found, label="mass of the take-up's weight", kind="mass", value=value, most=mass(found.most)
+    )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
@@ -12,10 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.dynamics.loop import SPEEDS, Cells, CutLoop
-from conveyor.dynamics.machines import Ride, machines, prepared
+from conveyor.dynamics.machines import Ride, Size, machines, prepared
 from conveyor.dynamics.wave import Record, run
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, PULLEY_INERTIA, TORQUE_LIMIT
+from conveyor.laws.waves import (
+    BELT_RETARDATION,
+    DRIVE_DRAG,
+    MOTOR_SLIP,
+    PULLEY_INERTIA,
+    SLACK_SAG,
+    TORQUE_LIMIT,
+)
 from conveyor.line.line import Line
 from conveyor.line.scenes import ScenarioUnit
 from conveyor.models import Conveyor, LoadCase, Scenario
@@ -105,6 +114,17 @@ class Followed:
             low = min(int(low), self.middles.size - 1)
             yield k, slice(low, max(int(high), low + 1))
 
+    def beside(self, pulley: int) -> slice:
+        """Cells on both sides of a pulley of the line; one where it stands beside the take-up."""
+        at = self.cells.at
+        i = int(np.argmin(np.abs(at - self.ride.loop.pulleys[pulley])))
+        return slice(max(i - 1, 0), min(i + 1, at.size - 1))
+
+    @cached_property
+    def sag(self) -> Array:
+        """Largest sag of every cell over the span of its idlers [-]."""
+        return np.asarray(SLACK_SAG.value * self.cells.slack / self.record.lowest)
+
     @cached_property
     def torque(self) -> Array:
         """Of every motor over its rated one [-], shape (steps, d)."""
@@ -159,11 +179,14 @@ class CalculatedDynamics:
         Its steady result, the take-up at the one setting of all loads here.
     followed : tuple of Followed
         In order of the scenarios.
+    sized : tuple of Size
+        Figures that were sought for them, where any were.
     """
 
     conveyor: Conveyor
     given: CalculatedConveyor
     followed: tuple[Followed, ...]
+    sized: tuple[Size, ...] = ()
 
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
@@ -203,6 +226,8 @@ def follow(
     *,
     error: float = ERROR,
     step: float | None = None,
+    executor: Executor | None = None,
+    workers: int = 1,
     progress: Progress | None = None,
 ) -> CalculatedDynamics:
     """Follow scenarios through time.
@@ -217,6 +242,10 @@ def follow(
         Of the highest and lowest tension over the highest, asked for [-].
     step : float, optional
         Travel time of a cell [s]; without it cells are halved until the peaks hold to `error`.
+    executor : concurrent.futures.Executor, optional
+        Where groups of scenarios are followed, as in `conveyor.studies.campaign.run`; side by side here without one.
+    workers : int
+        Of the executor: as many groups.
     progress : callable, optional
         Called with what is done and the whole.
 
@@ -239,17 +268,39 @@ def follow(
     )
     if step is not None:
         return CalculatedDynamics(conveyor, given, tuple(side_by_side(rides, step)))
+    followed = refined(rides, error, executor=executor, workers=workers, progress=progress)
+    return CalculatedDynamics(conveyor, given, followed)
+
+
+def refined(
+    rides: Sequence[Ride],
+    error: float = ERROR,
+    *,
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: Progress | None = None,
+) -> tuple[Followed, ...]:
+    """Follow scenarios, cells halved until the peaks hold to an error [-]; arguments and errors as of `follow`."""
+
+    def beside(some: list[Ride], step: float) -> list[Followed]:
+        """A group for every worker; every scenario keeps its place."""
+        if executor is None:
+            return side_by_side(some, step)
+        groups = [some[k::workers] for k in range(min(workers, len(some)))]
+        made = list(executor.map(side_by_side, groups, itertools.repeat(step)))
+        return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
+
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
-    open_ones, found = list(range(len(rides))), dict(enumerate(side_by_side(rides, step)))
+    open_ones, found = list(range(len(rides))), dict(enumerate(beside(list(rides), step)))
     for _ in range(_REFINED):
         if progress is not None:
             progress(len(rides) - len(open_ones), len(rides))
         step *= 0.5
-        for i, now in zip(open_ones, side_by_side([rides[i] for i in open_ones], step), strict=True):
+        for i, now in zip(open_ones, beside([rides[i] for i in open_ones], step), strict=True):
             found[i] = replace(now, error=_error(found[i], now))
         open_ones = [i for i in open_ones if (found[i].error or 0.0) > error]
         if not open_ones:
-            return CalculatedDynamics(conveyor, given, tuple(found[i] for i in range(len(rides))))
+            return tuple(found[i] for i in range(len(rides)))
     worst = max((found[i] for i in open_ones), key=lambda one: one.error or 0.0)
     raise NoSolutionError(
         f'scenario "{worst.name}": its peaks still change by {worst.error:.1%} at cells of {step:.3g} s: ask for a '
@@ -349,7 +400,7 @@ def _answers(variants: list[Variant], *, one_take_up: bool = False) -> list[Calc
 
 def _assumed(found: CalculatedDynamics) -> Iterator[str]:
     line = found.given.line
-    if line.belt.retardation is None:
+    if line.belt.retardation is None and line.belt.relaxing is None:
         yield f"belt.carcass.retardation_time not given: {BELT_RETARDATION.value:g} s, general knowledge"
     if line.belt.stiffness is None:
         yield "belt.carcass.stiffness not given: the usual multiple of the strength"
@@ -357,6 +408,11 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
         yield f"pulleys not driven turn like {PULLEY_INERTIA.value:.0%} of their mass, not given: general knowledge"
     if line.take_up.kind == "slack side":
         yield "route.take_up not given: a weight on the slack side of the drive"
+    if any(float(followed.record.slipped.max()) > 0.0 for followed in found.followed):
+        yield (
+            f"drag of a drive without power, whose belt slips, not given: {DRIVE_DRAG.value:.0%} of its loss at rated "
+            "power, general knowledge"
+        )
     for followed in found.followed:
         yield from _assumed_drives(followed.ride)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
-from conveyor.laws.waves import PULLEY_INERTIA, wave_speed
+from conveyor.laws.waves import PULLEY_INERTIA, SLACK_SAG, sag_factor, wave_speed
 from conveyor.line.line import Line
 from conveyor.line.places import Spot, Stand
 from conveyor.loop.take_up import belt_stiffness
@@ -56,10 +56,12 @@ class CutLoop:
         Of every stretch f0, f1, f2 of f0 + f1 v + f2 v² [N].
     lumps : tuple
         What stands at places.
-    drives : ndarray, shape (d,)
-        Distance of the drives [m].
+    drives, pulleys : ndarray
+        Distance of the drives, and of every pulley of the line [m].
     stiffness : float
         EA [N].
+    hanging : ndarray, shape (2n,)
+        Of every stretch what its sag takes in between the idlers, times T² over the length: (m' g a)²/24 [N²].
     """
 
     steady: CalculatedConveyor
@@ -71,7 +73,9 @@ class CutLoop:
     friction: Array
     lumps: tuple[_Lump, ...]
     drives: Array
+    pulleys: Array
     stiffness: float
+    hanging: Array
 
     @property
     def line(self) -> Line:
@@ -136,8 +140,15 @@ class CutLoop:
             friction=_over_speed(line.speed, [_along(one)[0] for one in slower], friction, line)[:, order],
             lumps=tuple(_lumps(steady, distance)),
             drives=np.array([distance(drive.spot) for drive in line.drives]),
+            pulleys=np.array([distance(pulley.spot) for pulley in line.pulleys]),
             stiffness=stiffness,
-        )
+            hanging=np.array([
+                sag_factor(
+                    s.belt_mass + s.bulk_mass, spacing=s.spacing, inclination=s.inclination, gravity=line.gravity
+                )
+                for s in (line.loop.stretches[k] for k in order.tolist())
+            ]),
+        )  # fmt: skip
 
     def cells(self, step: float) -> Cells:
         """Cut into cells that a wave crosses in a step or little longer, drives at their ends.
@@ -167,6 +178,8 @@ class CutLoop:
             cell = np.diff(np.interp(at, self.way, np.concatenate([np.zeros(1), np.cumsum(values)])))
             return np.asarray(0.5 * (np.append(cell, 0.0) + np.append(0.0, cell)))
 
+        hanging = np.concatenate([np.zeros(1), np.cumsum(self.hanging * np.diff(self.way))])
+        sag = np.diff(np.interp(at, self.way, hanging))
         mass, weight, stuck = lumped(self.mass), lumped(self.weight), lumped(self.stuck)
         friction = np.stack([lumped(part) for part in self.friction])
         for lump in self.lumps:
@@ -183,7 +196,7 @@ class CutLoop:
                 friction[:, beside] += friction[:, end]
                 stuck[beside] += stuck[end]
                 friction[:, end], stuck[end] = 0.0, 0.0
-        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes)
+        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, sag)
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,6 +210,12 @@ class Cells:
     friction: Array
     stuck: Array
     nodes: NDArray[np.int_]
+    sag: Array
+
+    @cached_property
+    def slack(self) -> Array:
+        """Tension of every cell at which it sags by a tenth of the span, from (m' g a)² = 24 b/Δs [N]."""
+        return np.asarray(np.sqrt(24.0 * self.sag / np.diff(self.at)) / (8.0 * SLACK_SAG.value))
 
     def resisting(self, speed: float, friction: float) -> Array:
         """Friction of every mass at a speed [N]."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +13,8 @@ from conveyor.dynamics.loop import Cells, CutLoop
 from conveyor.dynamics.wave import SPEED_POINTS, Beginning, Chain, Machines
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import start_force, typical_reduced_mass
-from conveyor.laws.waves import BELT_RETARDATION, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
-from conveyor.line.line import DriveUnit
+from conveyor.laws.waves import BELT_RETARDATION, DRIVE_DRAG, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
+from conveyor.line.line import BeltBody, DriveUnit
 from conveyor.line.scenes import ScenarioUnit, StarterUnit
 
 Array = NDArray[np.float64]
@@ -37,12 +37,16 @@ class Ride:
         The belt as its spec loads it: settings of the starters are made for it.
     setting : float
         What the take-up is set to [N].
+    units, braking : tuple or None
+        Starters and forces of the brakes [N] of every drive, instead of those of scenario and line.
     """
 
     scene: ScenarioUnit
     loop: CutLoop
     given: CutLoop
     setting: float
+    units: tuple[StarterUnit, ...] | None = None
+    braking: tuple[float, ...] | None = None
 
     @property
     def drives(self) -> tuple[DriveUnit, ...]:
@@ -52,7 +56,12 @@ class Ride:
     @cached_property
     def starters(self) -> tuple[StarterUnit, ...]:
         """Of every drive, with a time where one is needed."""
-        return tuple(self._starter(drive) for drive in self.drives)
+        return self.units or tuple(self._starter(drive) for drive in self.drives)
+
+    @property
+    def brakes(self) -> tuple[float, ...]:
+        """Force of every drive's brake at the belt [N]."""
+        return self.braking or tuple(self.loop.line.brakes)
 
     def _starter(self, drive: DriveUnit) -> StarterUnit:
         line = self.loop.line
@@ -67,8 +76,7 @@ class Ride:
         if rigid is None:
             raise NoSolutionError(f'drive "{drive.name}" does not reach full speed: give its starter a time')
         time = rigid * STEEPEST[unit.ramp] if unit.kind == "inverter" else rigid
-        return StarterUnit(unit.kind, unit.ramp, time, unit.stop_time or time, unit.delay, unit.initial, unit.limit,
-                           unit.slip, (*unit.assumed, "time"))  # fmt: skip
+        return replace(unit, time=time, stop_time=unit.stop_time or time, assumed=(*unit.assumed, "time"))
 
     @cached_property
     def rated(self) -> Array:
@@ -143,7 +151,7 @@ class Ride:
 
     def _of_drive(self, d: int, times: Array) -> tuple[Array, Array, Array]:
         """The same of one drive; what it is told later stands."""
-        unit, force = self.starters[d], self.loop.line.brakes[d]
+        unit, force = self.starters[d], self.brakes[d]
         reference = np.full(times.size, float(self.scene.running))
         share, brake = reference, force * (1.0 - reference)
         for told in self.scene.happenings:
@@ -198,8 +206,43 @@ class Ride:
         return np.asarray(self.rated[:, None] * np.array(each))
 
 
+@dataclass(frozen=True, eq=False)
+class Size:
+    """A figure that was sought for a scenario.
+
+    Attributes
+    ----------
+    scenario : str
+        Its name.
+    label, kind : str
+        What was sought, and its kind of quantity.
+    value : float
+        SI.
+    error : float or None
+        Distance to the next smaller one tried, over it [-]; None where the smallest looked at serves already.
+    most : float or None
+        The largest tried that serves too; None where every larger one does.
+    governs, why : str
+        What fails with the next smaller one; of a delay what has the least margin.
+    ride : Ride
+        The scenario with it.
+    """
+
+    scenario: str
+    label: str
+    kind: str
+    value: float
+    error: float | None
+    most: float | None
+    governs: str
+    why: str
+    ride: Ride
+
+
 def _gain(unit: StarterUnit, since: Array) -> Array:
     """Share of the motor's torque that its starter lets through."""
+    if unit.fill:
+        return np.asarray(np.interp(since, *np.transpose(unit.fill)))
     if unit.kind in {"direct", "inverter"} or unit.time is None:
         return np.ones_like(since)
     x = np.clip(since / unit.time, 0.0, 1.0)
@@ -236,7 +279,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
     chain = Chain(
         mass=filled([one.mass for one in cells], 1.0, most),
         stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
-        retardation=BELT_RETARDATION.value if line.belt.retardation is None else line.belt.retardation,
+        retardation=retardation(line.belt),
         weight=filled([one.weight for one in cells], 0.0, most),
         friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
         sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
@@ -248,6 +291,8 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         held=held,
         carriage=np.broadcast_to(carriage, held.shape),
         winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
+        sag=filled([one.sag for one in cells], 0.0, most - 1),
+        relaxing=line.belt.relaxing or (0.0, 1.0),
     )  # fmt: skip
     moving = np.array([[line.speed * ride.scene.running] for ride in rides])
     start = Beginning(
@@ -258,6 +303,13 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         rims=moving * np.ones_like(chain.rim),
     )
     return cells, chain, start
+
+
+def retardation(belt: BeltBody) -> float:
+    """τ of the belt [s]: as given, none beside a standard solid, else the default."""
+    if belt.retardation is not None:
+        return belt.retardation
+    return BELT_RETARDATION.value if belt.relaxing is None else 0.0
 
 
 def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
@@ -275,7 +327,7 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
         most = friction * (cells.resisting(line.speed, 1.0) + cells.stuck)
         share = -float(cells.weight.sum()) / float(most.sum())
         resisting = most * min(1.0, max(-1.0, share))
-        resisting = _taut(ride.setting, resisting, most, cells.weight)
+        resisting = _taut(ride.setting, resisting, most, cells)
         driving = np.zeros_like(shares)
         driving[0] = float(resisting.sum() + cells.weight.sum())
     against = resisting + cells.weight
@@ -285,14 +337,16 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
     if line.take_up.keeps_length:  # it holds the mean of the loop
         length = np.diff(cells.at)
         tension = tension - float(along[1:] @ length) / float(length.sum())
+    tension[1:] = np.maximum(tension[1:], cells.slack)  # slack from the begin: as its check says
     return resisting, tension, driving
 
 
-def _taut(setting: float, resisting: Array, most: Array, weight: Array) -> Array:
+def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
     """Friction at rest that keeps the belt from being slack, where it can [N]."""
+    weight = cells.weight
     tension = setting + np.cumsum(resisting + weight)[:-1]
     for i in range(1, tension.size):
-        tension[i] = max(tension[i], 0.0, tension[i - 1] + weight[i] - most[i])
+        tension[i] = max(tension[i], cells.slack[i], tension[i - 1] + weight[i] - most[i])
     for i in range(tension.size - 2, -1, -1):
         tension[i] = max(tension[i], tension[i + 1] - weight[i + 1] - most[i + 1])
     held = np.append(np.diff(tension, prepend=setting) - weight[:-1], resisting[-1])
@@ -314,4 +368,5 @@ def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Ma
     running = np.array([[ride.scene.running] for ride in rides])
     level = line.speed + np.where(running, start.driving, steady) / slope
     limits = np.array([ride.limits() for ride in rides])
-    return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed)
+    drag = DRIVE_DRAG.value * (1.0 / line.efficiency - 1.0) * rated
+    return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed, drag)

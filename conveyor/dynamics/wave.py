@@ -5,14 +5,16 @@ steps, speeds between them (leapfrog), so at a step of one travel time of a cell
 exactly, and nothing is damped that the belt does not damp. The damping T = k (Δu + τ Δu̇) is taken at the mean of old
 and new speeds: one tridiagonal system a step, stable at any τ. Friction is a set-valued force: what a mass would need
 to stand still, limited to what there is; so nothing chatters where the motion turns. The same holds for the grip of a
-belt on its driven pulley, for brakes and for backstops.
+belt on its driven pulley, for brakes and for backstops. Between the idlers the belt hangs: as its tension falls the sag
+takes in belt, so that it softens and never pushes.
 
-Source: derived (Newton, Hooke, Kelvin and Voigt); leapfrog, its stability (Courant, Friedrichs, Lewy 1928) and the
-projection of friction are textbook numerics.
+Source: derived (Newton, Hooke, Kelvin and Voigt, Maxwell, the shallow parabola); leapfrog, its stability (Courant,
+Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,6 +27,10 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int_]
 
 _BLOCK = 32  # steps between two looks for extremes
+_NEWTON, _NEAR = (
+    60,
+    1e-4,
+)  # steps for a tension at most, and a relative one after which the rest is its square
 SPEED_POINTS = 65  # points of the motors' limits over speed
 
 
@@ -40,6 +46,10 @@ class Chain:
         k = EA/Δs of a cell [N/m]; 0 of an idle one.
     retardation : float
         τ of Kelvin and Voigt [s].
+    sag : ndarray
+        b of a cell, which sag shortens by b/T² [m N²]: its length times (m' g a)²/24; 0 where nothing hangs.
+    relaxing : tuple of float
+        Stiffness over k of Maxwell's branch beside the spring, and its relaxation time [-, s]; a standard solid.
     weight : ndarray
         Force of gravity against the running direction [N].
     friction : ndarray, shape (3, s, n + 1)
@@ -78,11 +88,14 @@ class Chain:
     held: Array
     carriage: Array
     winch: Array
+    sag: Array
+    relaxing: tuple[float, float] = (0.0, 1.0)
 
     @property
     def longest_step(self) -> float:
         """Step up to which the leapfrog is stable, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
-        pull = 2.0 * (np.pad(self.stiffness, ((0, 0), (1, 0))) + np.pad(self.stiffness, ((0, 0), (0, 1))))
+        stiff = (1.0 + self.relaxing[0]) * self.stiffness
+        pull = 2.0 * (np.pad(stiff, ((0, 0), (1, 0))) + np.pad(stiff, ((0, 0), (0, 1))))
         return float(2.0 / np.sqrt((pull / self.mass).max()))
 
     def resisting(self, speed: Array) -> Array:
@@ -111,6 +124,8 @@ class Machines:
         Largest force over the speed from 0 to `top` [N].
     top : float
         [m/s].
+    drag : ndarray, shape (s, d)
+        What a drive without power takes of its own once its belt slips [N].
     """
 
     slope: Array
@@ -119,6 +134,7 @@ class Machines:
     brake: Array
     limits: Array
     top: float
+    drag: Array
 
     def limit(self, speed: Array) -> Array:
         """Largest force at a speed [N], shape (s, d)."""
@@ -220,6 +236,68 @@ class _Extremes:
         self.count = 0
 
 
+class _BeltLaw:
+    """Tension of every cell by how far its ends have moved apart, u = T/k - b/T², and a relaxing branch beside it."""
+
+    def __init__(self, chain: Chain, step: float, tension: Array) -> None:
+        self.bears = chain.stiffness > 0.0
+        self.k, self.sag = np.where(self.bears, chain.stiffness, 1.0), chain.sag
+        self.hangs = bool(chain.sag.any())
+        if self.hangs:
+            self.sag = np.where(self.bears, chain.sag, 1.0)
+            tension = np.where(self.bears, tension, 1.0)
+            if tension.min() <= 0.0:
+                raise NoSolutionError(
+                    "a belt that hangs between idlers bears tension only: the begin is slack"
+                )
+        self.gives, self.softens = 1.0 / self.k, 2.0 * self.k * self.sag
+        self.root = self.tension = tension
+        self.apart = self.gives * tension - (self.sag / tension**2 if self.hangs else 0.0)
+        share, time = chain.relaxing
+        self.fades = math.exp(-step / time)
+        self.branch_k = share * np.where(self.bears, self.k, 0.0)
+        self.fed = self.branch_k * time / step * (1.0 - self.fades)
+        self.branch = np.zeros_like(tension)
+        self._ease()
+
+    def _ease(self) -> None:
+        """Share of k that the cells have at their tension; without sag 1."""
+        self.eased = (
+            1.0 / (1.0 + self.softens / (self.root * self.root * self.root))
+            if self.hangs
+            else np.ones_like(self.root)
+        )
+
+    def stretch(self, way: Array) -> Array:
+        """Move the ends of the cells apart [m]; the tension without damping [N]."""
+        self.apart = self.apart + way
+        if not self.hangs:
+            self.root = self.k * self.apart
+        else:
+            for _ in range(_NEWTON):  # concave and rising: from below each step falls short of the root
+                earlier = self.root
+                slack = self.sag / (earlier * earlier)
+                change = (self.apart + slack - self.gives * earlier) / (self.gives + 2.0 * slack / earlier)
+                self.root = np.maximum(earlier + change, 0.25 * earlier)
+                if float((np.abs(change) - _NEAR * earlier).max()) < 0.0:
+                    break
+            else:
+                raise NoSolutionError("the tension of a slack belt has no answer: look for extreme inputs")
+        self._ease()
+        if self.branch_k.any():
+            self.branch = self.fades * self.branch + self.eased * self.fed * way
+        self.tension = np.where(self.bears, self.root + self.branch, 0.0)
+        return self.tension
+
+    def stored(self) -> tuple[Array, Array]:
+        """Work that springs and sag keep, and the relaxing branch, of every belt [J]."""
+        own = 0.5 * self.root**2 / self.k - (2.0 * self.sag / self.root if self.hangs else 0.0)
+        held = np.divide(
+            self.branch**2, 2.0 * self.branch_k, out=np.zeros_like(own), where=self.branch_k > 0.0
+        )
+        return np.where(self.bears, own, 0.0).sum(axis=1), held.sum(axis=1)
+
+
 class _Solver:
     """One step's linear system: masses, damping, the take-up between both ends; pulleys' responses beside it."""
 
@@ -305,12 +383,13 @@ class _Motion:
         self.chain, self.machines, self.dt = chain, machines, step
         self.steps = machines.reference.shape[0]
         self.every = max(1, self.steps // samples)
-        self.solver, self.ledger = _Solver(chain, step), _Ledger(chain, step, start)
+        self.solver, self.law = _Solver(chain, step), _BeltLaw(chain, step, start.tension)
+        self.ledger = _Ledger(chain, step, start, self.law)
         self._set_up()
         s, n = chain.stiffness.shape
         self.speed, self.tension = start.speed, start.tension
         self.stretching = np.diff(start.speed, axis=1)
-        self.strained = start.tension + self.tau_k * self.stretching
+        self.strained = start.tension + self.tau_k * self.law.eased * self.stretching
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
         self.rubbing = start.resisting[self.rows, self.at]
@@ -333,18 +412,13 @@ class _Motion:
         self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
         self.over_mass, self.under_mass = self.loose * step / chain.mass, self.loose * chain.mass / step
         self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
-        self.tau_k, self.k_step = chain.retardation * chain.stiffness, step * chain.stiffness
+        self.tau_k = chain.retardation * chain.stiffness
         self.first, self.last = (
             at == 0,
             at == chain.end[:, None],
         )  # beside the take-up pulleys bear its tension
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-        self.softer = self.k_step + self.tau_k
-        of_take_up = self.solver.of_take_up / (self.solver.answer * step)
-        self.yields = (
-            np.where(self.first, -of_take_up, self.softer[self.rows, self.before]),
-            np.where(self.last, of_take_up, self.softer[self.rows, self.behind]),
-        )
+        self.of_take_up = self.solver.of_take_up / (self.solver.answer * step)
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
         )  # of what lies on a pulley's mass, on either side
@@ -363,7 +437,7 @@ class _Motion:
             self.dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at),
             np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
             np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
-            self.slowest, self.ledger.closed(self.speed, self.rims, self.tension),
+            self.slowest, self.ledger.closed(self.speed, self.rims, self.law),
         )  # fmt: skip
 
     def _time(self, steps: Array) -> Array:
@@ -386,12 +460,14 @@ class _Motion:
         new = free - rubbed
         self.resisting = rubbed * self.under_mass
         self.pulled = chain.held - lacking / self.dt
-        self.ledger.belts(self.speed, new, self.resisting, self.pulled)
         earlier, self.stretching = self.stretching, np.diff(new, axis=1)
-        self.shown = self.tension + self.tau_k * (0.5 * (earlier + self.stretching))
+        # half of the old and half of the new one are solved for with all of τ k; what sag eases is taken off the old
+        damping = self.tau_k * (0.5 * (earlier + self.stretching) - (1.0 - self.law.eased) * earlier)
+        self.ledger.belts(self.speed, new, self.resisting, self.pulled, damping + self.law.branch)
+        self.shown = self.tension + damping
         self.speed = new
-        self.tension = self.tension + self.k_step * self.stretching
-        self.strained = self.tension + self.tau_k * self.stretching
+        self.tension = self.law.stretch(self.dt * self.stretching)
+        self.strained = self.tension + self.tau_k * self.law.eased * self.stretching
 
     def _acting(self) -> Array:
         """Force on every mass, friction and drives as they were."""
@@ -407,7 +483,12 @@ class _Motion:
         """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
         chain, solver, rows, at = self.chain, self.solver, self.rows, self.at
         at_nodes, going = self.speed[rows, at], new[rows, at]
-        coming = self.tension + self.softer * np.diff(new, axis=1)
+        softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
+        yields = (
+            np.where(self.first, -self.of_take_up, softer[rows, self.before]),
+            np.where(self.last, self.of_take_up, softer[rows, self.behind]),
+        )
+        coming = self.tension + softer * np.diff(new, axis=1)
         lying = self.here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
         tight = (chain.held - lacking / self.dt)[:, None]
         arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
@@ -415,8 +496,8 @@ class _Motion:
         moved = _pulleys(
             chain, self.machines, i, step=self.dt, answer=solver.answer, rim=self.rims,
             free=going - solver.answer * self.dt * (self.driving - self.rubbing),
-            arriving=arriving - self.yields[0] * going, leaving=leaving + self.yields[1] * going,
-            yields=self.yields, friction=np.where(at_nodes == 0.0, self.stuck, rolling[rows, at]),
+            arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going,
+            yields=yields, friction=np.where(at_nodes == 0.0, self.stuck, rolling[rows, at]),
         )  # fmt: skip
         push = (moved.belt - going) / solver.answer
         for name, values in self.drives.items():
@@ -507,7 +588,7 @@ def _pulleys(
                 limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
             )
             force = np.where(grips, force, limit)
-            stop = step * brake / mass
+            stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
             spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
             belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
         motor = base - 0.5 * slope * (turned + rim)
@@ -524,12 +605,12 @@ def _pulleys(
 class _Ledger:
     """Energy given and where it goes, at the mean of old and new speeds."""
 
-    def __init__(self, chain: Chain, step: float, start: Beginning) -> None:
+    def __init__(self, chain: Chain, step: float, start: Beginning, law: _BeltLaw) -> None:
         self.chain, self.dt = chain, step
         self.rows = np.arange(chain.end.size)
         names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")
         self.sums = {name: np.zeros(chain.end.size) for name in names}
-        self.first = self._stored(start.speed, start.rims, start.tension)
+        self.first = self._stored(start.speed, start.rims, law)
 
     def drives(self, rims: Array, belt: Array, moved: _Moved) -> None:
         """Add the work of a step at the driven pulleys, from their speeds and the belt's before it."""
@@ -542,7 +623,7 @@ class _Ledger:
         ):
             self.sums[name] += self.dt * power.sum(axis=1)
 
-    def belts(self, before: Array, now: Array, friction: Array, tight: Array) -> None:
+    def belts(self, before: Array, now: Array, friction: Array, tight: Array, damping: Array) -> None:
         """Add the work of a step all along the belts."""
         mean = 0.5 * (before + now)
         apart = mean[self.rows, self.chain.end] - mean[:, 0]
@@ -550,29 +631,25 @@ class _Ledger:
         for name, power in (
             ("lift", np.einsum("sn,sn->s", self.chain.weight, mean)),
             ("friction", np.einsum("sn,sn->s", friction, mean)),
-            (
-                "damping",
-                self.chain.retardation * np.einsum("sn,sn,sn->s", self.chain.stiffness, spread, spread),
-            ),
+            ("damping", np.einsum("sn,sn->s", damping, spread)),
             ("take-up", -np.where(self.chain.winch[0] > 0.0, tight, self.chain.held) * apart),
         ):
             self.sums[name] += self.dt * power
 
-    def _stored(self, speed: Array, rims: Array, tension: Array) -> tuple[Array, Array]:
+    def _stored(self, speed: Array, rims: Array, law: _BeltLaw) -> tuple[Array, Array, Array]:
         apart = speed[self.rows, self.chain.end] - speed[:, 0]
         mass = np.where(np.isinf(self.chain.carriage), 0.0, self.chain.carriage)
         moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum(
             "sd,sd->s", self.chain.rim, rims**2
         )
-        k = self.chain.stiffness
-        elastic = np.divide(tension**2, k, out=np.zeros_like(k), where=k > 0.0).sum(axis=1)
-        return 0.5 * (moving + mass * apart**2), 0.5 * elastic
+        return 0.5 * (moving + mass * apart**2), *law.stored()
 
-    def closed(self, speed: Array, rims: Array, tension: Array) -> dict[str, Array]:
-        """Every sum, and what they lack."""
-        kinetic, elastic = (
-            last - first for last, first in zip(self._stored(speed, rims, tension), self.first, strict=True)
+    def closed(self, speed: Array, rims: Array, law: _BeltLaw) -> dict[str, Array]:
+        """Every sum, and what they lack; what the relaxing branch keeps is elastic, not damped."""
+        kinetic, elastic, held = (
+            last - first for last, first in zip(self._stored(speed, rims, law), self.first, strict=True)
         )
-        made = dict(self.sums) | {"kinetic": kinetic, "elastic": elastic}
+        made = dict(self.sums) | {"kinetic": kinetic, "elastic": elastic + held}
+        made["damping"] = made["damping"] - held
         spent = sum((value for name, value in made.items() if name != "motors"), np.zeros_like(kinetic))
         return made | {"missing": made["motors"] - spent}

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.laws.resistance.defaults import Default
-from conveyor.require import require, require_positive
+from conveyor.require import require, require_positive, require_slope
 
 BELT_RETARDATION: Final = Default(
     0.1,
@@ -34,6 +34,53 @@ PULLEY_INERTIA: Final = Default(
     "rotating mass of a pulley at its rim over its mass; 0.5 of a disc, 1 of a thin shell",
     True,
 )  # [-]
+
+DRIVE_DRAG: Final = Default(
+    0.5, 0.3, 0.7, "drag of a drive without power over its loss at rated power", True
+)  # [-]
+SLACK_SAG: Final = Default(0.1, 0.05, 0.2, "sag over the span from which on a belt is slack", True)  # [-]
+MOVING_SAG: Final = Default(
+    0.05, 0.03, 0.1, "sag over the span allowed while a conveyor starts or stops", True
+)  # [-]
+
+
+def sag_factor(line_mass: float, *, spacing: float, inclination: float, gravity: float) -> float:
+    """Strain that the sag between idlers takes in, times T²: (m' g a cos δ)²/24.
+
+    Parameters
+    ----------
+    line_mass : float
+        m' of belt and bulk [kg/m], positive.
+    spacing : float
+        a [m], positive.
+    inclination : float
+        δ [rad], below a right angle.
+    gravity : float
+        g [m/s²], positive.
+
+    Returns
+    -------
+    float
+        S in strain = T/EA - S/T² [N²].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Derived: a shallow parabola is longer than its chord by 8/3 (h/a)², h/a = m' g a/(8 T). The belt softens as
+    1/EA + 2 S/T³, and never pushes. It hangs as it would at rest: its bouncing is left out.
+
+    Examples
+    --------
+    >>> sag_factor(100.0, spacing=1.2, inclination=0.0, gravity=10.0)
+    60000.0
+    """
+    require_positive(line_mass=line_mass, spacing=spacing, gravity=gravity)
+    require_slope(inclination=inclination)
+    return (line_mass * gravity * spacing * math.cos(inclination)) ** 2 / 24.0
 
 
 def wave_speed(stiffness: float, *, line_mass: float) -> float:
@@ -58,7 +105,8 @@ def wave_speed(stiffness: float, *, line_mass: float) -> float:
 
     Notes
     -----
-    Of a taut belt: sag between the rolls makes it slower. The belt's own speed is left out, below 1 % of c.
+    Of a taut belt: sag between the rolls makes it slower (`sag_factor`). The belt's own speed is left out, below 1 % of
+    c.
 
     Examples
     --------

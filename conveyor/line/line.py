@@ -38,7 +38,10 @@ _MOST_DRIVEN_WRAP = math.radians(270.0)
 
 @dataclass(frozen=True)
 class BeltBody:
-    """The belt itself: width, thickness, carcass [m]; strength, rating, stiffness per width [N/m], None not given."""
+    """The belt itself: width, thickness, carcass [m]; strength, rating, stiffness per width [N/m], None not given.
+
+    `relaxing` is the stiffness that fades over the lasting one, and in which time [-, s].
+    """
 
     width: float
     thickness: float
@@ -53,6 +56,7 @@ class BeltBody:
     duty: Condition
     permanent_stretch: float | None
     retardation: float | None
+    relaxing: tuple[float, float] | None = None
 
     @property
     def steel_cord(self) -> bool:
@@ -410,6 +414,9 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         duty=carcass.duty,
         permanent_stretch=_known(carcass.permanent_stretch),
         retardation=_known(carcass.retardation_time),
+        relaxing=None
+        if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
+        else (si(carcass.relaxing_stiffness), si(carcass.relaxation_time)),
     )
 
 

@@ -11,7 +11,10 @@ from conveyor.units import si
 
 @dataclass(frozen=True)
 class StarterUnit:
-    """A starter: times [s], torques over the rated or the largest one [-], slip [-]; None not given."""
+    """A starter: times [s], torques over the rated or the largest one [-], slip [-]; None not given.
+
+    `fill` are times and shares of a coupling's largest torque [s, -], empty without.
+    """
 
     kind: str
     ramp: str
@@ -22,14 +25,17 @@ class StarterUnit:
     limit: float | None
     slip: float
     assumed: tuple[str, ...]
+    fill: tuple[tuple[float, float], ...] = ()
 
     @classmethod
     def of(cls, given: Starter) -> StarterUnit:
         """Return the SI view."""
         assumed = ["slip"] if given.slip is None else []
-        if given.initial_torque is None and given.kind in {"soft starter", "fluid coupling"}:
+        fill = tuple((si(point.at), si(point.share)) for point in given.fill)
+        if given.initial_torque is None and given.kind in {"soft starter", "fluid coupling"} and not fill:
             assumed.append("initial torque")
         time, stop = (None if value is None else si(value) for value in (given.time, given.stop_time))
+        time = fill[-1][0] if fill else time
         return cls(
             kind=given.kind,
             ramp=given.ramp,
@@ -40,6 +46,7 @@ class StarterUnit:
             limit=given.torque_limit,
             slip=MOTOR_SLIP.value if given.slip is None else si(given.slip),
             assumed=tuple(assumed),
+            fill=fill,
         )
 
 

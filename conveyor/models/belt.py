@@ -82,7 +82,12 @@ class Carcass(Model):
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
     """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
     retardation_time: Annotated[Time, Bounds(ge="0 s", le="10 s")] | None = None
-    """Damping of the belt lengthwise, force = stiffness (strain + time x its rate), for scenarios; 0.1 s without it."""
+    """Damping of the belt lengthwise, force = stiffness (strain + time x its rate), for scenarios; 0.1 s without it, 0
+    where relaxation_time is given."""
+    relaxing_stiffness: Annotated[Fraction, Bounds(gt="0 %", le="1000 %")] | None = None
+    """Of a standard solid: stiffness that fades with relaxation_time, beside the lasting one and over it."""
+    relaxation_time: Annotated[Time, Bounds(gt="0 s", le="1 h")] | None = None
+    """In which relaxing_stiffness fades at held strain."""
     permanent_stretch: Annotated[Fraction, Bounds(ge="0 %", le="10 %")] | None = None
     """Lasting elongation over the belt's life; 0.1 % of steel cord and 0.75 % of others without it."""
     splice_strength: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
@@ -107,6 +112,10 @@ class Carcass(Model):
         if strength is None and self.splice_strength is not None:
             message = "given without the strength it is a share of; give strength, or remove it"
             problems.append(Problem(("splice_strength",), message))
+        if (self.relaxing_stiffness is None) != (self.relaxation_time is None):
+            names = ("relaxing_stiffness", "relaxation_time")
+            missing, other = names if self.relaxing_stiffness is None else names[::-1]
+            problems.append(Problem((missing,), f"missing: {other} is given and needs it, or remove {other}"))
         refuse("Carcass", problems)
         return self
 

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from conveyor.models.base import Model, Number, Problem, refuse
-from conveyor.units import Bounds, Fraction, Time, quantity
+from conveyor.units import Bounds, Fraction, Time, quantity, si
 
 RampShape = Literal["linear", "cosine", "S"]
+
+
+class FillPoint(Model):
+    """What a coupling lets through, and when."""
+
+    at: Annotated[Time, Bounds(ge="0 s", le="1 h")]
+    """From when its drive is switched on."""
+    share: Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
+    """Of the largest torque; linear between the points, held beyond the last."""
 
 
 class Starter(Model):
@@ -28,6 +38,8 @@ class Starter(Model):
     """From the command to start until this drive is switched on; an inverter then joins the ramp that all follow."""
     initial_torque: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Of a soft starter or a coupling at the begin, over its largest; 30 % without it."""
+    fill: Annotated[tuple[FillPoint, ...], Field(max_length=100)] = ()
+    """How a fluid coupling fills, from 0 s on, instead of time and initial_torque."""
     torque_limit: Annotated[Number, Field(ge=1, le=5)] | None = None
     """Largest torque over the rated one; that of drive.torque_factor or drive.torque_curve, else 1.6, without it."""
     slip: Annotated[Fraction, Bounds(gt="0 %", le="20 %")] | None = None
@@ -46,5 +58,15 @@ class Starter(Model):
             problems.append(Problem(("time",), "given with kind direct: nothing is led; remove it"))
         if self.kind not in {"soft starter", "fluid coupling"} and self.initial_torque is not None:
             problems.append(Problem(("initial_torque",), f"given with kind {self.kind}; remove it"))
+        if self.fill:
+            if self.kind != "fluid coupling":
+                problems.append(
+                    Problem(("fill",), f"given with kind {self.kind}: only a fluid coupling fills")
+                )
+            beside = [name for name in ("time", "initial_torque") if getattr(self, name) is not None]
+            problems += [Problem((name,), "given beside fill, which says it; remove one") for name in beside]
+            times = [si(point.at) for point in self.fill]
+            if times[0] != 0.0 or any(late <= early for early, late in itertools.pairwise(times)):
+                problems.append(Problem(("fill",), "its points must begin at 0 s and follow one another"))
         refuse("Starter", problems)
         return self

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from conveyor.report.columns import slug
+from conveyor.report.moving import Panel, moving
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
@@ -15,9 +17,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.dynamics.follow import Followed
+    from conveyor.markup import Html
 
 _LEVELS, _MOST = 14, 120  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
+_FRAMES, _PLACES = 60, 70  # of what moves
 _HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
 
 
@@ -47,6 +51,30 @@ def forces(found: Followed, *, system: System = "SI") -> Figure:
     figure, (axis,) = stacked(1, _HEIGHT)
     _forces(axis, found, system)
     return figure
+
+
+def profile(found: Followed, *, system: System = "SI") -> Html:
+    """Tension and speed over the place, moving; it plays when it is asked to."""
+    force, length, speed = (
+        unit("force", system, large=True),
+        unit("length", system, large=True),
+        unit("speed", system),
+    )
+    order, distance = found.round_loop
+    record = found.record
+    kept = np.unique(np.linspace(0, record.times.size - 1, _FRAMES).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _PLACES).astype(int))
+    ends = record.lowest[order][cells], record.highest[order][cells]
+    tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
+    going = record.speeds[:, order[cells]].astype(float)
+    where = length.beside("distance from the head, return strand first")
+    return moving(
+        f"moving_{slug(found.name)}", (where, length(distance[cells])),
+        (unit("duration", system).beside("time"), record.times[kept]),
+        (Panel(force.beside("tension"), force(tension), (force(ends[0]), force(ends[1]))),
+         Panel(speed.beside("speed"), speed(going[kept]), (speed(going.min(axis=0)), speed(going.max(axis=0))))),
+        mark=float(length(found.line.loop.way[found.line.count])),
+    )  # fmt: skip
 
 
 def picture(found: Followed, *, system: System = "SI") -> Figure:

@@ -5,31 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from operator import attrgetter, itemgetter
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from conveyor.checks import Check, deciding
-from conveyor.dynamics.answers import checks_of, peaks
+from conveyor.dynamics.answers import at_pulley, checks_of, peaks
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
+from conveyor.dynamics.machines import Size
+from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
 from conveyor.report import dynamics_plots
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, slug
+from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, slug
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Remark, checked, document, provenance
+from conveyor.report.tables import Further, Remark, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
+from conveyor.units.presentation import Unit, unit
 
 PARTS: Final = (
-    ("scenarios", "Scenarios"),
+    ("dynamics", "Starting and stopping"),
     ("checks", "Checks"),
     ("warnings", "Warnings"),
-    ("drives", "Drives and take-up"),
-    ("tensions", "Tensions"),
-    ("figures", "Figures"),
+    ("through-time", "Through time"),
     ("assumptions", "Assumptions"),
     ("provenance", "Provenance"),
 )
-"""Parts of the page."""
+"""Parts of the page; a conveyor's has the first and the fourth among its own."""
 _SAMPLES = 200  # rows of histories of a scenario
 _SCENARIO = Column("scenario", "text", itemgetter(0), json="scenario")
 
@@ -38,17 +39,46 @@ def of_dynamics(found: CalculatedDynamics, system: System) -> Contents:
     """Every table of the scenarios of a conveyor in a unit system."""
     every = checks_of(found)
     parts = (
-        scenarios(found), scenario_drives(found), scenario_tensions(found), histories(found),
-        checked(deciding(every), system), _remarks(found, every, system), provenance(fingerprint(found.conveyor)),
+        *tables(found), checked(deciding(every), system), _remarks(found, every, system),
+        provenance(fingerprint(found.conveyor)),
     )  # fmt: skip
     names = ", ".join(one.name for one in found.followed)
     about = document(found.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(_drawings(found, system)))
+    return Contents(about, parts, system, tuple(drawings(found, system)))
+
+
+def further(found: CalculatedDynamics, system: System) -> Further:
+    """What a conveyor's own report takes over."""
+    return Further(
+        checks_of(found),
+        tuple(tables(found)),
+        tuple(drawings(found, system)),
+        found.assumptions,
+        of_scenarios(found),
+    )
+
+
+def tables(found: CalculatedDynamics) -> Iterator[Table]:
+    """What happened, in their order."""
+    for made in (
+        scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
+    ):  # fmt: skip
+        table = made(found)
+        if not table.empty:
+            yield table
 
 
 def _row(get: str) -> Any:
     """Of a row that begins with its scenario."""
     return lambda row: attrgetter(get)(row[1])
+
+
+_PEAKS: Final = (
+    Column("highest tension", "force", _row("highest"), json="highest_N"),
+    Column("at", "duration", _row("highest_at"), json="highest_at_s"),
+    Column("lowest tension", "force", _row("lowest"), json="lowest_N"),
+    Column("at", "duration", _row("lowest_at"), json="lowest_at_s", key="lowest_at"),
+)
 
 
 def scenarios(found: CalculatedDynamics) -> Table:
@@ -79,7 +109,47 @@ def scenarios(found: CalculatedDynamics) -> Table:
         Column("step", "time", lambda r: r.record.step, None, json="step_s"),
     )  # fmt: skip
     caption = "Starts and stops; distance is that of the belt at the first drive"
-    return Table("scenarios", "Scenarios", caption, columns, found.followed, (OnPage("scenarios", caption),))
+    return Table("scenarios", "Scenarios", caption, columns, found.followed, (OnPage("dynamics", caption),))
+
+
+class SizeRow(NamedTuple):
+    """A figure that was sought, as a row that has a unit of its own."""
+
+    size: Size
+
+    @property
+    def label(self) -> str:
+        """What was sought."""
+        return self.size.label
+
+    @property
+    def kind(self) -> str:
+        """Of the figure."""
+        return self.size.kind
+
+    def unit(self, system: System) -> Unit:
+        """How it is written."""
+        return unit(self.kind, system)
+
+    def called(self, _: System) -> str:
+        """What was sought, in any system."""
+        return self.label
+
+
+def sizes(found: CalculatedDynamics) -> Table:
+    """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
+    columns = (
+        Column("sought", NAMED, attrgetter("label"), json="sought"),
+        Column("scenario", "text", attrgetter("size.scenario"), json="scenario"),
+        Column("found", OF_ROW, attrgetter("size.value"), json="value"),
+        Column("to", "share", attrgetter("size.error"), json="error"),
+        Column("serves up to", OF_ROW, attrgetter("size.most"), json="most"),
+        Column("governing check", "text", attrgetter("size.governs"), json="governs"),
+        Column("what fails with less", "text", attrgetter("size.why"), json="fails_with_less"),
+    )
+    rows = [SizeRow(size) for size in found.sized]
+    caption = "What was sought so that every criterion is kept, and which one decides"
+    return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
 
 
 def scenario_drives(found: CalculatedDynamics) -> Table:
@@ -118,7 +188,56 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
         Column("carriage, in", "length", take_up(attrgetter("travel"), np.min), json="carriage_in_m"),
     )  # fmt: skip
     caption = "Drives and take-up; brake and backstop as they act at the belt, the carriage against its begin"
-    return Table("scenario_drives", "Drives", caption, columns, rows, (OnPage("drives", caption),), named=2)
+    return Table(
+        "scenario_drives", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
+    )
+
+
+def scenario_pulleys(found: CalculatedDynamics) -> Table:
+    """One row a scenario and pulley: highest and lowest tension beside it, and when; safety of the belt there."""
+    belt = found.given.line.belt
+
+    def safety(row: Any) -> float | None:
+        if belt.strength is None:
+            return None
+        return belt_safety(row[1].highest, nominal_strength=belt.strength, belt_width=belt.width)
+
+    rows = [
+        (one.name, peak)
+        for one in found.followed
+        for i in range(len(one.line.pulleys))
+        for peak in (at_pulley(one, i),)
+    ]
+    columns = (_SCENARIO, Column("pulley", "text", _row("section"), json="pulley"), *_PEAKS,
+               Column("safety of the belt", "ratio", safety, json="safety", sparse=True))  # fmt: skip
+    caption = "Highest and lowest tension of the belt at every pulley"
+    return Table(
+        "scenario_pulleys", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
+    )
+
+
+def splice_tensions(found: CalculatedDynamics) -> Table:
+    """One row a scenario: the range of tension that a splice goes through once round the loop, wherever it is."""
+    belt = found.given.line.belt
+
+    def needed(one: Followed) -> float | None:
+        if belt.splice_strength is None:
+            return None
+        return needed_strength(
+            one.highest / belt.width, splice_strength=belt.splice_strength,
+            s0=SPLICE_SAFETY[belt.splice_making], s1=DUTY_SAFETY[belt.duty],
+        )  # fmt: skip
+
+    columns = (
+        Column("scenario", "text", attrgetter("name"), json="scenario"),
+        Column("highest tension per width", "strength", lambda r: r.highest / belt.width, json="highest_N_per_mm"),
+        Column("lowest tension per width", "strength", lambda r: r.lowest / belt.width, json="lowest_N_per_mm"),
+        Column("strength asked for, as if steady", "strength", needed, json="strength_N_per_mm", sparse=True),
+    )  # fmt: skip
+    caption = "What every splice bears as it goes round; strength by its endurance (DIN 22101:2002)"
+    return Table(
+        "scenario_splices", "Scenarios", caption, columns, found.followed, (OnPage("dynamics", caption),)
+    )
 
 
 def scenario_tensions(found: CalculatedDynamics) -> Table:
@@ -128,15 +247,13 @@ def scenario_tensions(found: CalculatedDynamics) -> Table:
         _SCENARIO,
         Column("section", "text", _row("section"), json="section"),
         Column("strand", "text", _row("strand"), json="strand"),
-        Column("highest tension", "force", _row("highest"), json="highest_N"),
-        Column("at", "duration", _row("highest_at"), json="highest_at_s"),
-        Column("lowest tension", "force", _row("lowest"), json="lowest_N"),
-        Column("at", "duration", _row("lowest_at"), json="lowest_at_s", key="lowest_at"),
+        *_PEAKS,
         Column("least for sag, steady", "force", _row("least_for_sag"), json="least_for_sag_N"),
+        Column("largest sag over the span", "share", _row("sag"), json="sag"),
     )
     caption = "Highest and lowest tension of every section and strand, from the take-up round"
     return Table(
-        "scenario_tensions", "Tensions", caption, columns, rows, (OnPage("tensions", caption),), named=3
+        "scenario_tensions", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=3
     )
 
 
@@ -183,40 +300,40 @@ def _remarks(found: CalculatedDynamics, every: tuple[Check, ...], system: System
     return Table("remarks", "Checks and notes", "Remarks", columns, rows)
 
 
-def _drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
-    """Four figures a scenario."""
+def drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
+    """Five figures a scenario, the first of which moves."""
     for one in found.followed:
         for draw, words in (
+            (
+                dynamics_plots.profile,
+                "tension and speed round the loop; the tail is dashed, shaded what occurs",
+            ),
             (dynamics_plots.tension_map, "tension over place and time; the tail is white, slack belt red"),
             (dynamics_plots.envelope, "highest and lowest tension round the loop"),
             (dynamics_plots.speeds, "speeds at drives and tail"),
             (dynamics_plots.forces, "tensions at drives, tail and take-up, forces of the motors"),
         ):
             name = f"{slug(one.name)}_{draw.__name__}"
-            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "figures")
+            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "through-time")
+
+
+def of_scenarios(found: CalculatedDynamics) -> dict[str, Any]:
+    """Plain numbers of every scenario; units in the keys."""
+    return {
+        table.key.removeprefix("scenario_"): table.plain()
+        for table in tables(found)
+        if table.key != "histories"
+    }
 
 
 def plain(found: CalculatedDynamics) -> dict[str, Any]:
-    """Plain numbers for JSON; units in the keys."""
+    """Plain numbers for JSON, as `result_schema` describes them."""
     every = checks_of(found)
+    governing = deciding(every)
     return {
         "schema_version": SCHEMA_VERSION,
         "conveyor": found.conveyor.name,
-        "scenarios": scenarios(found).plain(),
-        "drives": scenario_drives(found).plain(),
-        "tensions": scenario_tensions(found).plain(),
-        "checks": [
-            {
-                "key": check.key,
-                "scenario": "" if check.case is None else check.case.text(),
-                "subject": check.subject.text(),
-                "calculated": check.calculated,
-                "required": check.required,
-                "kind": check.kind,
-                "verdict": check.verdict.lower(),
-                "why": None if check.why is None or not check.failed else check.why.text(),
-            }
-            for check in every
-        ],
+        **of_scenarios(found),
+        "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
         "assumptions": list(found.assumptions),
     }

@@ -39,6 +39,8 @@ SHEETS: Final = {
     "Load cases": sheets.stacked,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
+    "Scenarios": sheets.stacked,
+    "Histories": sheets.single,
     "Uncertainty": sheets.uncertainty,
     "Indentation": sheets.indentation,
     "Rubber": sheets.rubber,
@@ -57,7 +59,7 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Uncertainty")
+_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Scenarios", "Histories", "Uncertainty")
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
     "Results",

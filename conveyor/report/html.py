@@ -27,6 +27,8 @@ PARTS: Final = (
     ("rolls", "Roll contacts"),
     ("rubber", "Rubber"),
     ("start-stop", "Start and stop"),
+    ("dynamics", "Starting and stopping"),
+    ("through-time", "Through time"),
     ("belt", "Belt, pulleys and curves"),
     ("load-states", "Load states"),
     ("load-cases", "Load cases"),
@@ -135,7 +137,10 @@ def _table(shown: Table, caption: str, system: System) -> Html:
 
 
 def _drawn(drawing: Drawing) -> Html:
-    return figure(inline(drawing.draw(), drawing.name, drawing.caption), drawing.caption)
+    made = drawing.draw()
+    return figure(
+        made if isinstance(made, Html) else inline(made, drawing.name, drawing.caption), drawing.caption
+    )
 
 
 def _key_figures(contents: Contents) -> Html:

@@ -96,6 +96,9 @@ summary { color: var(--accent); cursor: pointer; }
 .warnings li { margin: .35rem 0; }
 figure { margin: 1rem 0; }
 .drawing svg { max-width: 48rem; }
+.moving button { font: inherit; padding: .2rem .9rem; margin: 0 0 .3rem; cursor: pointer; }
+@media print { .moving button { display: none; } }
+@media (prefers-reduced-motion: reduce) { .moving button { display: none; } }
 figcaption { font-size: .9rem; }
 svg { display: block; width: 100%; height: auto; font-family: system-ui, Arial, sans-serif; }
 svg * { stroke-linejoin: round; stroke-linecap: butt; }

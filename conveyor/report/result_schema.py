@@ -1,4 +1,4 @@
-"""The JSON schema of what `--json` prints, of a conveyor and of a comparison; declared beside a version."""
+"""The JSON schema of what `--json` prints, of a conveyor, a comparison and scenarios; declared beside a version."""
 
 from __future__ import annotations
 
@@ -81,6 +81,44 @@ _STATE: Final = _of(
         "worst_for": _each(_TEXT),
     }
 )
+
+
+def _rows(*texts: str, numbers: tuple[str, ...], also: tuple[str, ...] = (), of: str = "") -> Schema:
+    """Rows of words and of numbers that may not be known; some numbers only where the spec gives what they need."""
+    keys = dict.fromkeys(texts, _TEXT) | dict.fromkeys(numbers, _NUMBER_OR_NOT)
+    return _each(_of(keys, also=dict.fromkeys(also, _NUMBER_OR_NOT)), of)
+
+
+_EXTREMES: Final = ("highest_N", "highest_at_s", "lowest_N", "lowest_at_s")
+_SCENARIOS: Final = {
+    "scenarios": _rows(
+        "scenario", "highest_in", "lowest_in",
+        numbers=(
+            "duration_s", "highest_tension_N", "highest_at_s", "lowest_tension_N", "lowest_at_s",
+            "highest_speed_m_per_s", "rest_s", "way_m", "error", "energy_error", "cells", "step_s",
+        ),
+        of="one row a scenario; error is that of the peaks over the highest tension, by refinement",
+    ),
+    "drives": _rows(
+        "scenario", "drive",
+        numbers=(
+            "torque_max", "torque_min", "force_max_N", "force_min_N", "power_kW", "slip_m", "slip_heat_MJ", "brake_N",
+            "backstop_N", "take_up_min_N", "take_up_max_N", "carriage_out_m", "carriage_in_m",
+        ),
+    ),
+    "pulleys": _rows("scenario", "pulley", numbers=_EXTREMES, also=("safety",)),
+    "tensions": _rows("scenario", "section", "strand", numbers=(*_EXTREMES, "least_for_sag_N", "sag")),
+    "splices": _rows("scenario", numbers=("highest_N_per_mm", "lowest_N_per_mm"), also=("strength_N_per_mm",)),
+}  # fmt: skip
+_SIZES: Final = {
+    "sizes": _each(
+        _of(
+            dict.fromkeys(("sought", "scenario", "governs", "fails_with_less"), _TEXT)
+            | {"value": _NUMBER, "error": _NUMBER_OR_NOT, "most": _NUMBER_OR_NOT},
+            of="figures that --size sought, in the unit that `sought` names",
+        )
+    )
+}
 
 _POWER: Final = _of(
     {
@@ -191,6 +229,7 @@ _POWER: Final = _of(
             {"conveyor": _TEXT, "band": _ROWS, "tornado": _ROWS, "notes": _each(_TEXT)},
             of="where the spec has ranges",
         ),
+        "dynamics": _of(_SCENARIOS, of="where the spec has scenarios; their checks are among `checks`"),
     },
     of="conveyor power SPEC --json",
 )  # fmt: skip
@@ -216,9 +255,21 @@ _COMPARISON: Final = _of(
     of="conveyor compare SPEC --json",
 )
 
+_DYNAMICS: Final = _of(
+    {
+        "schema_version": {"const": SCHEMA_VERSION},
+        "conveyor": _TEXT,
+        **_SCENARIOS,
+        "checks": _each(_CHECK, of="every criterion of every scenario; `case` is the scenario"),
+        "assumptions": _texts("what the figures rest on that the spec does not say"),
+    },
+    also=_SIZES,
+    of="conveyor dynamics SPEC --json",
+)
+
 
 def result_schema() -> Schema:
-    """Return the JSON schema (draft 2020-12) of what `conveyor power --json` and `conveyor compare --json` print.
+    """Return the JSON schema (draft 2020-12) of what `--json` prints of `conveyor power`, `compare` and `dynamics`.
 
     Numbers are finite; what is not known is null. Keys may be added within a version.
 
@@ -230,6 +281,6 @@ def result_schema() -> Schema:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"Results of conveyor, version {SCHEMA_VERSION}",
-        "oneOf": [{"$ref": "#/$defs/power"}, {"$ref": "#/$defs/comparison"}],
-        "$defs": {"power": _POWER, "comparison": _COMPARISON},
+        "oneOf": [{"$ref": f"#/$defs/{name}"} for name in ("power", "comparison", "dynamics")],
+        "$defs": {"power": _POWER, "comparison": _COMPARISON, "dynamics": _DYNAMICS},
     }

@@ -72,10 +72,22 @@ _USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its stren
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
-def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Contents:
+class Further(NamedTuple):
+    """What other calculations of a conveyor add to its report: checks, tables, drawings, assumptions, plain figures."""
+
+    checks: tuple[Check, ...]
+    parts: tuple[Table, ...]
+    drawings: tuple[Drawing, ...]
+    assumptions: tuple[str, ...]
+    plain: dict[str, Any]
+
+
+def of_analysis(
+    analysis: CalculatedConveyor, studies: CalculatedStudies | None = None, further: Further | None = None
+) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system = analysis.conveyor.report.units
-    every = _every_check(analysis, studies)
+    every = _every_check(analysis, studies, further)
     found = deciding(every)
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
@@ -117,21 +129,25 @@ def of_analysis(analysis: CalculatedConveyor, studies: CalculatedStudies | None 
         indentation(analysis),
         rubber(analysis),
         *compounds(analysis, system),
+        *(() if further is None else further.parts),
         *case_checks(every, system),
         checked(found, system),
-        remarks(analysis, found, system),
+        remarks(analysis, found, system, () if further is None else further.assumptions),
         provenance(fingerprint(analysis.conveyor)),
     )
     kept = tuple(part for part in parts if not part.empty)
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
-    return Contents(about, kept, system, (*drawings(analysis, system), *drawn))
+    shown = () if further is None else further.drawings
+    return Contents(about, kept, system, (*drawings(analysis, system), *drawn, *shown))
 
 
-def _every_check(analysis: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[Check, ...]:
-    """Of the conveyor as given, then of its load cases and load states."""
+def _every_check(
+    analysis: CalculatedConveyor, studies: CalculatedStudies | None, further: Further | None
+) -> tuple[Check, ...]:
+    """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
     of_states = () if studies is None or studies.states is None else studies.states.checks
-    return (*checks(analysis), *of_cases, *of_states)
+    return (*checks(analysis), *of_cases, *of_states, *(() if further is None else further.checks))
 
 
 def document(
@@ -1164,7 +1180,9 @@ class Remark(tuple[str, str]):
     text = property(itemgetter(1))
 
 
-def remarks(a: CalculatedConveyor, found: tuple[Check, ...], system: System) -> Table:
+def remarks(
+    a: CalculatedConveyor, found: tuple[Check, ...], system: System, further: tuple[str, ...] = ()
+) -> Table:
     """Warnings, method, assumptions, and the notes of the spec."""
     columns = (
         Column("kind", "text", attrgetter("kind")),
@@ -1173,7 +1191,8 @@ def remarks(a: CalculatedConveyor, found: tuple[Check, ...], system: System) -> 
     notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
     warned = [line.text(system) for line in warnings(a, found)]
     said = {
-        "warning": warned, "method": method(a), "assumption": assumptions(a.conveyor), "note of the spec": notes
+        "warning": warned, "method": method(a), "assumption": (*assumptions(a.conveyor), *further),
+        "note of the spec": notes,
     }  # fmt: skip
     rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
     return Table("remarks", "Checks and notes", "Remarks", columns, rows)
@@ -1235,10 +1254,12 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         )
 
 
-def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> dict[str, Any]:
+def plain(
+    a: CalculatedConveyor, studies: CalculatedStudies | None = None, further: Further | None = None
+) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key, as `result_schema` describes them."""
     found = a.balance
-    settled, every = found.settled, _every_check(a, studies)
+    settled, every = found.settled, _every_check(a, studies, further)
     governing = deciding(every)
     left_open = power_range(a)
     data: dict[str, Any] = {
@@ -1275,11 +1296,14 @@ def plain(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> di
         },
         "rubber": rubber(a).plain(),
         "sections": sections(a).plain(),
-        "assumptions": list(assumptions(a.conveyor)),
-        "checks": [_told(check, governs=any(check is one for one in governing)) for check in every],
+        "assumptions": [*assumptions(a.conveyor), *(() if further is None else further.assumptions)],
+        "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
         "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, governing)],
     }
-    return placed(data, results(a, left_open).rows) | ({} if studies is None else plain_studies(studies))
+    also = ({} if studies is None else plain_studies(studies)) | (
+        {} if further is None else {"dynamics": further.plain}
+    )
+    return placed(data, results(a, left_open).rows) | also
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:
@@ -1299,7 +1323,7 @@ def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any
     }
 
 
-def _told(check: Check, *, governs: bool) -> dict[str, Any]:
+def told(check: Check, *, governs: bool) -> dict[str, Any]:
     """A check for programs; figures in SI, as reports write them."""
     calculated, required, margin = map(_finite, (check.calculated, check.required, check.margin))
     (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))

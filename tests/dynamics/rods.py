@@ -23,7 +23,7 @@ def rod(cells: int, **changes: Any) -> Chain:
         "weight": np.zeros((1, cells + 1)), "friction": np.zeros((3, 1, cells + 1)),
         "sticking": np.zeros((1, cells + 1)), "end": np.array([cells]), "nodes": np.zeros((1, 0), int),
         "rim": np.zeros((1, 0)), "grip": np.zeros((1, 0)), "backstop": np.zeros((1, 0), bool),
-        "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((2, 1)),
+        "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((2, 1)), "sag": np.zeros((1, cells)),
     }  # fmt: skip
     return Chain(**(parts | changes))
 
@@ -52,8 +52,9 @@ def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
     """No motor, no brake."""
     over_time = np.zeros((steps, scenes, drives))
     return Machines(
-        np.zeros((scenes, drives)), over_time, over_time, over_time, np.zeros((scenes, drives, 65)), 1.0
-    )
+        np.zeros((scenes, drives)), over_time, over_time, over_time, np.zeros((scenes, drives, 65)), 1.0,
+        np.zeros((scenes, drives)),
+    )  # fmt: skip
 
 
 def follow(chain: Chain, start: Beginning, time: float, machines: Machines | None = None) -> Record:

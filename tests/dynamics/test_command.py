@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from openpyxl import load_workbook
 
 from conveyor.dynamics import design
 from conveyor.dynamics import follow as following
-from conveyor.dynamics.design import shortest_ramp
+from conveyor.dynamics.design import size
 from conveyor.dynamics.follow import follow, standard_scenarios
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.dynamics_tables import of_dynamics, plain
+from conveyor.report.result_schema import result_schema
 from conveyor.spec import from_data
 from tests.command_line import run
-from tests.loop.loop_lines import SECOND, data, line
+from tests.loop.loop_lines import DOWN, SECOND, data, line
+from tests.report.test_result_schema import faults
 from tests.validation.test_start_stop_limits import ridden
 
 STOP = {
@@ -45,6 +49,7 @@ def rigged(monkeypatch):
 
     for module in (design, following):
         monkeypatch.setattr(module, "prepared_rides", rides)
+    monkeypatch.setattr(design, "_CELLS", 25)
 
 
 def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(spec):
@@ -57,13 +62,17 @@ def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(sp
     found = json.loads(out)
     scenario = found["scenarios"][0]
     assert scenario["scenario"] == "power failure"
+    schema = result_schema()
+    assert list(faults(found, schema, schema)) == []
+    assert list(faults(found, schema["$defs"]["dynamics"], schema)) == []
     assert scenario["lowest_tension_N"] < scenario["highest_tension_N"]
     assert 0.0 <= scenario["error"] <= 0.05
     assert abs(scenario["energy_error"]) < 1e-3
     assert len(found["tensions"]) == 16
-    assert {"dynamic_safety", "dynamic_slack", "dynamic_grip", "dynamic_rest", "dynamic_bulk"} <= {
-        check["key"] for check in found["checks"]
-    }
+    assert {
+        "dynamic_safety", "dynamic_slack", "dynamic_sag", "dynamic_grip", "dynamic_torque", "dynamic_power",
+        "dynamic_backward", "dynamic_backstop", "dynamic_travel", "dynamic_rest", "dynamic_overspeed", "dynamic_bulk",
+    } == {check["key"] for check in found["checks"]}  # fmt: skip
     assert "belt.carcass.retardation_time not given: 0.1 s, general knowledge" in found["assumptions"]
 
 
@@ -118,10 +127,102 @@ def test_the_shortest_ramp_keeps_every_criterion():
     start = {"name": "start", "begins": "at rest", "loading": "full", "events": [{"do": "start"}]}
     taut = data()["route"] | {"take_up": {"kind": "gravity", "tension": "60 kN"}}
     conveyor = from_data(data() | {"route": taut, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
-    time, found = shortest_ramp(conveyor, Scenario.from_data(start), least=4.0, most=40.0)
-    assert 4.0 <= time < 40.0
-    assert found.ride.starters[0].time == pytest.approx(time, rel=1e-6)
-    with pytest.raises(InputError, match="needs an inverter"):
-        shortest_ramp(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}))
-    with pytest.raises(NoSolutionError, match="fails even with a ramp of 2 s"):
-        shortest_ramp(conveyor, Scenario.from_data(start), least=1.0, most=2.0)
+    scenario = Scenario.from_data(start)
+    found = size(conveyor, scenario, "ramp", between=(4.0, 40.0))
+    assert 4.0 <= found.value < 40.0
+    assert found.ride.starters[0].time == pytest.approx(found.value, rel=1e-12)
+    assert 0.0 < found.error < 0.05
+    assert found.governs
+    with pytest.raises(InputError, match="a ramp needs inverters"):
+        size(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
+    with pytest.raises(NoSolutionError, match="nothing between 1 and 2"):
+        size(conveyor, scenario, "ramp", between=(1.0, 2.0))
+
+
+@pytest.mark.usefixtures("rigged")
+def test_the_least_brake_stops_a_downhill_belt_in_the_time_of_its_scenario():
+    """By hand: what the stiff belt needs to stop so soon, waves aside; more of it makes the belt slip or slack."""
+    taut = {
+        "sections": DOWN,
+        "pulleys": data()["route"]["pulleys"][:3],
+        "take_up": {"kind": "gravity", "tension": "80 kN"},
+    }
+    conveyor = from_data(data(route=taut, drive={"reduced_mass": "4 t"}))
+    stop = {"name": "stop", "begins": "running", "loading": "full", "duration": "20 s",
+            "events": [{"do": "power off"}, {"do": "brake"}]}  # fmt: skip
+    found = size(conveyor, Scenario.from_data(stop), "brake")
+    (ride,), _ = design.prepared_rides(conveyor, [Scenario.from_data(stop)])
+    mass = ride.loop.mass.sum() + ride.rims.sum() + sum(lump.mass for lump in ride.loop.lumps)
+    hold = -ride.loop.steady.balance.settled.force
+    assert found.value == pytest.approx(hold + mass * 4.0 / 20.0, rel=0.1)
+    assert found.governs == "comes to rest"
+    assert found.ride.brakes == pytest.approx([found.value], rel=1e-12)
+    with pytest.raises(InputError, match="no brake grips in it"):
+        size(conveyor, Scenario.from_data(STOP), "brake")
+
+
+@pytest.mark.usefixtures("rigged")
+def test_the_take_up_is_as_heavy_as_a_fast_start_needs():
+    """The belt slips with less; the mass is that of the tension."""
+    start = {"name": "start", "begins": "at rest", "loading": "full", "events": [{"do": "start"}],
+             "starter": {"time": "14 s"}, "duration": "16 s"}  # fmt: skip
+    conveyor = from_data(data(drive={"reduced_mass": "4 t"}))
+    found = size(conveyor, Scenario.from_data(start), "take-up")
+    assert found.kind == "mass"
+    assert found.ride.setting == pytest.approx(found.value * 9.80665 / 2.0, rel=1e-3)
+    assert found.governs.startswith(("grip of", "sag", "belt is taut"))
+    assert 0.0 < found.error < 0.05
+
+
+@pytest.mark.usefixtures("rigged")
+def test_a_delay_is_found_that_keeps_every_criterion():
+    second = SECOND | {"reduced_mass": "4 t", "starter": {"time": "10 s"}}
+    taut = {"take_up": {"kind": "gravity", "tension": "80 kN"}}
+    drive = {"reduced_mass": "4 t", "further_drives": [second], "starter": {"time": "10 s"}}
+    conveyor = from_data(data(route=taut, drive=drive))
+    start = {
+        "name": "start",
+        "begins": "at rest",
+        "loading": "full",
+        "events": [{"do": "start"}],
+        "duration": "30 s",
+    }
+    found = size(conveyor, Scenario.from_data(start), "delay", between=(0.0, 10.0))
+    assert 0.0 <= found.value <= 10.0
+    assert found.ride.starters[1].delay == pytest.approx(found.value, abs=1e-12)
+    with pytest.raises(InputError, match="one drive only"):
+        size(from_data(data()), Scenario.from_data(start), "delay")
+
+
+@pytest.mark.usefixtures("rigged")
+def test_an_executor_gives_the_same_answers():
+    """Every scenario in its place, whatever the groups."""
+    names = [BRAKED | {"name": f"stop {k}", "friction": f"{100 - 10 * k} %"} for k in range(3)]
+    conveyor = from_data(data() | {"scenarios": names, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
+    here = follow(conveyor, error=0.1)
+    with ThreadPoolExecutor(2) as pool:
+        there = follow(conveyor, error=0.1, executor=pool, workers=2)
+    assert [one.name for one in there.followed] == [one.name for one in here.followed]
+    for one, other in zip(here.followed, there.followed, strict=True):
+        assert other.way == pytest.approx(one.way, rel=1e-3)
+        assert other.lowest == pytest.approx(one.lowest, rel=1e-2)
+
+
+def test_power_reports_the_scenarios_of_a_spec(spec, tmp_path):
+    """Sheet, part of the page, checks beside the others, plain figures; without scenarios nothing of it."""
+    to = [tmp_path / name for name in ("power.xlsx", "power.html")]
+    code, out, err = run("power", spec, "-o", str(to[0]), "--html", str(to[1]), "--json")
+    assert (code, err) == (0, "")
+    told = json.loads(out)
+    schema = result_schema()
+    assert list(faults(told, schema["$defs"]["power"], schema)) == []
+    assert [row["scenario"] for row in told["dynamics"]["scenarios"]] == ["power failure", "with brakes"]
+    cases = {row["case"] for row in told["checks"] if row["key"].startswith("dynamic_")}
+    assert cases == {"power failure", "with brakes"}
+    book = load_workbook(to[0], read_only=True)
+    assert {"Scenarios", "Histories"} <= set(book.sheetnames)
+    page = to[1].read_text(encoding="utf-8")
+    assert 'id="dynamics"' in page
+    assert 'id="through-time"' in page
+    assert 'begin="moving_power_failure_play.click"' in page
+    assert "<script" not in page

@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from conveyor.dynamics.answers import CRITERIA
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
-from tests.loop.loop_lines import BOOSTER, DATA, data, line
+from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
 from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 
 GRIP = 1.5
@@ -21,6 +22,10 @@ SLOW = 0.05  # of a winch: its waves, c m' v, stay within its band
 HEAVY = 2e6
 CELLS = 10
 SPAN = LENGTH * (CELLS - 1) / CELLS
+
+
+def checks_of_one(found):
+    return [check for criterion in CRITERIA for check in criterion(found)]
 
 
 def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
@@ -34,7 +39,7 @@ def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
     share = np.clip(step * np.arange(steps) / time, 0.0, 1.0)[:, None, None]
     driving = Machines(
         np.array([[1e9]]), np.full((steps, 1, 1), 1e6), share, np.zeros((steps, 1, 1)),
-        np.full((1, 1, 65), force), 1.0,
+        np.full((1, 1, 65), force), 1.0, np.zeros((1, 1)),
     )  # fmt: skip
     return run(chain, driving, begun(chain), step=step, samples=steps)
 
@@ -138,6 +143,122 @@ def test_a_later_drive_begins_after_its_delay_and_a_failed_brake_does_not_grip()
     assert force[:, 0] == pytest.approx(10e3 * np.clip((times - 2.0) / 4.0, 0.0, 1.0), rel=1e-12)
 
 
+TAUT = {"feeding": NO_RUSH, "take_up": {"kind": "gravity", "tension": "60 kN"}}
+"""So that no belt slips."""
+FILL = [{"at": "0 s", "share": "0 %"}, {"at": "4 s", "share": "80 %"}, {"at": "8 s", "share": "100 %"}]
+
+
+def test_a_coupling_lets_through_what_its_fill_says():
+    """Linear between the points, held beyond; from its delay on."""
+    starter = {"kind": "fluid coupling", "fill": FILL, "delay": "2 s"}
+    ride = ridden(line(drive=DATA["drive"] | MASSES), START | {"starter": starter})
+    _, share, _ = ride.over_time(np.array([0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 50.0]))
+    assert share[:, 0] == pytest.approx([0.0, 0.0, 0.4, 0.8, 0.9, 1.0, 1.0], abs=1e-12)
+    assert ride.starters[0].assumed == ("slip",)
+
+
+@pytest.mark.parametrize(
+    ("drives", "shares"),
+    [
+        ({"further_drives": [SECOND | MASSES]}, (0.5, 0.5)),
+        ({"further_drives": [BOOSTER | MASSES]}, (2 / 3, 1 / 3)),
+    ],
+)
+def test_drives_share_the_force_as_they_are_rated(drives, shares):
+    """At the end of a start, each on its own slip line, wherever it stands."""
+    starter = {"time": "20 s", "slip": "2 %"}
+    conveyor = line(drive=DATA["drive"] | MASSES | drives, route={"feeding": NO_RUSH})
+    found = followed(conveyor, START | {"starter": starter, "duration": "60 s"}, step=0.1)
+    force = found.record.drives["motor"][-1]
+    assert force / force.sum() == pytest.approx(shares, abs=0.02)
+    assert found.belt_speed[-1] == pytest.approx(found.line.speed, rel=0.01)
+
+
+def test_a_drive_that_loses_power_leaves_its_share_to_the_other():
+    """Both on one pulley's place; the other one takes all, up to its limit of 1.6 times its rating."""
+    drive = DATA["drive"] | MASSES | {"further_drives": [SECOND | MASSES]}
+    stop = {"begins": "running", "events": [{"do": "power off", "drives": ["second"]}], "duration": "40 s"}
+    found = followed(line(drive=drive, route=TAUT), stop, step=0.1)
+    motor, whole = found.record.drives["motor"], found.ride.loop.steady.balance.settled.force
+    assert np.all(motor[1:, 1] == 0.0)
+    assert motor[-1, 0] == pytest.approx(whole, rel=0.02)
+    assert float(found.torque[:, 0].max()) <= 1.6 + 1e-9
+    assert not found.stops
+
+
+def test_drives_out_of_step_come_into_step():
+    """The later one is dragged along, then takes its share."""
+    late = SECOND | MASSES | {"starter": {"time": "10 s", "delay": "6 s"}}
+    drive = DATA["drive"] | MASSES | {"starter": {"time": "10 s"}, "further_drives": [late]}
+    found = followed(line(drive=drive), START | {"duration": "40 s"}, step=0.1)
+    motor, at = found.record.drives["motor"], found.times
+    assert np.all(motor[(at > 0.5) & (at < 5.9), 1] == 0.0)
+    assert motor[-1, 1] == pytest.approx(motor[-1, 0], rel=0.05)
+
+
+def test_an_aborted_start_coasts_and_starts_again():
+    events = [{"do": "start"}, {"at": "6 s", "do": "power off"}, {"at": "40 s", "do": "start"}]
+    found = followed(
+        line(drive=DATA["drive"] | MASSES, route=TAUT),
+        {"begins": "at rest", "events": events, "starter": {"time": "12 s"}, "duration": "75 s"},
+        step=0.1,
+    )
+    at, speed = found.times, found.belt_speed
+    assert speed[(at > 5.0) & (at < 6.0)].min() > 0.1 * found.line.speed
+    assert np.all(speed[(at > 35.0) & (at < 40.0)] == 0.0)
+    assert speed[-1] == pytest.approx(found.line.speed, rel=0.05)
+
+
+def steep(**drive):
+    """A loaded belt uphill, whose friction does not hold it."""
+    up = [{"name": "a", "length": "60 m"}, {"name": "b", "length": "400 m", "lift": "60 m"}]
+    route = {"sections": up, "pulleys": DATA["route"]["pulleys"][:3], "feeding": NO_RUSH}
+    return line(drive=DATA["drive"] | MASSES | drive, route=route)
+
+
+@pytest.mark.parametrize("backstop", [True, False])
+def test_a_loaded_incline_restarts_from_its_backstop_or_rolls_back(backstop):
+    """Held until the motor pulls; without one it rolls back, and the check says so."""
+    events = [{"do": "power off"}, {"at": "20 s", "do": "start"}]
+    found = followed(
+        steep(backstop=backstop),
+        {"begins": "at rest", "events": events, "starter": {"kind": "direct"}, "duration": "40 s"}, step=0.1,
+    )  # fmt: skip
+    said = {check.key: check for check in checks_of_one(found)}
+    least = float(found.belt_speed.min())
+    assert (least == 0.0) is backstop
+    assert said["dynamic_backward"].failed is not backstop
+    if backstop:
+        held = found.ride.loop.steady.motions.brake_to_hold
+        assert said["dynamic_backstop"].verdict == "pass"
+        assert said["dynamic_backstop"].calculated >= 0.9 * held
+        assert found.belt_speed[-1] == pytest.approx(found.line.speed, rel=0.05)
+    else:
+        assert "dynamic_backstop" not in said
+
+
+def test_a_backstop_that_is_assumed_is_said():
+    found = followed(
+        steep(), {"begins": "at rest", "events": [{"do": "power off"}], "duration": "5 s"}, step=0.1
+    )
+    said = {check.key: check for check in checks_of_one(found)}
+    assert found.ride.assumed_backstop
+    assert said["dynamic_backstop"].verdict == "not checked"
+
+
+def test_drag_brakes_a_drive_without_power_whose_belt_slips():
+    """A free rim loses drag over mass a second; under power none of it."""
+    cells, rim, drag = 10, 2e3, 400.0
+    chain = rod(
+        cells, nodes=np.array([[cells]]), rim=np.array([[rim]]), grip=np.zeros((1, 1)),
+        backstop=np.array([[False]]), **clamped(cells, 1),
+    )  # fmt: skip
+    start = begun(chain, rims=np.array([[3.0]]))
+    found = run(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
+    rims = found.drives["rim"][:, 0, 0]
+    assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
+
+
 def test_only_an_inverter_ramps_down():
     stop = {"begins": "running", "events": [{"do": "ramp down"}], "starter": {"kind": "direct"}}
     with pytest.raises(NoSolutionError, match="has no inverter"):
@@ -163,6 +284,9 @@ def test_a_led_stop_comes_to_rest_at_the_end_of_its_ramp():
         ({"kind": "direct", "time": "10 s"}, "nothing is led"),
         ({"kind": "star-delta", "time": "10 s", "stop_time": "5 s"}, "only an inverter"),
         ({"kind": "inverter", "initial_torque": "20 %"}, "given with kind inverter"),
+        ({"kind": "inverter", "fill": FILL}, "only a fluid coupling fills"),
+        ({"kind": "fluid coupling", "fill": FILL, "time": "5 s"}, "given beside fill"),
+        ({"kind": "fluid coupling", "fill": FILL[1:]}, "must begin at 0 s"),
     ],
 )
 def test_starters_refuse_what_they_do_not_have(given, message):

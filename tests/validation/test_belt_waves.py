@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from conveyor.dynamics.published import lodewijks
 from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, rod
 
 IMPEDANCE = WAVE * LINE_MASS
@@ -116,6 +117,12 @@ def test_a_weight_with_mass_bounces_on_the_belt():
     omega = 2.0 * np.pi * 0.05 / np.sqrt(1.0 + 1e-4 * cells / 12.0)
     moved = 0.1 * PULL * LENGTH / EA * (1.0 - np.cos(omega * at))
     assert found.take_up["belt"][:, 0] == pytest.approx(moved, abs=0.01 * moved.max())
+
+
+@pytest.mark.parametrize(("shape", "printed"), [("linear", 0.0246), ("cosine", 0.0303)])
+def test_lodewijks_peaks_lie_between_dry_and_rising_resistances(shape, printed):
+    """Table 8.7 of 1996: what he does not print, how resistances rise with speed, spans his figures."""
+    assert lodewijks(shape, rising=1.0) < printed < lodewijks(shape, rising=0.0)
 
 
 def test_a_step_too_long_is_refused():

@@ -1,0 +1,130 @@
+"""Curves that move, as SVG that plays by itself: no script, nothing fetched, and only when a reader asks for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.markup import Html, element, joined
+from conveyor.report.plots import colour
+
+Array = NDArray[np.float64]
+
+_WIDTH, _LEFT, _RIGHT, _TOP, _GAP, _FOOT = 660, 62, 10, 8, 20, 62  # [px]
+_HEIGHTS = (170, 90)
+_TICKS = 4
+_FAST = 8.0  # seconds that a run takes at least
+_SLOW = 20.0  # and at most
+_TIMES = 10.0  # over life between them
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A curve over the place at every time, shape (m, n), in the unit of its label; `band` its ends at any time."""
+
+    label: str
+    values: Array
+    band: tuple[Array, Array]
+
+
+def moving(
+    name: str, x: tuple[str, Array], time: tuple[str, Array], panels: Sequence[Panel], *, mark: float
+) -> Html:
+    """Draw curves over the place that move with time, below them the time.
+
+    Parameters
+    ----------
+    name : str
+        Begins every identifier in it, unique in the page: letters, digits and "_" (timing reads "-" as minus).
+    x, time : tuple of str and ndarray
+        Labels with their units; places ascending, shape (n,), times in even steps, shape (m,).
+    panels : sequence of Panel
+        From the top, at most two.
+    mark : float
+        A place to mark by a line.
+    """
+    (x_label, places), (time_label, times) = x, time
+    right, last = _WIDTH - _RIGHT, float(times[-1])
+    lasts = f"{min(_SLOW, max(_FAST, last / _TIMES)):.1f}s"
+    begin = {"begin": f"{name}_play.click", "dur": lasts, "fill": "freeze"}
+
+    def across(values: Array) -> Array:
+        return np.asarray(_LEFT + (right - _LEFT) * (values - places[0]) / (places[-1] - places[0]))
+
+    top, parts = _TOP, []
+    at = float(across(np.array(mark)))
+    for panel, height in zip(panels, _HEIGHTS, strict=False):
+        parts.append(_panel(panel, across(places), (top, height), begin, at))
+        top += height + _GAP
+    parts += [
+        _words(float(across(np.array(value))), top - 4, f"{value:,.0f}", "middle")
+        for value in _ticks(float(places[0]), float(places[-1]))
+    ]
+    parts.append(_words(right, top + 12, x_label, "end"))
+    line = top + 34
+    parts.append(element("path", d=f"M{_LEFT} {line}H{right}", stroke="#5F6670", stroke_width=2))
+    dot = element("animate", attributeName="cx", values=f"{_LEFT};{right}", **begin)
+    parts.append(element("circle", dot, cx=_LEFT, cy=line, r=6, fill=colour(0)))
+    parts += [
+        _words(_LEFT + (right - _LEFT) * value / last, line + 20, f"{value:,.0f}", "middle")
+        for value in _ticks(0.0, last)
+    ]
+    parts.append(_words(_LEFT - 10, line + 4, time_label, "end"))
+    drawn = element(
+        "svg", *parts, xmlns="http://www.w3.org/2000/svg", viewBox=f"0 0 {_WIDTH} {line + 28}", role="img",
+        font_family="sans-serif", font_size="12", aria_label=", ".join(panel.label for panel in panels),
+    )  # fmt: skip
+    play = element("button", "▶ play", id=f"{name}_play", type="button")
+    return element("div", play, drawn, class_="moving")
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """Round figures between two ends."""
+    step = 10.0 ** math.floor(math.log10((high - low) / _TICKS))
+    step *= next(times for times in (1.0, 2.0, 5.0, 10.0) if (high - low) / (times * step) <= _TICKS + 1.0)
+    return [k * step for k in range(math.ceil(low / step), math.floor(high / step) + 1)]
+
+
+def _panel(
+    panel: Panel, across: Array, room: tuple[float, float], begin: dict[str, str], mark: float
+) -> Html:
+    """Frame, scale, band, the first curve, and how it moves; `room` is from where and how high [px]."""
+    top, height = room
+    low, high = min(0.0, float(panel.band[0].min())), float(panel.band[1].max())
+    high = high if high > low else low + 1.0
+
+    def up(values: Array) -> Array:
+        return np.asarray(top + height * (high - values) / (high - low))
+
+    frames = [_path(across, up(row)) for row in panel.values]
+    band = _path(
+        np.concatenate([across, across[::-1]]), np.concatenate([up(panel.band[0]), up(panel.band[1])[::-1]])
+    )
+    right = float(across[-1])
+    scale = []
+    for value in _ticks(low, high):
+        y = float(up(np.array(value)))
+        scale.append(element("path", d=f"M{_LEFT} {y:.0f}H{right:.0f}", stroke="#D5D9DE"))
+        scale.append(_words(_LEFT - 6, y + 4, f"{value:,g}", "end"))
+    moves = element("animate", attributeName="d", values=";".join(frames), **begin)
+    return joined([
+        *scale,
+        element("path", d=f"M{mark:.0f} {top}v{height}", stroke="#9AA1AA", stroke_dasharray="3 3"),
+        element("path", d=f"{band}Z", fill=colour(0), fill_opacity="0.13"),
+        element("path", moves, d=frames[0], fill="none", stroke=colour(0), stroke_width=2),
+        _words(_LEFT + 4, top + 12, panel.label),
+    ])  # fmt: skip
+
+
+def _path(x: Array, y: Array) -> str:
+    """A path in whole pixels."""
+    points = zip(np.rint(x).astype(int).tolist(), np.rint(y).astype(int).tolist(), strict=True)
+    return "M" + "L".join(f"{a} {b}" for a, b in points)
+
+
+def _words(x: float, y: float, words: str, anchor: str = "start") -> Html:
+    return element("text", words, x=f"{x:.0f}", y=f"{y:.0f}", text_anchor=anchor, fill="#30363D")
