@@ -102,7 +102,7 @@ def study(
             known,
             executor=executor,
             workers=workers,
-            progress=None if told is None else partial(told, "points"),
+            progress=None if told is None else lambda done, whole, _: told("points", done, whole),
         )
         reasons: Counter[str] = Counter()
         count = table.write(output, _counted(rows(campaign, known), reasons))
