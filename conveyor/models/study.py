@@ -177,7 +177,7 @@ class Plan(Model):
     together: tuple[dict[str, Value], ...] = ()
     """Rows of fields that move together."""
     states: str | tuple[dict[str, Value], ...] = ()
-    """What every design meets: rows of fields with their `hours`, a .csv of them beside the study, or `duty` of the spec."""
+    """What every design meets: rows of fields with their `hours`, a .csv beside the study, or `duty` of the spec."""
     outputs: tuple[str, ...] = ()
     """Figures of points by key; without, what `figures` need, else all."""
     figures: tuple[str, ...] = ()
@@ -297,7 +297,7 @@ class StudyPlan(Plan):
 
 
 class SearchPlan(Plan):
-    """What is varied to find the best: fields between two ends, and listed ones; the first figure of `best` is sought."""
+    """What is varied to find the best: fields between two ends, and listed ones."""
 
     ranges: Annotated[dict[str, SampledRange], Field(default_factory=dict)]
     """Between what a field is searched, by path, in steps of a thousandth."""
