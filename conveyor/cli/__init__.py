@@ -6,8 +6,18 @@
 from __future__ import annotations
 
 from conveyor.cli import (  # noqa: F401 each registers its commands
-    anchor, calibrate, compare, dynamics, new, optimise, power, rubber, study, tools, verify,
-)  # fmt: skip
+    anchor,
+    calibrate,
+    compare,
+    dynamics,
+    new,
+    optimise,
+    power,
+    rubber,
+    study,
+    tools,
+    verify,
+)
 from conveyor.cli.app import app
 from conveyor.cli.run import main
 
