@@ -59,7 +59,7 @@ class VariedField:
 
 
 @dataclass(frozen=True)
-class Effect:
+class MainEffect:
     """What sought figure the designs with a value of a field have: mean, least and most [SI].
 
     Attributes
@@ -133,7 +133,7 @@ class Explored:
         """What is sought with less better, shape `(n, sought)`."""
         return self.found * signs(self.sought)
 
-    def effects(self, field: int) -> tuple[Effect, ...]:
+    def effects(self, field: int) -> tuple[MainEffect, ...]:
         """What a field does to what is sought first: over all other fields, value by value or in parts of its range."""
         at, found = self.values[:, field], self.found[:, 0]
         different = np.unique(at)
@@ -145,7 +145,7 @@ class Explored:
             place = np.clip(np.searchsorted(edges, at, side="right") - 1, 0, BINS - 1)
             groups = [(float(edges[k] + edges[k + 1]) / 2.0, np.flatnonzero(place == k)) for k in range(BINS)]
         return tuple(
-            Effect(
+            MainEffect(
                 value,
                 varied.said(value),
                 len(rows),
