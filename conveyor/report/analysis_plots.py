@@ -298,7 +298,7 @@ def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: Sys
         axis.axhline(float(power(end)), color=colour(k), linestyle=":", linewidth=1.2)
     axis.plot([], [], ":", color="0.3", label="first order")
     axis.set_xscale("log", base=2)
-    axis.set_xticks(draws, [f"{n:,}" for n in draws])
+    axis.set_xticks(draws, [f"{n:,}" for n in draws], minor=False)
     axis.set(xlabel="draws", ylabel=power.beside("motor power"))
     keyed(axis)
     grouped(axis.yaxis)

@@ -22,13 +22,13 @@ from scipy.stats import binom
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
+from conveyor.models.uncertainty import FEWEST
 from conveyor.models.variants import with_alternative
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.studies.compared import COVERED, ends
 
 Array: TypeAlias = NDArray[np.float64]
 _BATCH = 64
-_FIRST = 16  # draws that a percentile is shown from
 SURE = 0.9
 """Chance that a percentile lies between the ends it is given with."""
 
@@ -81,9 +81,9 @@ class MonteCarlo:
 
     @cached_property
     def convergence(self) -> tuple[Percentiles, ...]:
-        """The interval after 16, 32, 64 draws and so on."""
+        """The interval after 64, 128, 256 draws and so on."""
         count = len(self.power)
-        steps = [_FIRST * 2**k for k in range(32) if _FIRST * 2**k < count]
+        steps = [FEWEST * 2**k for k in range(32) if FEWEST * 2**k < count]
         return tuple(percentiles(self.power[:n]) for n in (*steps, count))
 
 
@@ -93,14 +93,14 @@ def percentiles(power: Array) -> Percentiles:
     Parameters
     ----------
     power : ndarray
-        Of independent draws, shape `(n,)` [W].
+        Of at least 64 independent draws, shape `(n,)` [W]; of fewer the outermost bounds nothing.
     """
     ranked, count = np.sort(power), len(power)
     low, high = ends(power)
 
     def between(share: float) -> tuple[float, float]:
         first, last = (int(binom.ppf(0.5 + sign * 0.5 * SURE, count, share)) for sign in (-1.0, 1.0))
-        return float(ranked[max(first - 1, 0)]), float(ranked[min(last, count - 1)])
+        return float(ranked[first - 1]), float(ranked[last])
 
     return Percentiles(count, low, between(0.5 - 0.5 * COVERED), high, between(0.5 + 0.5 * COVERED))
 
@@ -139,7 +139,7 @@ def drawn(
     InputError
         No inputs have these correlations, or one of them is not drawn.
     NoSolutionError
-        Fewer than 16 draws have an answer.
+        Fewer than 64 draws have an answer.
     """
     rng = np.random.default_rng(ranges.seed)
     normal = rng.standard_normal((ranges.draws, len(inputs))) @ _root([one.name for one in inputs], ranges).T
@@ -159,7 +159,7 @@ def drawn(
                 refused[str(found)] += 1
         if progress is not None:
             progress(min(at + _BATCH, ranges.draws), ranges.draws)
-    if len(power) < _FIRST:
+    if len(power) < FEWEST:
         why = "; ".join(refused)
         raise NoSolutionError(
             f"uncertainty.draws: {len(power)} of {ranges.draws} draws have an answer: {why}"
