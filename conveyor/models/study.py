@@ -209,6 +209,8 @@ class Plan(Model):
         for name, given in (("together", self.together), ("states", rows)):
             if len({frozenset(row) for row in given}) > 1:
                 problems.append(Problem((name,), "every row has to change the same fields"))
+        if any(set(row) <= {HOURS} for row in rows):
+            problems.append(Problem(("states",), "every state has to change a field"))
         if rows and HOURS in rows[0]:
             problems += [
                 Problem(("states", i, HOURS), f'got "{row[HOURS]}", expected a time such as "2200 h"')

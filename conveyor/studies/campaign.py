@@ -81,7 +81,7 @@ class Campaign:
         }
         named = {value for values in given.values() for value in values if isinstance(value, str)}
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
-        asked = plan.outputs or (() if plan.figures else tuple(OUTPUTS))
+        asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(OUTPUTS))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
         return cls(plan, base, {name: resolve(name) for name in sorted(named)}, outputs)
 
