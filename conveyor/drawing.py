@@ -172,6 +172,9 @@ def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[st
         yield "cases-speed", analysis_plots.case_power_against_speed(cases, system=system)
     if studies.uncertainty is not None:
         yield "ranges", analysis_plots.tornado(studies.uncertainty, system=system)
+        exact = studies.uncertainty.monte_carlo
+        if exact is not None:
+            yield "draws", analysis_plots.settling(exact, studies.uncertainty.sampled, system=system)
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,8 +44,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet",
-    "contact", "validate", "schema",
+    "new", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit", "anchor", "shelf",
+    "verify-sheet", "contact", "validate", "schema",
 )  # fmt: skip
 
 app = typer.Typer(
@@ -142,8 +142,8 @@ Force = Annotated[
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
-Progress = Callable[[str, int, int], None]
-"""Called with what is going on, what is done and the whole."""
+Progress = Callable[..., None]
+"""Called with what is going on, what is done, the whole, and what else to say."""
 _ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
 
@@ -219,7 +219,10 @@ def say(*lines: str) -> None:
 
 @contextmanager
 def progress(*, silent: bool) -> Iterator[Progress | None]:
-    """A bar with the time left on stderr, for what takes longer than a second; none where output is piped."""
+    """A bar with the time left on stderr, for what takes longer than a second; none where output is piped.
+
+    It is called with words, what is done, the whole, and what else to say.
+    """
     if silent or not sys.stderr.isatty():
         yield None
         return
@@ -227,14 +230,14 @@ def progress(*, silent: bool) -> Iterator[Progress | None]:
     with ExitStack() as stack:
         bars: dict[str, Any] = {}
 
-        def told(what: str, done: int, whole: int) -> None:
+        def told(what: str, done: int, whole: int, note: str = "") -> None:
             if not bars and perf_counter() - begun < _PATIENCE:
                 return
             if not bars:
                 bars[""] = stack.enter_context(_bar())
             if what not in bars:
-                bars[what] = bars[""].add_task(what, total=whole)
-            bars[""].update(bars[what], completed=done, total=whole)
+                bars[what] = bars[""].add_task(what, total=whole, note="")
+            bars[""].update(bars[what], completed=done, total=whole, note=note)
 
         yield told
 
@@ -244,7 +247,7 @@ def _bar() -> Any:
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
+    return Progress(*columns, TextColumn("{task.fields[note]}"), console=Console(stderr=True), transient=True)
 
 
 def values(given: str, option: str, *units: str) -> list[str]:

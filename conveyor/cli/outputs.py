@@ -45,7 +45,8 @@ class Outputs:
         Raises
         ------
         InputError
-            As `saving.writable`; another ending, an input, the file of another option, an older file of another kind.
+            As `saving.writable`; another ending, .parquet without pyarrow, an input, the file of another option, an
+            older file of another kind.
         """
         if path is None:
             return
@@ -53,6 +54,10 @@ class Outputs:
             *others, last = endings
             allowed = f"{', '.join(others)} or {last}" if others else last
             raise InputError(f'{option}: {path}: its name ends in {allowed}, got "{path.suffix}"')
+        if path.suffix.lower() == ".parquet" and find_spec("pyarrow") is None:
+            raise InputError(
+                f'{option}: {path}: needs pyarrow (pip install "conveyor[parquet]"); without it: .csv'
+            )
         saving.writable(path)
         for other, taken in self._asked:
             if _same(path, taken):

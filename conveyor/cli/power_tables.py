@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 _SUMS: Final = ("main", "secondary", "special", "lift", "total")
 _DOCUMENT: Final = ("project", "number", "client", "engineer", "revision")
 _MATTERS: Final = 3
+_FIRST_ORDER = 2  # rows of the band
 """Inputs that are said to matter first."""
 
 
@@ -226,12 +227,13 @@ def _year(figures: Iterable[Figure], system: System) -> Grid:
 
 def _ranges(screen: Console, contents: Contents) -> None:
     power, band = unit("power", contents.system, large=True), contents["power_band"]
-    low, high = (
-        power.said(band.columns[band.index(key)].get(band.rows[0]))
-        for key in ("motor_power_low", "motor_power_high")
-    )
+    ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
+    said = " to ".join(power.said(end(band.rows[0])) for end in ends)
+    exact = [
+        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER:]
+    ]
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
     screen.print(words("\nuncertainty", style="bold"))
-    said = f"motor power {low} to {high} (90 % interval); most sensitive to: {first}"
+    said = f"motor power {said} (90 % interval){''.join(exact)}; most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

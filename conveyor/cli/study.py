@@ -1,12 +1,12 @@
-"""`conveyor study`: a spec with fields that vary, every point calculated, kept as it comes."""
+"""`conveyor study`: a spec with fields that vary, every point calculated, kept as it comes; the designs of them."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -18,6 +18,7 @@ from conveyor.cli.app import (
     Quiet,
     Shelves,
     UnitsOption,
+    WebPage,
     app,
     examples,
     json_text,
@@ -29,21 +30,35 @@ from conveyor.cli.app import (
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
+from conveyor.printable import printable
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from conveyor.studies.campaign import Point
+    from conveyor.models import Conveyor
+    from conveyor.report.columns import Contents
+    from conveyor.studies.campaign import Campaign, Point
+    from conveyor.studies.designs import Design
+    from conveyor.studies.explored import Explored
     from conveyor.units import System
 
 _SHOWN = 3
 """Reasons without an answer that are printed."""
+
+Workers = Annotated[
+    int, typer.Option(metavar="N", help="Processes, or workers of the cluster.", min=1, max=1024)
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Of a Dask cluster (package distributed); else this machine."),
+]
 
 
 @app.command(
     short_help="Calculate many variants of a spec.",
     epilog=examples(
         "conveyor study spacing.yaml -o spacing.csv",
+        "conveyor study year.yaml -o points.csv --designs designs.csv --html year.html --specs best",
         "conveyor study spacing.yaml -o spacing.parquet --workers 8",
         "conveyor study spacing.yaml -o spacing.csv --scheduler tcp://10.0.0.1:8786 --workers 64",
     ),
@@ -55,16 +70,21 @@ def study(
     output: Annotated[
         Path,
         typer.Option(
-            "-o", "--output", metavar="FILE", help="Write the table (.csv, .parquet).", show_default=False
+            "-o", "--output", metavar="FILE", help="Write the points (.csv, .parquet).", show_default=False
         ),
     ],
-    workers: Annotated[
-        int, typer.Option(metavar="N", help="Processes, or workers of the cluster.", min=1, max=1024)
-    ] = 1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Of a Dask cluster (package distributed); else this machine."),
+    designs: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the designs (.csv, .parquet).")
     ] = None,
+    html: WebPage = None,
+    plots: Annotated[
+        Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it (.png).")
+    ] = None,
+    specs: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Write the best ten designs into it as specs.")
+    ] = None,
+    workers: Workers = 1,
+    scheduler: Scheduler = None,
     units: UnitsOption = None,
     force: Force = False,
     as_json: AsJson = False,
@@ -74,46 +94,153 @@ def study(
 ) -> None:
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
     from conveyor import shelf as shelves
-    from conveyor.report.campaigning import CampaignTable
-    from conveyor.studies.campaign import Answers, Campaign, rows, run
-    from conveyor.studies.points import OUTPUTS
+    from conveyor.report import campaigning, designing
+    from conveyor.studies import campaign as running
+    from conveyor.studies.explored import explored
     from conveyor.study_file import read_plan
 
     plan = read_plan(plan_file)
     spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
     line = read_spec(spec, shelf, changed)
     system: System = line.report.units if units is None else units.value
-    campaign = Campaign.of(plan, line, shelves.resolver(extra=shelf or (), base=spec.parent))
-    price = None if line.operation is None else line.operation.price
-    currency = "-" if price is None else price.currency
-    table = CampaignTable(plan, [OUTPUTS[key] for key in campaign.outputs], system, currency)
+    campaign = running.Campaign.of(plan, line, shelves.resolver(extra=shelf or (), base=spec.parent))
+    money = currency(line)
+    table = campaigning.of_points(campaign, system, money)
+    designed = campaigning.of_designs(campaign, system, money)
     to = Outputs(plan_file, spec, force=force)
-    to.file(
-        "--output", output, ".csv", ".parquet", kind=table.mark if output.suffix == ".csv" else marks.TABLE
-    )
-    to.tables(output.parent, parquet=output.suffix == ".parquet")
+    for option, path, made in (("--output", output, table), ("--designs", designs, designed)):
+        csv = path is not None and path.suffix == ".csv"
+        to.file(option, path, ".csv", ".parquet", kind=made.mark if csv else marks.TABLE)
+    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.folder("--plots", plots)
+    to.folder("--specs", specs)
+    begun = perf_counter()
     with ExitStack() as stack:
-        known = stack.enter_context(Answers(answers))
+        known = stack.enter_context(running.Answers(answers))
         before = len(known)
         told = stack.enter_context(progress(silent=quiet or as_json))
         executor = stack.enter_context(executor_of(scheduler, workers)) if scheduler or workers > 1 else None
-        run(
-            campaign,
-            known,
-            executor=executor,
-            workers=workers,
-            progress=None if told is None else partial(told, "points"),
-        )
+        running.run(campaign, known, executor=executor, workers=workers, progress=telling(told))
+        new, spent = len(known) - before, perf_counter() - begun
         reasons: Counter[str] = Counter()
-        count = table.write(output, _counted(rows(campaign, known), reasons))
-        new, without = len(known) - before, reasons.total()
+        count = table.write(output, _counted(running.rows(campaign, known), reasons))
+        found = explored(campaign, running.designs(campaign, known))
+        if designs is not None:
+            designed.write(designs, campaigning.design_rows(found, running.designs(campaign, known)))
+    contents = designing.of_study(found, system, money)
+    _made(to, campaign, found, contents, html=html, plots=plots, specs=specs)
+    written = to.save()
     if as_json:
-        told_of = {"points": count, "calculated": new, "without_an_answer": without, "table": str(output)}
-        print_text(json_text(told_of))
+        told_of = {
+            "points": count,
+            "calculated": new,
+            "without_an_answer": reasons.total(),
+            "table": str(output),
+        }
+        print_text(json_text(told_of | designing.plain(found, money)))
     elif not quiet:
-        say(f"{count} points, {new} of them calculated now; {without} without an answer", f"table: {output}")
+        show_best(contents)
+        rate = f" in {spent:.3g} s, {new / spent:.3g} a second" if new else ""
+        say(f"{count} points, {new} of them calculated now{rate}; {reasons.total()} without an answer")
         for reason, times in reasons.most_common(_SHOWN):
             say(f"{times} without an answer: {reason}")
+        say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]), *written)
+
+
+def _made(
+    to: Outputs,
+    campaign: Campaign,
+    found: Explored,
+    contents: Contents,
+    *,
+    html: Path | None,
+    plots: Path | None,
+    specs: Path | None,
+) -> None:
+    """Make the page, the figures and the specs that are asked for."""
+    from conveyor.report import designing
+    from conveyor.report import html as page
+    from conveyor.report.plots import drawn
+
+    if html is not None:
+        to.add("page", html, {html: page.build(contents, designing.PARTS).encode()})
+    if plots is not None:
+        drawings = designing.drawings(found, contents.system, currency(campaign.base))
+        files = {plots / f"{name}.png": figure for name, figure in drawings}
+        to.add("figures", plots, {path: drawn(figure, path) for path, figure in files.items()})
+    if specs is not None:
+        ranked = enumerate(found.best, start=1)
+        made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
+        told = {
+            path: spec_of(campaign, one, said(one, campaign, contents.system)) for path, one in made.items()
+        }
+        to.add("specs", specs, told)
+
+
+def show_best(contents: Contents) -> None:
+    """Print the best designs."""
+    from conveyor.cli.terminal import console, table, words
+
+    if "best" not in contents:
+        return
+    best, system = contents["best"], contents.system
+    made = table(f"{contents.document.title}: {dict(contents.document.facts)['study']}")
+    for column in best.columns:
+        made.add_column(
+            words(best.head(column, system)), justify="left" if column.kind == "text" else "right"
+        )
+    for row in best.rows:
+        made.add_row(
+            *(words(best.unit(column, row, system).written(column.get(row))) for column in best.columns)
+        )
+    console().print(made)
+
+
+def spec_of(campaign: Campaign, design: Design, figures: str) -> bytes:
+    """A design as a spec that `power` reads, its figures in its heading."""
+    from conveyor.models.fields import with_fields
+    from conveyor.spec import dump
+
+    line = with_fields(campaign.base, design.changes, resolve=campaign.compounds.__getitem__)
+    changes = [f"#   {path}: {value}\n" for path, value in design.changes.items()]
+    heading = [f'# Design {design.number} of the study "{campaign.plan.name}": {figures}\n']
+    return printable("".join([*heading, *changes, dump(line)])).encode()
+
+
+def said(design: Design, campaign: Campaign, system: System) -> str:
+    """Figures of a design in one line."""
+    from conveyor.report.campaigning import priced
+    from conveyor.units.presentation import unit
+
+    money = currency(campaign.base)
+    known = [(one, design.figures[name]) for name, one in campaign.figures.items()]
+    written = (
+        f"{one.label} {unit(priced(one.kind, money), system).brief(value)}"
+        for one, value in known
+        if value is not None
+    )
+    return ", ".join(written)
+
+
+def currency(line: Conveyor) -> str:
+    """Of the spec's costs."""
+    price = None if line.operation is None else line.operation.price
+    return "-" if price is None else str(price.currency)
+
+
+def telling(told: Callable[..., None] | None) -> Callable[[int, int, int], None] | None:
+    """Tell a bar how far a run is: points a second since it began, points without an answer."""
+    if told is None:
+        return None
+    begun: list[tuple[float, int]] = []
+
+    def tell(done: int, whole: int, without: int) -> None:
+        begun.append((perf_counter(), done)) if not begun else None
+        time, first = begun[0]
+        rate = (done - first) / max(perf_counter() - time, 1e-9)
+        told("points", done, whole, f"{rate:.3g} a second, {without} without an answer")
+
+    return tell
 
 
 def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:

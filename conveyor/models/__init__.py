@@ -30,7 +30,7 @@ from conveyor.models.runs import MeasuredRun
 from conveyor.models.scenarios import Event, Scenario
 from conveyor.models.starter import Starter
 from conveyor.models.train import DrivePart
-from conveyor.models.uncertainty import Uncertainty
+from conveyor.models.uncertainty import Correlation, Uncertainty
 
 __all__ = [
     "CALIBRATED",
@@ -44,6 +44,7 @@ __all__ = [
     "Carcass",
     "Cleaner",
     "Conveyor",
+    "Correlation",
     "Cover",
     "Drive",
     "DrivePart",

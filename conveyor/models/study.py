@@ -4,23 +4,32 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal, Self, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from conveyor.errors import InputError
 from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
+from conveyor.models.variants import scaled
 from conveyor.ranges import MOST, spaced
-from conveyor.units import between, quantity, text
+from conveyor.units import between, quantity, si, text
+from conveyor.units.presentation import MONEY, unit
 
 Value: TypeAlias = str | float | int | bool
 """Of a field, as specs write it."""
 Changes: TypeAlias = Mapping[str, Value]
 """New values of fields, by path."""
 MOST_SAMPLES = 2**20
+STEPS = 1000
+"""Of a range that is searched."""
+HOURS = "hours"
+"""Of a state: its key beside paths of fields."""
+DUTY = "duty"
+"""As states: those of the spec."""
 
 
 def _listed(given: Any) -> Any:
@@ -44,6 +53,15 @@ def _listed(given: Any) -> Any:
 
 
 Axis = Annotated[tuple[Value, ...], BeforeValidator(_listed), Field(min_length=1)]
+
+
+def hours_of(given: Value) -> float | None:
+    """Hours of a number or a time; None of anything else."""
+    try:
+        time = float(given) if isinstance(given, int | float) else si(quantity(given, "duration")) / 3600.0
+    except InputError:
+        return None
+    return time if 0.0 < time < math.inf else None
 
 
 class SampledRange(Model):
@@ -104,8 +122,51 @@ class Samples(Model):
             yield {path: span.at(share) for (path, span), share in zip(ranges, row, strict=True)}
 
 
-class StudyPlan(Model):
-    """A spec and what of it varies: every value of every axis with every other, with every row and every sample."""
+Direction: TypeAlias = Literal["least", "most"]
+
+
+class Limit(Model):
+    """What a figure of a design has to keep."""
+
+    least: str | float | None = None
+    """Not below."""
+    most: str | float | None = None
+    """Not above."""
+
+    @model_validator(mode="after")
+    def _any(self) -> Self:
+        if self.least is None and self.most is None:
+            refuse("Limit", [Problem((), "missing: give least, most or both")])
+        return self
+
+    def ends(self, name: str, kind: str) -> tuple[float | None, float | None]:
+        """Least and most, of a figure of that name and kind [SI].
+
+        Raises
+        ------
+        InputError
+            They are of another kind.
+        """
+        return _limit(self.least, name, kind), _limit(self.most, name, kind)
+
+
+def _limit(end: str | float | None, name: str, kind: str) -> float | None:
+    shown = None if kind.startswith(MONEY) or kind == "money" else unit(kind).label
+    plain = shown in {None, "-"}
+    if end is None or (isinstance(end, int | float) and plain):
+        return None if end is None else float(end)
+    try:
+        given = quantity(str(end))
+        if not plain and given.dimensionality == quantity(f"1 {shown}").dimensionality:
+            return si(given)
+    except InputError:
+        pass
+    like = "a number" if plain else f'a value such as "1 {shown}"'
+    raise InputError(f'limits: {name}: got "{end}", expected {like}')
+
+
+class Plan(Model):
+    """A spec, what of it varies, what every design meets, and what is sought."""
 
     name: Name
     """Of the study."""
@@ -115,48 +176,206 @@ class StudyPlan(Model):
     """Values of fields, by path: a list, or `from:to:step unit`."""
     together: tuple[dict[str, Value], ...] = ()
     """Rows of fields that move together."""
-    samples: Samples | None = None
+    states: str | tuple[dict[str, Value], ...] = ()
+    """What every design meets: rows of fields with their `hours`, a .csv beside the study, or `duty` of the spec."""
     outputs: tuple[str, ...] = ()
-    """Figures by key; all without."""
+    """Figures of points by key; without, what `figures` need, else all."""
+    figures: tuple[str, ...] = ()
+    """Figures of a design over its states; without, the outputs' means."""
+    best: Annotated[dict[str, Direction], Field(default_factory=dict)]
+    """Figures of which the least or the most is sought; the first orders the designs."""
+    limits: Annotated[dict[str, Limit], Field(default_factory=dict)]
+    """What figures have to keep."""
+
+    @property
+    def drawn(self) -> tuple[str, ...]:
+        """Fields that are drawn from ranges."""
+        return ()
 
     @model_validator(mode="after")
     def _distinct(self) -> Self:
-        problems, sampled = [], {} if self.samples is None else self.samples.fields
-        for path in (*self.axes, *itertools.chain.from_iterable(self.together), *sampled):
+        problems, rows = [], self.rows
+        states = tuple(path for row in rows for path in row if path != HOURS)
+        for path in (
+            *self.axes,
+            *itertools.chain.from_iterable(self.together),
+            *self.drawn,
+            *dict.fromkeys(states),
+        ):
             try:
                 check_path(path)
             except InputError as error:
                 problems.append(Problem((), str(error)))
-        rows = {frozenset(row) for row in self.together}
-        if len(rows) > 1:
-            problems.append(Problem(("together",), "every row has to change the same fields"))
-        told = [*self.axes, *(next(iter(rows)) if rows else ()), *sampled]
-        twice = sorted({path for path in told if told.count(path) > 1})
+        for name, given in (("together", self.together), ("states", rows)):
+            if len({frozenset(row) for row in given}) > 1:
+                problems.append(Problem((name,), "every row has to change the same fields"))
+        if any(set(row) <= {HOURS} for row in rows):
+            problems.append(Problem(("states",), "every state has to change a field"))
+        if rows and HOURS in rows[0]:
+            problems += [
+                Problem(("states", i, HOURS), f'got "{row[HOURS]}", expected a time such as "2200 h"')
+                for i, row in enumerate(rows) if HOURS in row and hours_of(row[HOURS]) is None
+            ]  # fmt: skip
+        told = [*self.axes, *(self.together[0] if self.together else ()), *self.drawn]
+        met = [path for path in (rows[0] if rows else ()) if path != HOURS]
+        twice = sorted({path for path in (*told, *met) if [*told, *met].count(path) > 1})
         if twice:
             problems.append(Problem((), f"{', '.join(twice)}: varied twice; leave one of both"))
         if not told:
-            problems.append(Problem((), "nothing varies; give axes, together or samples"))
-        refuse("StudyPlan", problems)
+            problems.append(Problem((), f"nothing varies; give {self._ways}"))
+        refuse(type(self).__name__, problems)
         return self
 
     @property
+    def _ways(self) -> str:
+        return "axes or together"
+
+    @property
+    def rows(self) -> tuple[dict[str, Value], ...]:
+        """States that are read."""
+        return () if isinstance(self.states, str) else self.states
+
+    @property
+    def hours(self) -> tuple[float, ...] | None:
+        """Of each state in a year [h]; None where the states have none."""
+        if not self.rows or HOURS not in self.rows[0]:
+            return None
+        return tuple(hours_of(row[HOURS]) or 0.0 for row in self.rows)
+
+    @property
+    def designed(self) -> tuple[str, ...]:
+        """Fields that tell designs apart, the slowest first."""
+        return (*(self.together[0] if self.together else ()), *self.drawn, *self.axes)
+
+    @property
     def paths(self) -> tuple[str, ...]:
-        """Every field that varies, the slowest first."""
-        return (
-            *(self.together[0] if self.together else ()),
-            *(self.samples.fields if self.samples else ()),
-            *self.axes,
-        )
+        """Every field that varies, the slowest first: of designs, then of states."""
+        return (*self.designed, *(path for path in (self.rows[0] if self.rows else ()) if path != HOURS))
+
+    def points_of(self, design: Changes) -> Iterator[dict[str, Value]]:
+        """A design in each of its states."""
+        for row in self.rows or ({},):
+            yield {**design, **{path: value for path, value in row.items() if path != HOURS}}
+
+
+Given = TypeVar("Given", bound=Plan)
+
+
+class StudyPlan(Plan):
+    """A spec and what of it varies: every value of every axis with every other, with every row and every sample."""
+
+    samples: Samples | None = None
+    """Points drawn evenly from ranges."""
 
     @property
     def count(self) -> int:
         """Points."""
         samples = 1 if self.samples is None else self.samples.count
-        return math.prod(len(values) for values in self.axes.values()) * max(len(self.together), 1) * samples
+        designs = (
+            math.prod(len(values) for values in self.axes.values()) * max(len(self.together), 1) * samples
+        )
+        return designs * max(len(self.rows), 1)
 
-    def points(self) -> Iterator[dict[str, Value]]:
-        """Every point, in order; the last axis changes fastest."""
+    def designs(self) -> Iterator[dict[str, Value]]:
+        """Every design, in order; the last axis changes fastest."""
         for row in self.together or ({},):
             for sample in ({},) if self.samples is None else self.samples.points():
                 for values in itertools.product(*self.axes.values()):
                     yield {**row, **sample, **dict(zip(self.axes, values, strict=True))}
+
+    def points(self) -> Iterator[dict[str, Value]]:
+        """Every design in every state; the last state changes fastest."""
+        for design in self.designs():
+            yield from self.points_of(design)
+
+    @property
+    def drawn(self) -> tuple[str, ...]:
+        """Fields that are drawn from ranges."""
+        return () if self.samples is None else tuple(self.samples.fields)
+
+    @property
+    def _ways(self) -> str:
+        return "axes, together or samples"
+
+
+class SearchPlan(Plan):
+    """What is varied to find the best: fields between two ends, and listed ones."""
+
+    ranges: Annotated[dict[str, SampledRange], Field(default_factory=dict)]
+    """Between what a field is searched, by path, in steps of a thousandth."""
+    population: Annotated[int, Field(ge=2, le=100)] = 8
+    """Designs of a generation for each field that varies."""
+    generations: Annotated[int, Field(ge=1, le=10_000)] = 40
+    """At most."""
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
+    """Of the random numbers: the same seed tries the same designs."""
+
+    @property
+    def drawn(self) -> tuple[str, ...]:
+        """Fields that are drawn from ranges."""
+        return tuple(self.ranges)
+
+    @property
+    def _ways(self) -> str:
+        return "ranges, axes or together"
+
+    @model_validator(mode="after")
+    def _sought(self) -> Self:
+        problems = [
+            Problem(("axes", path), "one value leaves no choice; give more, or change the base")
+            for path, values in self.axes.items()
+            if len(values) < 2
+        ]
+        if len(self.best) != 1:
+            problems.append(Problem(("best",), "expected one figure, such as {motor_power: least}"))
+        if len(self.together) == 1:
+            problems.append(Problem(("together",), "one row leaves no choice; give more, or change the base"))
+        refuse("SearchPlan", problems)
+        return self
+
+    @property
+    def choices(self) -> tuple[tuple[Mapping[str, Value], ...], ...]:
+        """What is listed: the rows, and every axis."""
+        listed = tuple(tuple({path: value} for value in values) for path, values in self.axes.items())
+        return (*((self.together,) if self.together else ()), *listed)
+
+    def design(self, shares: Sequence[float]) -> dict[str, Value]:
+        """A design: of each range the share of the way, of each list the number."""
+        found: dict[str, Value] = {}
+        for (path, span), share in zip(self.ranges.items(), shares, strict=False):
+            found[path] = span.at(round(share * STEPS) / STEPS)
+        for listed, number in zip(self.choices, shares[len(self.ranges) :], strict=True):
+            found |= listed[round(number)]
+        return {path: found[path] for path in self.designed}
+
+
+def with_states(plan: Given, base: Conveyor) -> Given:
+    """The plan with the spec's duty as its states, where it asks for that.
+
+    Raises
+    ------
+    InputError
+        The spec has no duty, or the states are in a file that was not read.
+    """
+    if not isinstance(plan.states, str):
+        return plan
+    if plan.states != DUTY:
+        raise InputError(f'states: "{plan.states}" was not read; read_plan reads a study with its files')
+    if not base.duty:
+        raise InputError("states: duty: the spec has no operation.duty")
+    ambient, rows = base.ambient, []
+    for entry in base.duty:
+        row: dict[str, Value] = {
+            HOURS: text(entry.hours),
+            "material.flow": text(scaled(base.material.flow, entry.load)),
+        }
+        if any(one.speed is not None for one in base.duty):
+            row["belt.speed"] = text(base.belt.speed if entry.speed is None else entry.speed)
+        if any(one.temperature is not None for one in base.duty):
+            at = ambient.belt if entry.temperature is None else entry.temperature
+            row["ambient.temperature"] = text(at)
+            if ambient.belt_temperature is not None:
+                air = si(ambient.temperature) + si(at) - si(ambient.belt)
+                row |= {"ambient.temperature": f"{air:.9g} K", "ambient.belt_temperature": text(at)}
+        rows.append(row)
+    return plan.replace(states=tuple(rows))

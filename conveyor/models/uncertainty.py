@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -11,6 +11,24 @@ from conveyor.units import Bounds, Fraction, Quantity, TemperatureDifference, si
 
 HalfWidth = Annotated[Fraction, Bounds(gt="0 %", lt="100 %")]
 Share = Annotated[Fraction, Bounds(ge="0 %", lt="100 %")]
+FEWEST: Final = 64
+"""Draws: of fewer the outermost do not bound the 5 % and 95 % percentiles with 90 %."""
+
+
+Drawn = Literal[
+    "roll_drag", "flexure_share", "flow", "density", "belt_mass", "cover_thickness", "cleaner_pressure",
+    "skirt_friction", "temperature",
+]  # fmt: skip
+Coefficient = Annotated[float, Field(gt=-1.0, lt=1.0)]
+
+
+class Correlation(Model):
+    """Two inputs that are not independent in the draws."""
+
+    between: Annotated[tuple[Drawn, ...], Field(min_length=2, max_length=2)]
+    """Two of the ranges, by name."""
+    coefficient: Coefficient
+    """Of correlation, between -1 and 1."""
 
 
 class Uncertainty(Model):
@@ -37,6 +55,13 @@ class Uncertainty(Model):
     rubber: Switch = False
     """Whether the compounds' replicas (bootstrap of their fits) and the band of their tests are calculated."""
 
+    draws: Annotated[int, Field(ge=0, le=100_000)] = 0
+    """Draws of all inputs together, each calculated in full (Monte Carlo); none without."""
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1)] = 0
+    """Of the draws: the same seed draws the same."""
+    correlations: tuple[Correlation, ...] = ()
+    """Inputs that the draws take as correlated."""
+
     def half_width(self, name: str) -> float | None:
         """Half width of a range, as a share or in kelvin [-, K]; None where it is not given."""
         given: Quantity | None = getattr(self, name)
@@ -48,4 +73,26 @@ class Uncertainty(Model):
         if pair is not None and not si(pair[0]) < si(pair[1]):
             message = f"got {text(pair[0])} to {text(pair[1])}, expected the lower value first"
             refuse("Uncertainty", [Problem(("flexure_share",), message)])
+        return self
+
+    @model_validator(mode="after")
+    def _drawn(self) -> Self:
+        problems, seen = [], set()
+        if 0 < self.draws < FEWEST:
+            problems.append(
+                Problem(("draws",), f"got {self.draws}, expected at least {FEWEST}, or 0 for none")
+            )
+        for i, pair in enumerate(self.correlations):
+            named = frozenset(pair.between)
+            missing = [name for name in pair.between if getattr(self, name) is None]
+            why = (
+                "expected two different inputs" if len(named) < 2
+                else f"{missing[0]} has no range here" if missing
+                else "is given twice" if named in seen
+                else ""
+            )  # fmt: skip
+            if why:
+                problems.append(Problem(("correlations", i, "between"), why))
+            seen.add(named)
+        refuse("Uncertainty", problems)
         return self

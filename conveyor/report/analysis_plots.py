@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from conveyor.loop.estimates import Classical
     from conveyor.models import RubberCompound
     from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.monte_carlo import MonteCarlo
     from conveyor.studies.uncertainty import CalculatedRanges
 
 _SUMS = ("main", "secondary", "special", "lift", "total")
@@ -279,4 +280,26 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     axis.set_xlabel(power.beside("change of the motor power"))
     titled(figure, study.conveyor.name)
     keyed(axis)
+    return figure
+
+
+def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
+    """Ends of the 90 % interval of the motor power [kW, hp] after ever more draws, beside those of first order."""
+    figure, (axis,) = stacked(1, 3.6)
+    power, rows = unit("power", system, large=True), exact.convergence
+    draws = [row.draws for row in rows]
+    for k, (name, end) in enumerate((("low", first_order[0]), ("high", first_order[1]))):
+        values = power([getattr(row, name) for row in rows])
+        between = [power([getattr(row, f"{name}_between")[side] for row in rows]) for side in (0, 1)]
+        axis.fill_between(draws, *between, color=colour(k), alpha=0.15, linewidth=0)
+        axis.plot(
+            draws, values, color=colour(k), marker="o", markersize=4, label=f"{name} end, draws in full"
+        )
+        axis.axhline(float(power(end)), color=colour(k), linestyle=":", linewidth=1.2)
+    axis.plot([], [], ":", color="0.3", label="first order")
+    axis.set_xscale("log", base=2)
+    axis.set_xticks(draws, [f"{n:,}" for n in draws], minor=False)
+    axis.set(xlabel="draws", ylabel=power.beside("motor power"))
+    keyed(axis)
+    grouped(axis.yaxis)
     return figure

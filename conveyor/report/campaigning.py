@@ -1,72 +1,83 @@
-"""The table of a study, one row a point: written row by row, so that its size does not matter."""
+"""The tables of a study, one row a point or a design: written row by row, so that its size does not matter."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import growing
 from conveyor.report.files import plain
-from conveyor.units import System, quantity
+from conveyor.studies.explored import varied
+from conveyor.studies.points import OUTPUTS
+from conveyor.units import System
 from conveyor.units.presentation import MONEY, labelled, unit
 
 if TYPE_CHECKING:
-    from conveyor.models.study import StudyPlan, Value
-    from conveyor.studies.campaign import Point
-    from conveyor.studies.points import Output
+    from conveyor.models.study import Value
+    from conveyor.studies.campaign import Campaign
+    from conveyor.studies.designs import Design
+    from conveyor.studies.explored import Explored, VariedField
 
 _ROWS: Final = 10_000  # of a group of a Parquet file
 
 Cells = tuple[Any, ...]
+Row: TypeAlias = "tuple[int, tuple[Value, ...], Sequence[Any] | str]"
+"""Number, values of what varies, SI figures or why there are none."""
 
 
 class CampaignTable:
-    """Headings and cells of a study's table in a system of units.
+    """Headings and cells of a table of a study, one row a point or a design, in a system of units.
 
     Parameters
     ----------
-    plan : StudyPlan
+    row : str
+        What a row is: "point".
+    fields : sequence of VariedField
         What varies: its columns have the unit of their first value.
-    outputs : sequence of Output
-        Figures, in the system's units.
+    figures : sequence of (str, str)
+        Words and kind of each figure, in the system's units.
     system : {"SI", "US"}
         Of the figures.
     currency : str
         Of costs.
     """
 
-    def __init__(self, plan: StudyPlan, outputs: Sequence[Output], system: System, currency: str) -> None:
-        first = next(plan.points())
-        inputs = [_input(path, first[path]) for path in plan.paths]
-        self._read = [read for _, read in inputs]
-        self._shown = [
-            unit(f"{MONEY}{currency}" if output.kind == "money" else output.kind, system)
-            for output in outputs
-        ]
-        figures = [labelled(one.label, sign.label) for one, sign in zip(outputs, self._shown, strict=True)]
-        self.headings = ("point", *(heading for heading, _ in inputs), *figures, "no answer because")
+    def __init__(
+        self,
+        row: str,
+        fields: Sequence[VariedField],
+        figures: Sequence[tuple[str, str]],
+        system: System,
+        currency: str,
+    ) -> None:
+        self._fields = fields
+        self._shown = [unit(priced(kind, currency), system) for _, kind in figures]
+        headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
+        inputs = (labelled(field.path, field.unit) for field in fields)
+        self.headings = (row, *inputs, *headed, "no answer because")
 
-    def cells(self, point: Point) -> Cells:
+    def cells(self, row: Row) -> Cells:
         """A row."""
-        number, values, answer = point
-        given = [read(value) for read, value in zip(self._read, values, strict=True)]
+        number, values, answer = row
+        given = [
+            value if field.words else field.number(value)
+            for field, value in zip(self._fields, values, strict=True)
+        ]
         if isinstance(answer, str):
             return (number, *given, *(None for _ in self._shown), answer)
-        figures = (None if x is None else sign(x) for x, sign in zip(answer, self._shown, strict=True))
-        return (number, *given, *figures, None)
+        return (number, *given, *(sign.shown(x) for x, sign in zip(answer, self._shown, strict=True)), None)
 
     @property
     def mark(self) -> str:
         """What an older file of this table is."""
         return marks.mark(_line(self.headings).encode("utf-8-sig")) or marks.TABLE
 
-    def write(self, path: Path, points: Iterable[Point]) -> int:
+    def write(self, path: Path, points: Iterable[Row]) -> int:
         """Write the table as its name ends, `.csv` or `.parquet`; the file is there when it is whole.
 
         Returns
@@ -121,17 +132,32 @@ def _line(cells: Iterable[Any]) -> str:
     return line.getvalue()
 
 
-def _input(path: str, first: Value) -> tuple[str, Callable[[Value], Any]]:
-    """Heading of a field that varies, and how its values are written: quantities in the unit of the first."""
-    if not isinstance(first, str):
-        return path, lambda value: value
-    try:
-        like = quantity(first)
-    except InputError:
-        return path, lambda value: value
-    sign = first.strip().partition(" ")[2].strip()
+def of_points(campaign: Campaign, system: System, currency: str) -> CampaignTable:
+    """The table of a study's points."""
+    figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
+    return CampaignTable("point", varied(campaign.listed, campaign.plan.paths), figures, system, currency)
 
-    def read(value: Value) -> Any:
-        return float(f"{quantity(str(value)).to(like.units).magnitude:.12g}")
 
-    return labelled(path, sign), read
+def of_designs(campaign: Campaign, system: System, currency: str) -> CampaignTable:
+    """The table of a study's designs; its rows come from `design_rows`."""
+    figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
+    shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
+    return CampaignTable("design", varied(campaign.listed), shown, system, currency)
+
+
+def design_rows(found: Explored, designs: Iterable[Design]) -> Iterator[Row]:
+    """Designs as rows of their table."""
+    front = set(found.numbers[found.front].tolist())
+    for one in designs:
+        values = tuple(one.changes.values())
+        figures = [
+            *one.figures.values(),
+            ", ".join(one.broken) or None,
+            "yes" if one.number in front else "no",
+        ]
+        yield one.number, values, one.why or figures
+
+
+def priced(kind: str, currency: str) -> str:
+    """A kind, money with its currency."""
+    return f"{MONEY}{currency}" if kind == "money" else kind

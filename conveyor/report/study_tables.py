@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, CaseResult
     from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
     from conveyor.studies.uncertainty import CalculatedRanges
 
@@ -52,10 +53,17 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         tables += [year(studies.duty), duty(studies.duty)]
     if studies.uncertainty is not None:
         study = studies.uncertainty
-        tables += [band(study), sensitivity(study)]
+        tables += [band(study), convergence_of_draws(study), sensitivity(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
         draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
+        exact = study.monte_carlo
+        if exact is not None:
+            caption = (
+                "Ends of the 90 % interval after ever more draws; shaded: between which each lies with 90 %."
+            )
+            settle = lambda: analysis_plots.settling(exact, study.sampled, system=system)  # noqa: E731
+            drawn.append(Drawing("settling", caption, settle, "convergence_of_draws"))
     return tables, drawn
 
 
@@ -319,9 +327,37 @@ def band(study: CalculatedRanges) -> Table:
         Column("motor power", "power", lambda _: study.motor),
         Column("motor power, high", "power", lambda row: row[1][1]),
     )
-    rows = (("root sum of squares", study.band), ("Latin hypercube, first order", study.sampled))
+    exact, rows = study.monte_carlo, [
+        ("root sum of squares", study.band), ("Latin hypercube, first order", study.sampled),
+    ]  # fmt: skip
+    if exact is not None:
+        rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
     page = (OnPage(_UNCERTAINTY, "Motor power, 90 % interval"),)
     return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, page)
+
+
+def convergence_of_draws(study: CalculatedRanges) -> Table:
+    """Ends of the interval after ever more draws, and how well they are known; no rows without draws."""
+
+    def end(name: str, k: int) -> Callable[[Percentiles], float]:
+        return lambda row: float(getattr(row, f"{name}_between")[k])
+
+    columns = (
+        Column("draws", "count", attrgetter("draws")),
+        Column("motor power, low", "power", attrgetter("low"), key="low"),
+        Column("low end, from", "power", end("low", 0)),
+        Column("low end, to", "power", end("low", 1)),
+        Column("motor power, high", "power", attrgetter("high"), key="high"),
+        Column("high end, from", "power", end("high", 0)),
+        Column("high end, to", "power", end("high", 1)),
+    )
+    exact = study.monte_carlo
+    rows = () if exact is None else exact.convergence
+    reasons = {} if exact is None else exact.refused
+    note = "; ".join(f"{count} draws have no answer: {why}" for why, count in reasons.items())
+    heading = "Monte Carlo: ends of the 90 % interval, and between which they lie with 90 %"
+    page = (OnPage(_UNCERTAINTY, heading),)
+    return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, page, note)
 
 
 def plain(studies: CalculatedStudies) -> dict[str, Any]:

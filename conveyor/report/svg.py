@@ -26,7 +26,7 @@ _WIDTH = 6.9
 """Of every figure [in]: its 9 pt letters stay legible on A4 and where a phone scrolls."""
 _PAD = 0.06  # [in] about the labels
 _HIGHEST = 4.6
-"""Of every figure [in]."""
+"""Of a figure of up to two rows [in]; of more in proportion."""
 _DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
 _HOUSE = {colour(k) for k in range(8)}
 _GUIDE = "#5F6670"
@@ -58,7 +58,10 @@ def restyle(figure: Figure) -> None:
     """Give a figure the page's width, no title (the caption is one), and curves that differ without colour."""
     from matplotlib.ticker import NullLocator
 
-    height = min(_HIGHEST, figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth()))
+    rows, _ = _grid(figure)
+    height = min(
+        _HIGHEST * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth())
+    )
     figure.set_size_inches(_WIDTH, height)
     for axis in figure.axes:
         axis.set_title("", pad=None)
@@ -93,16 +96,29 @@ def _fit(figure: Figure) -> None:
                 (inner.x0 - outer.x0, outer.x1 - inner.x1, inner.y0 - outer.y0, outer.y1 - inner.y1)
             )
     left, right, below, above = (max(sides) + _PAD * figure.dpi for sides in zip(*needed, strict=True))
-    inside = height - below - above
-    rows = len(figure.axes)
-    gap = (below + above) / max(1.0, (inside - (rows - 1) * (below + above)) / rows)
+    gaps = [
+        (ends := first + last) / max(1.0, (whole - count * ends) / count)
+        for whole, first, last, count in zip(
+            (height, width), (below, left), (above, right), _grid(figure), strict=True
+        )
+    ]
     figure.subplots_adjust(
         left=left / width,
         right=1.0 - right / width,
         bottom=below / height,
         top=1.0 - above / height,
-        hspace=gap,
+        hspace=gaps[0],
+        wspace=gaps[1],
     )
+
+
+def _grid(figure: Figure) -> tuple[int, int]:
+    """Rows and columns of its axes."""
+    placed = figure.axes[0].get_subplotspec()
+    if placed is None:
+        return len(figure.axes), 1
+    grid = placed.get_gridspec()
+    return len(figure.axes) if grid.ncols == 1 else grid.nrows, grid.ncols
 
 
 def _power_of_ten(value: float, _: object = None) -> str:

@@ -1,43 +1,43 @@
 """A study run: its points in batches on any executor, every answer kept as it comes, so that a stopped run goes on.
 
-Answers stand in a file of lines, each with the key of its point: a hash of all that it follows from (spec, compounds,
-changes, figures asked for, version). What is there already is not calculated again; a line that was half written when
-a run ended is seen and dropped. The table is written from the file, in the order of the points, whatever order their
-answers came in.
+Answers stand in a file (SQLite: what was half written when a run ended is undone), each under the key of its point: a
+hash of all that it follows from (spec, compounds, changes, figures asked for, version). What is there already is not
+calculated again, and nothing of it is held in memory. The table is written from the file, in the order of the points,
+whatever order their answers came in.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import os
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
-from typing import IO, Final, Self, TypeAlias
+from typing import Final, NamedTuple, Self, TypeAlias
 
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
-from conveyor.models.study import Changes, StudyPlan, Value
+from conveyor.models.study import Changes, Plan, StudyPlan, Value, with_states
 from conveyor.spec import fingerprint
-from conveyor.studies.points import Answer, answers, outputs_of
+from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
+from conveyor.studies.points import OUTPUTS, Answer, answers, outputs_of
 
 BATCH: Final = 64
 """Points solved side by side, and lost at most where a run is stopped."""
 AHEAD: Final = 2
 """Batches a worker that are handed out at once."""
 
-_KEY: Final = slice(2, 34)  # of a line
-_ANSWERED: Final = re.compile(rb'\["[0-9a-f]{32}", .*\]\n')
-_BEGUN: Final = re.compile(rb'\[("[0-9a-f]{0,32}|"[0-9a-f]{32}".*)?')
+_MARK: Final = 0x636F6E76
+"""In the head of a file of answers."""
 
-Progress = Callable[[int, int], None]
+Progress: TypeAlias = Callable[[int, int, int], None]
+"""Called with points that have been gone through, all, and those of them that this run found without an answer."""
 Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
 """Number of a point, its values of `plan.paths`, its answer."""
 
@@ -58,20 +58,21 @@ class Campaign:
         Keys of the figures asked for.
     """
 
-    plan: StudyPlan
+    plan: Plan
     base: Conveyor
     compounds: Mapping[str, RubberCompound]
     outputs: tuple[str, ...]
 
     @classmethod
-    def of(cls, plan: StudyPlan, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
+    def of(cls, plan: Plan, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
         """Read what a plan names.
 
         Raises
         ------
         InputError
-            A compound, a figure or a field is not known.
+            A compound, a figure or a field is not known, or the spec has no duty that the plan asks for.
         """
+        plan = with_states(plan, base)
         columns = {path: field_of(base, path) for path in plan.paths}
         rubber = [path for path, value in columns.items() if isinstance(value, RubberCompound)]
         given = {
@@ -79,70 +80,112 @@ class Campaign:
             for path in rubber
         }
         named = {value for values in given.values() for value in values if isinstance(value, str)}
-        return cls(
-            plan, base, {name: resolve(name) for name in sorted(named)}, tuple(outputs_of(plan.outputs))
-        )
+        needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
+        asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(OUTPUTS))
+        outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
+        return cls(plan, base, {name: resolve(name) for name in sorted(named)}, outputs)
+
+    @property
+    def listed(self) -> StudyPlan:
+        """The plan, where it lists its points.
+
+        Raises
+        ------
+        InputError
+            It searches them.
+        """
+        if not isinstance(self.plan, StudyPlan):
+            raise InputError("a plan that searches lists no points; optimise takes it")
+        return self.plan
+
+    @cached_property
+    def figures(self) -> dict[str, DesignFigure]:
+        """Figures of a design by name."""
+        return figures_of(self.plan, self.base)
 
     @cached_property
     def _common(self) -> hashlib._Hash:
         """Hash of what every point follows from."""
-        rubber = {name: one.as_data() for name, one in self.compounds.items()}
-        told = [version("conveyor"), fingerprint(self.base), self.outputs, rubber]
-        return hashlib.sha256(json.dumps(told, sort_keys=True).encode())
+        return _hash([version("conveyor"), fingerprint(self.base), self.outputs])
 
-    def key(self, point: Changes) -> str:
+    @cached_property
+    def _rubber(self) -> dict[str, dict[Value, str]]:
+        """Hashes of the compounds that points name, by field."""
+        known: dict[Value, str] = {
+            name: _hash(one.as_data()).hexdigest() for name, one in self.compounds.items()
+        }
+        return {
+            path: known for path in self.plan.paths if isinstance(field_of(self.base, path), RubberCompound)
+        }
+
+    def key(self, point: Changes) -> bytes:
         """Hash of all that the answer of a point follows from."""
         found = self._common.copy()
-        found.update(json.dumps(point, sort_keys=True).encode())
-        return found.hexdigest()[:32]
+        rubber = [known.get(point[path]) for path, known in self._rubber.items()]
+        found.update(json.dumps([point, rubber], sort_keys=True).encode())
+        return found.digest()[:16]
+
+
+def _hash(data: object) -> hashlib._Hash:
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode())
 
 
 class Answers:
-    """A file of answers by key that only grows; what was half written is dropped when it is opened.
+    """A file of answers by key that only grows.
 
     Raises
     ------
     InputError
-        The file holds something else.
+        The file holds something else, or another run of the study writes to it.
     """
 
     def __init__(self, path: Path) -> None:
-        self._at: dict[str, int] = {}
-        self._file: IO[bytes] = path.open("a+b")
-        self._file.seek(0)
-        end = 0
-        for line in self._file:
-            whole = line.endswith(b"\n")
-            if not (_ANSWERED if whole else _BEGUN).fullmatch(line):
-                self._file.close()
-                raise InputError(f"{path}: holds something else than answers of a study; remove it")
-            if whole:
-                self._at[line[_KEY].decode()] = end
-                end += len(line)
-        self._file.truncate(end)
+        self._path = path
+        self._file = sqlite3.connect(path, isolation_level=None)
+        try:
+            (mark,) = self._file.execute("PRAGMA application_id").fetchone()
+            (pages,) = self._file.execute("PRAGMA page_count").fetchone()
+            if not pages:
+                self._file.execute(f"PRAGMA application_id = {_MARK}")
+                self._file.execute("CREATE TABLE answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID")
+        except sqlite3.OperationalError as error:
+            self._file.close()
+            raise InputError(f"{path}: cannot be written ({error}); another run of the study?") from None
+        except sqlite3.DatabaseError:
+            mark, pages = 0, 1
+        if pages and mark != _MARK:
+            self._file.close()
+            raise InputError(f"{path}: holds something else than answers of a study; remove it")
 
-    def __contains__(self, key: str) -> bool:
-        return key in self._at
+    def __contains__(self, key: bytes) -> bool:
+        return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
 
-    def __getitem__(self, key: str) -> Answer:
-        self._file.seek(self._at[key])
-        found: Answer = json.loads(self._file.readline())[1]
+    def __getitem__(self, key: bytes) -> Answer:
+        (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
+        found: Answer = json.loads(text)
         return found
 
-    def add(self, found: Iterable[tuple[str, Answer]]) -> None:
-        """Keep answers, on the disk when this returns."""
-        self._file.seek(0, os.SEEK_END)
-        end, lines = self._file.tell(), []
-        for key, answer in found:
-            lines.append(json.dumps([key, answer]).encode() + b"\n")
-            self._at[key] = end
-            end += len(lines[-1])
-        self._file.write(b"".join(lines))
-        self._file.flush()
-        os.fsync(self._file.fileno())
+    def add(self, found: Iterable[tuple[bytes, Answer]]) -> None:
+        """Keep answers, all of them on the disk when this returns.
+
+        Raises
+        ------
+        ConveyorError
+            They cannot be written: the disk is full, or another run of the study writes.
+        """
+        lines = [(key, json.dumps(answer)) for key, answer in found]
+        try:
+            with self._file:
+                self._file.execute("BEGIN IMMEDIATE")
+                self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
+        except sqlite3.OperationalError as error:
+            raise ConveyorError(
+                f"{self._path}: cannot be written ({error}); what is done is kept: run it again to go on"
+            ) from None
 
     def __len__(self) -> int:
-        return len(self._at)
+        (count,) = self._file.execute("SELECT count(*) FROM answers").fetchone()
+        return int(count)
 
     def __enter__(self) -> Self:
         return self
@@ -154,6 +197,7 @@ class Answers:
 def run(
     campaign: Campaign,
     known: Answers,
+    points: Sequence[Changes] | None = None,
     *,
     executor: Executor | None = None,
     workers: int = 1,
@@ -167,34 +211,40 @@ def run(
         The study.
     known : Answers
         What is known; new answers are added batch by batch.
+    points : sequence of mapping, optional
+        Points; all of the plan without.
     executor : concurrent.futures.Executor, optional
         Where batches are calculated: processes, a cluster; in this process without one.
     workers : int
         Of the executor: as many batches are handed out at once, and as many again.
     progress : callable, optional
-        Called with points that have an answer, and all.
+        Called with points gone through, all, and those that this run found without an answer.
 
     Raises
     ------
     ConveyorError
-        A worker was lost; what is done is kept, the same call goes on from there.
+        A worker was lost, or answers cannot be written; what is done is kept, the same call goes on from there.
     """
-    done = sum(campaign.key(point) in known for point in campaign.plan.points())
-    asked: dict[Future[list[Answer]], list[str]] = {}
-    new, most = _batches(campaign, known), 1 if executor is None else AHEAD * workers
+    whole = campaign.listed.count if points is None else len(points)
+    asked: dict[Future[list[Answer]], list[bytes]] = {}
+    new, most = _batches(campaign, known, points), 1 if executor is None else AHEAD * workers
+    done = without = 0
     try:
         while True:
-            for keys, points in islice(new, most - len(asked)):
-                task = (campaign.base, points, campaign.outputs, campaign.compounds)
-                asked[_here(task) if executor is None else executor.submit(answers, *task)] = keys
+            for batch in islice(new, most - len(asked)):
+                done += batch.known
+                if batch.points:
+                    task = (campaign.base, batch.points, campaign.outputs, campaign.compounds)
+                    asked[_here(task) if executor is None else executor.submit(answers, *task)] = batch.keys
             if progress is not None:
-                progress(done, campaign.plan.count)
+                progress(done, whole, without)
             if not asked:
                 return
             for future in wait(asked, return_when=FIRST_COMPLETED).done:
-                keys = asked.pop(future)
-                known.add(zip(keys, future.result(), strict=True))
+                keys, found = asked.pop(future), future.result()
+                known.add(zip(keys, found, strict=True))
                 done += len(keys)
+                without += sum(isinstance(answer, str) for answer in found)
     except BrokenExecutor:
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
@@ -213,21 +263,44 @@ def _here(
     return future
 
 
-def _batches(campaign: Campaign, known: Answers) -> Iterator[tuple[list[str], list[Changes]]]:
-    """Points without an answer and their keys, `BATCH` at a time."""
-    new = {}
-    for point in campaign.plan.points():
+class _Batch(NamedTuple):
+    """Points without an answer and their keys, and points before them that have one."""
+
+    keys: list[bytes]
+    points: list[Changes]
+    known: int
+
+
+def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes] | None) -> Iterator[_Batch]:
+    """Points without an answer, `BATCH` at a time; the last may hold none."""
+    new: dict[bytes, Changes] = {}
+    seen = 0
+    for point in campaign.listed.points() if points is None else points:
         key = campaign.key(point)
-        if key not in known:
+        if key in known or key in new:
+            seen += 1
+        else:
             new[key] = point
         if len(new) == BATCH:
-            yield list(new), list(new.values())
-            new = {}
-    if new:
-        yield list(new), list(new.values())
+            yield _Batch(list(new), list(new.values()), seen)
+            new, seen = {}, 0
+    yield _Batch(list(new), list(new.values()), seen)
 
 
 def rows(campaign: Campaign, known: Answers) -> Iterator[Point]:
     """Every point, in the order of the plan."""
-    for number, point in enumerate(campaign.plan.points(), start=1):
+    for number, point in enumerate(campaign.listed.points(), start=1):
         yield number, tuple(point[path] for path in campaign.plan.paths), known[campaign.key(point)]
+
+
+def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
+    """Every design over its states, in the order of the plan."""
+    for number, design in enumerate(campaign.listed.designs(), start=1):
+        yield design_of(campaign, known, design, number)
+
+
+def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
+    """A design whose points have answers, over its states."""
+    found = [known[campaign.key(point)] for point in campaign.plan.points_of(design)]
+    made = reduced(campaign.plan, campaign.figures, campaign.outputs, found)
+    return Design(number, design, *made)

@@ -34,6 +34,7 @@ class Output:
 OUTPUTS: Final[Mapping[str, Output]] = {
     "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
     "mains_power": Output("mains power", "power", attrgetter("balance.power.mains")),
+    "flow": Output("mass flow", "mass flow", attrgetter("line.flow")),
     "energy_per_tonne_km": Output(
         "energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")
     ),

@@ -26,7 +26,8 @@ from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.studies.compared import COVERED, ends
-from conveyor.units import Quantity, display, from_si, text
+from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, drawn
+from conveyor.units import Quantity, between, display, from_si, text
 from conveyor.units.sentences import percent
 
 Array = NDArray[np.float64]
@@ -80,6 +81,8 @@ class CalculatedRanges:
         Between which nine tenths lie: by the root of the squares, and by the hypercube [W].
     notes : tuple of str
         What was left out, and why.
+    monte_carlo : MonteCarlo or None
+        Draws of all inputs together, each calculated in full; None where the ranges ask for none.
     """
 
     conveyor: Conveyor
@@ -88,6 +91,7 @@ class CalculatedRanges:
     band: tuple[float, float]
     sampled: tuple[float, float]
     notes: tuple[str, ...]
+    monte_carlo: MonteCarlo | None = None
 
     def __repr__(self) -> str:
         low, high = (value / 1e3 for value in self.band)
@@ -113,6 +117,8 @@ class _Variation:
     variants: tuple[Variant, ...]
     """The low and the high end, or replicas of which quantiles are taken."""
     replicas: bool = False
+    drawn: DrawnInput | None = None
+    """How draws change it; None of what is not drawn."""
 
 
 @checked
@@ -184,6 +190,13 @@ def study(
         low, high = ends(mine) if variation.replicas else (mine[0], mine[1])
         effects.append(Effect(variation.name, variation.low, variation.given, variation.high, low, high))
     effects.sort(key=lambda effect: -effect.swing)
+    inputs = [variation.drawn for variation in variations if variation.drawn is not None]
+    notes += [f"{one.name}: is not drawn" for one in variations if one.drawn is None and given.draws]
+    exact = (
+        drawn(conveyor, inputs, given, end=END, rtol=rtol, progress=progress, known=middle)
+        if given.draws
+        else None
+    )
     return CalculatedRanges(
         conveyor=conveyor,
         motor=motor,
@@ -191,6 +204,7 @@ def study(
         band=root_of_squares(motor, effects),
         sampled=hypercube_band(motor, effects, samples=samples, seed=seed),
         notes=tuple(notes),
+        monte_carlo=exact,
     )
 
 
@@ -260,7 +274,8 @@ def _variations(
     half = ranges.half_width("roll_drag")
     if half is not None:
         ends = (Variant(conveyor, roll_drag=1.0 - half), Variant(conveyor, roll_drag=1.0 + half))
-        yield _Variation("roll drag", f"-{percent(half)}", "as computed", f"+{percent(half)}", ends)
+        told = (f"-{percent(half)}", "as computed", f"+{percent(half)}")
+        yield _Variation("roll drag", *told, ends, drawn=DrawnInput("roll_drag", drag=half))
     if ranges.flexure_share is not None:
         yield _flexure(conveyor, ranges.flexure_share)
     for name, change in _CHANGES.items():
@@ -289,7 +304,17 @@ def _flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
     )
     low, high = (text(share) for share in ends)
     given = "by law" if calculation.flexure_share is None else text(calculation.flexure_share)
-    return _Variation("flexure share", low, given, high, scenes)
+    drawn = DrawnInput("flexure_share", partial(_with_flexure, ends=ends))
+    return _Variation("flexure share", low, given, high, scenes, drawn=drawn)
+
+
+def _with_flexure(conveyor: Conveyor, away: float, ends: Sequence[Quantity]) -> Conveyor:
+    """With the share so many half widths from the middle of its range."""
+    share = between(ends[0], ends[1], 0.5 + 0.5 * away)
+    return _refused(
+        "flexure_share",
+        lambda: conveyor.replace(calculation=conveyor.calculation.replace(flexure_share=share)),
+    )
 
 
 def _temperature(conveyor: Conveyor, change: float) -> _Variation:
@@ -298,7 +323,8 @@ def _temperature(conveyor: Conveyor, change: float) -> _Variation:
         for sign in (-1.0, 1.0)
     ]
     low, given, high = (display(c.temperature, "temperature") for c in (ends[0], conveyor, ends[1]))
-    return _Variation("temperature of the belt", low, given, high, tuple(map(Variant, ends)))
+    drawn = DrawnInput("temperature", lambda given, away: with_belt_temperature_changed(given, away * change))
+    return _Variation("temperature of the belt", low, given, high, tuple(map(Variant, ends)), drawn=drawn)
 
 
 def _with_flow(conveyor: Conveyor, factor: float) -> Conveyor:
@@ -341,8 +367,8 @@ def _with_skirts(conveyor: Conveyor, factor: float) -> Conveyor:
 _CHANGES: Final[dict[str, Callable[[Conveyor, float], Conveyor]]] = {
     "flow": _with_flow,
     "density": _with_density,
-    "belt_mass": _with_belt_mass,
     "cover_thickness": _with_cover,
+    "belt_mass": _with_belt_mass,
     "cleaner_pressure": _with_cleaners,
     "skirt_friction": _with_skirts,
 }
@@ -360,7 +386,9 @@ def _scaled(
     if all(end == conveyor for end in ends):
         notes.append(f"uncertainty.{name}: the conveyor has none of it")
     scenes = tuple(Variant(end) for end in ends)
-    return _Variation(name.replace("_", " "), f"-{percent(half)}", "as given", f"+{percent(half)}", scenes)
+    drawn = DrawnInput(name, lambda given, away: change(given, 1.0 + half * away))
+    told = (f"-{percent(half)}", "as given", f"+{percent(half)}")
+    return _Variation(name.replace("_", " "), *told, scenes, drawn=drawn)
 
 
 def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
@@ -380,6 +408,7 @@ def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]
                 "95th percentile of fits",
                 scenes,
                 replicas=True,
+                drawn=DrawnInput(f'rubber "{name}"', rubber=(compound, alternatives)),
             )
         if cover.level is not None:
             yield _level(conveyor, name, {strand: found.contacts.level_band(strand) for strand in strands})
@@ -401,5 +430,6 @@ def _level(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Var
     )
     low, high = (math.expm1(sign * max(bands.values())) for sign in (-1.0, 1.0))
     return _Variation(
-        f'level of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends
-    )
+        f'level of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends,
+        drawn=DrawnInput(f'level of "{name}"', level=bands),
+    )  # fmt: skip

@@ -1,0 +1,117 @@
+"""`conveyor optimise`: the best design of a search, written as a spec."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from conveyor.cli.app import (
+    AsJson,
+    Changed,
+    Force,
+    Quiet,
+    Shelves,
+    UnitsOption,
+    app,
+    examples,
+    json_text,
+    print_text,
+    progress,
+    read_spec,
+    say,
+)
+from conveyor.cli.outputs import Outputs
+from conveyor.cli.study import Scheduler, Workers, executor_of, said, spec_of
+
+if TYPE_CHECKING:
+    from conveyor.studies.designs import Design
+    from conveyor.units import System
+
+
+@app.command(
+    short_help="Find the best design and write its spec.",
+    epilog=examples(
+        "conveyor optimise search.yaml -o best.yaml",
+        "conveyor optimise search.yaml -o best.yaml --workers 8",
+        "conveyor power best.yaml",
+    ),
+)
+def optimise(
+    plan_file: Annotated[
+        Path, typer.Argument(metavar="SEARCH", help="Search: .yaml or .json.", show_default=False)
+    ],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="Write the best spec (.yaml).", show_default=False
+        ),
+    ],
+    workers: Workers = 1,
+    scheduler: Scheduler = None,
+    units: UnitsOption = None,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    shelf: Shelves = None,
+    changed: Changed = None,
+) -> None:
+    """Search the best design within limits; stopped, it goes on from FILE.answers beside the spec it writes."""
+    from conveyor import shelf as shelves
+    from conveyor.files import marks
+    from conveyor.studies.campaign import Answers, Campaign
+    from conveyor.studies.optimise import optimise as search
+    from conveyor.study_file import read_search
+
+    plan = read_search(plan_file)
+    spec = plan_file.parent / plan.base
+    line = read_spec(spec, shelf, changed)
+    system: System = line.report.units if units is None else units.value
+    campaign = Campaign.of(plan, line, shelves.resolver(extra=shelf or (), base=spec.parent))
+    to = Outputs(plan_file, spec, force=force)
+    to.file("--output", output, ".yaml", ".yml", kind=marks.TO_FILL_IN)
+    with ExitStack() as stack:
+        known = stack.enter_context(Answers(output.with_name(f"{output.name}.answers")))
+        before = len(known)
+        told = stack.enter_context(progress(silent=quiet or as_json))
+        executor = stack.enter_context(executor_of(scheduler, workers)) if scheduler or workers > 1 else None
+
+        def tell(done: int, most: int, best: Design) -> None:
+            if told is not None:
+                told(
+                    "generations",
+                    done,
+                    most,
+                    said(best, campaign, system) if best.keeps else "none keeps the limits",
+                )
+
+        found = search(campaign, known, executor=executor, workers=workers, progress=tell)
+        new = len(known) - before
+    figures = said(found.design, campaign, system)
+    to.add("spec", output, {output: spec_of(campaign, found.design, figures)})
+    written = to.save()
+    if as_json:
+        plain = {
+            "changes": dict(found.design.changes),
+            "figures_SI": dict(found.design.figures),
+            "designs": found.tried,
+            "calculated": new,
+            "generations": found.generations,
+            "settled": found.settled,
+            "history_SI": list(found.history),
+            "spec": str(output),
+        }
+        print_text(json_text(plain))
+    elif not quiet:
+        end = (
+            "settled"
+            if found.settled
+            else "stopped at the most that were asked for: the best may be better still"
+        )
+        say(*(f"{path}: {value}" for path, value in found.design.changes.items()), figures)
+        say(
+            f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}",
+            *written,
+        )

@@ -1,0 +1,242 @@
+"""Figures of a study: matplotlib figures returned, never shown or saved."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+import numpy as np
+
+from conveyor.report.campaigning import priced
+from conveyor.report.plots import colour, grouped, keyed, stacked
+from conveyor.units import System
+from conveyor.units.presentation import Unit, unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+    from conveyor.studies.explored import Explored, VariedField
+
+_COLUMNS: Final = 2  # panels side by side
+_MOST: Final = 2000  # dots; of more designs every n-th, and the front
+_LINES: Final = 300
+_CELLS: Final = 16  # a side of a heat map with numbers
+_CALLED: Final = 12  # designs of the front with their number
+_SHORT: Final = 16  # letters of a name on an axis before it is broken
+_SHADES: Final = "viridis_r"
+_LEVELS: Final = 20  # of them in a map
+Array: TypeAlias = "np.ndarray[Any, Any]"
+
+
+class Shown:
+    """A study's designs in a system of units and a currency.
+
+    Parameters
+    ----------
+    found : Explored
+        The designs; at least one has an answer.
+    system : {"SI", "US"}
+        Of the figures.
+    currency : str
+        Of costs.
+    """
+
+    def __init__(self, found: Explored, system: System, currency: str) -> None:
+        self.found, self.system = found, system
+        figures = [found.figures[name] for name in found.sought]
+        self.labels = [figure.label for figure in figures]
+        self.units: list[Unit] = [
+            unit(priced(figure.kind, currency), system, large=True) for figure in figures
+        ]
+
+    def sought(self, k: int) -> Any:
+        """What is sought, of every design, shape `(n,)`."""
+        return self.units[k](self.found.found[:, k])
+
+    def axis(self, k: int) -> str:
+        """Words of it for an axis."""
+        return self.units[k].beside(self.labels[k])
+
+    def effects(self) -> Figure:
+        """What each field does to what is sought first: means over all other fields, and from least to most."""
+        from matplotlib.figure import Figure
+
+        order = self.found.ordered
+        rows = math.ceil(len(order) / _COLUMNS)
+        figure = Figure(figsize=(8.0, 2.8 * rows), layout="constrained")
+        first: Axes | None = None
+        for place, field in enumerate(order):
+            axis = figure.add_subplot(rows, min(len(order), _COLUMNS), place + 1, sharey=first)
+            first = first or axis
+            effects = self.found.effects(field)
+            at = [effect.at for effect in effects]
+            low, middle, high = (
+                self.units[0]([getattr(effect, name) for effect in effects])
+                for name in ("least", "mean", "most")
+            )
+            axis.fill_between(at, low, high, color=colour(0), alpha=0.12, linewidth=0)
+            axis.plot(at, middle, color=colour(0), marker="o", markersize=4)
+            axis.grid(visible=True, color="0.9")
+            axis.spines[["top", "right"]].set_visible(False)
+            grouped(axis.yaxis)
+            _named(axis.xaxis, self.found.fields[field])
+            axis.margins(x=0.15 if self.found.fields[field].words else 0.05)
+            if place % _COLUMNS == 0:
+                axis.set_ylabel(self.axis(0), fontsize=9)
+            axis.tick_params(labelsize=8, labelleft=place % _COLUMNS == 0)
+        return figure
+
+    def heat_map(self) -> Figure:
+        """The best over all other fields, at every pair of values of the two fields that matter most."""
+        from matplotlib import colormaps
+
+        found, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
+        across, up = found.ordered[:2]
+        figure, (axis,) = stacked(1, 4.4)
+        kept = found.keeps if found.keeps.any() else np.ones(len(found.values), dtype=bool)
+        x, y, shown = found.values[kept, across], found.values[kept, up], self.sought(0)[kept]
+        if max(len(np.unique(x)), len(np.unique(y))) <= _CELLS:
+            shaded = self._cells(axis, (x, y), shown, (found.fields[across], found.fields[up]))
+            shaded.set_cmap(shades)
+        else:
+            shaded = axis.scatter(x, y, c=shown, cmap=shades, s=14)
+            _named(axis.xaxis, found.fields[across])
+            _named(axis.yaxis, found.fields[up])
+        axis.grid(visible=False)
+        beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
+        grouped(figure.colorbar(shaded, cax=beside, label=self.axis(0)).ax.yaxis)
+        return figure
+
+    def _number(self, k: int, value: float) -> str:
+        """What is sought as tables write it."""
+        return f"{value:{self.units[k].digits}}"
+
+    def _cells(
+        self, axis: Axes, at: tuple[Array, Array], shown: Array, fields: tuple[VariedField, VariedField]
+    ) -> Any:
+        """A cell a pair of values, with its number."""
+        columns, rows = (np.unique(values) for values in at)
+        least = next(iter(self.found.sought.values())) == "least"
+        best = np.ma.array(np.zeros((len(rows), len(columns))), mask=True)
+        for i, j in np.ndindex(best.shape):
+            here = shown[(at[0] == columns[j]) & (at[1] == rows[i])]
+            if here.size:
+                best[i, j] = here.min() if least else here.max()
+        shaded = axis.pcolormesh(range(len(columns) + 1), range(len(rows) + 1), best)
+        middle = (best.min() + best.max()) / 2.0
+        for i, j in zip(*np.nonzero(~np.ma.getmaskarray(best)), strict=True):
+            ink = "white" if best[i, j] > middle else "black"
+            axis.text(
+                j + 0.5,
+                i + 0.5,
+                self._number(0, float(best[i, j])),
+                ha="center",
+                va="center",
+                fontsize=8,
+                color=ink,
+            )
+        for scale, field, values in ((axis.xaxis, fields[0], columns), (axis.yaxis, fields[1], rows)):
+            scale.set_ticks(np.arange(len(values)) + 0.5, [_word(field, value) for value in values])
+            scale.set_label_text(_head(field))
+        return shaded
+
+    def front(self) -> Figure:
+        """The first two figures that are sought: every design, and those that none beats."""
+        found = self.found
+        figure, (axis,) = stacked(1, 4.4)
+        x, y = self.sought(1), self.sought(0)
+        some = _some(len(x), _MOST)
+        for keeps, ink, label in ((True, colour(0), "keeps the limits"), (False, "0.7", "does not")):
+            rows = some[found.keeps[some] == keeps]
+            axis.plot(x[rows], y[rows], ".", color=ink, markersize=5, label=label)
+        on = np.flatnonzero(found.front)
+        on = on[np.argsort(x[on], kind="stable")]
+        axis.plot(x[on], y[on], "-o", color=colour(1), markersize=5, linewidth=1.0, label="beaten by none")
+        for row in on[:_CALLED]:
+            number = f"{found.numbers[row]}"
+            axis.annotate(number, (x[row], y[row]), textcoords="offset points", xytext=(5, 4), fontsize=8)
+        axis.set(xlabel=self.axis(1), ylabel=self.axis(0))
+        grouped(axis.xaxis)
+        grouped(axis.yaxis)
+        keyed(axis)
+        return figure
+
+    def parallel(self) -> Figure:
+        """A line a design across its fields and what is sought, shaded by what is sought first, the best on top."""
+        from matplotlib import colormaps
+
+        found = self.found
+        figure, (axis,) = stacked(1, 4.6)
+        heads = [_head(field) for field in found.fields] + [self.axis(k) for k in range(len(self.units))]
+        columns = [*found.values.T, *(self.sought(k) for k in range(len(self.units)))]
+        ends = [(float(column.min()), float(column.max())) for column in columns]
+        level = [
+            (column - low) / ((high - low) or 1.0) for column, (low, high) in zip(columns, ends, strict=True)
+        ]
+        order = np.argsort(found.costs[:, 0], kind="stable")[::-1]
+        share = np.linspace(0.0, 1.0, len(order))
+        for k in _some(len(order), _LINES):
+            row = order[k]
+            shade = colormaps[_SHADES](1.0 - share[k]) if found.keeps[row] else "0.85"
+            axis.plot([one[row] for one in level], color=shade, linewidth=0.8, alpha=0.7)
+        axis.set_xticks(range(len(heads)), [_broken(head) for head in heads], fontsize=8, parse_math=False)
+        axis.set_yticks([])
+        for k, (low, high) in enumerate(ends):
+            axis.axvline(k, color="0.3", linewidth=0.8)
+            field = found.fields[k] if k < len(found.fields) else None
+            named = range(len(field.words)) if field is not None and field.words else (low, high)
+            for value in named:
+                words = self._number(k - len(found.fields), value) if field is None else _word(field, value)
+                place = (value - low) / ((high - low) or 1.0)
+                axis.annotate(
+                    words, (k, place), textcoords="offset points", xytext=(4, 2), fontsize=8, parse_math=False
+                )
+        axis.set_xlim(-0.1, len(heads) - 0.6)
+        axis.set_ylim(-0.03, 1.07)
+        axis.grid(visible=False)
+        return figure
+
+    @property
+    def every(self) -> dict[str, Callable[[], Figure]]:
+        """What can be drawn of the study, by name."""
+        made: dict[str, Callable[[], Figure]] = {"effects": self.effects}
+        if len(self.found.fields) > 1:
+            made["map"] = self.heat_map
+        if len(self.units) > 1:
+            made["front"] = self.front
+        made["lines"] = self.parallel
+        return made
+
+
+def _some(count: int, most: int) -> Array:
+    """Numbers spread evenly, the last always among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
+
+
+def _head(field: VariedField) -> str:
+    return f"{field.label} [{field.unit}]" if field.unit else field.label
+
+
+def _word(field: VariedField, value: float) -> str:
+    return _broken(field.words[int(value)]) if field.words else f"{value:,.5g}"
+
+
+def _broken(words: str) -> str:
+    """Words on several lines where they are long."""
+    lines = [""]
+    for part in re.split(r"(?<=[-. ])", words):
+        if lines[-1] and len(lines[-1]) + len(part) > _SHORT:
+            lines.append("")
+        lines[-1] += part
+    return "\n".join(lines)
+
+
+def _named(axis: Axis, field: VariedField) -> None:
+    """An axis of a field: its name, its words where it has no numbers."""
+    axis.set_label_text(_head(field), fontsize=9, parse_math=False)
+    if field.words:
+        axis.set_ticks(range(len(field.words)), [_broken(word) for word in field.words], fontsize=8)

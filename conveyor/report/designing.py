@@ -1,0 +1,184 @@
+"""Every table and figure of a study's designs, declared once; a study in plain numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from operator import attrgetter, itemgetter
+from typing import TYPE_CHECKING, Any, Final
+
+from conveyor.report.campaigning import priced
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report.design_plots import Shown
+from conveyor.report.tables import document, provenance
+from conveyor.spec import fingerprint
+from conveyor.units import System
+
+if TYPE_CHECKING:
+    from conveyor.models.study import Limit
+    from conveyor.studies.designs import Design
+    from conveyor.studies.explored import Explored
+
+PARTS: Final = (
+    ("best", "The best designs"),
+    ("front", "Front"),
+    ("effects", "Main effects"),
+    ("map", "The two fields that matter most"),
+    ("lines", "All designs"),
+    ("refused", "Without an answer"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page."""
+_CAPTIONS: Final = {
+    "front": "Every design by the first two figures that are sought; of those that keep the limits none beats "
+    "the joined ones in both. Numbers are those of the designs.",
+    "effects": "Mean of what is sought first over all other fields, at each value of a field; shaded from the least to "
+    "the most of any design. The field that matters most comes first.",
+    "map": "Best over all other fields at each pair of values, of designs that keep the limits where there are any.",
+    "lines": "A line a design, light where what is sought first is best; grey do not keep the limits.",
+}
+_MOST: Final = 50  # rows of the front on the page
+
+
+def of_study(found: Explored, system: System, currency: str) -> Contents:
+    """Tables and figures of a study's designs in a unit system."""
+    name = next(iter(found.sought))
+    parts = (
+        best(found, currency),
+        on_the_front(found, currency),
+        effects(found, currency),
+        refused(found),
+        provenance(fingerprint(found.base), "Notes"),
+    )
+    facts = (
+        ("study", found.plan.name),
+        ("designs", f"{found.count:,}, {int(found.keeps.sum()):,} of them keep the limits"),
+        ("states of each", f"{max(len(found.plan.rows), 1):,}"),
+        ("sought", f"the {found.sought[name]} {found.figures[name].label}"),
+        (
+            "limits",
+            "; ".join(_limit(found.figures[name].label, one) for name, one in found.plan.limits.items())
+            or "none",
+        ),
+    )
+    about = document(found.base, "Study of designs", system, facts)
+    drawn: tuple[Drawing, ...] = ()
+    if len(found.values):
+        every = Shown(found, system, currency).every
+        drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
+    return Contents(about, tuple(part for part in parts if not part.empty), system, drawn)
+
+
+def _limit(label: str, limit: Limit) -> str:
+    ends = ((limit.least, "at least"), (limit.most, "at most"))
+    return f"{label} " + " and ".join(f"{words} {end}" for end, words in ends if end is not None)
+
+
+def best(found: Explored, currency: str) -> Table:
+    """The designs that come first, one row each."""
+    columns = (
+        Column("design", "count", attrgetter("number")),
+        *(Column(field.label, "text", _change(field.path), key=field.path) for field in found.fields),
+        *(
+            Column(figure.label, priced(figure.kind, currency), _figure(name), key=name)
+            for name, figure in found.figures.items()
+        ),
+        Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
+    )
+    heading = f"The best {len(found.best)}"
+    return Table("best", "Best", heading, columns, found.best, (OnPage("best", heading),))
+
+
+def _change(path: str) -> Callable[[Design], str]:
+    return lambda row: str(row.changes[path])
+
+
+def _figure(name: str) -> Callable[[Design], float | None]:
+    return lambda row: row.figures[name]
+
+
+def on_the_front(found: Explored, currency: str) -> Table:
+    """Designs that none beats, one row each; no rows where just one figure is sought."""
+    several = len(found.sought) > 1
+    rows = [int(i) for i in found.front.nonzero()[0]] if several else []
+    rows.sort(key=lambda i: float(found.costs[i, 0]))
+    columns = (
+        Column("design", "count", lambda i: int(found.numbers[i])),
+        *(
+            Column(field.label, "text", _value(found, k), key=field.path)
+            for k, field in enumerate(found.fields)
+        ),
+        *(
+            Column(
+                found.figures[name].label,
+                priced(found.figures[name].kind, currency),
+                _sought(found, k),
+                key=name,
+            )
+            for k, name in enumerate(found.sought)
+        ),
+    )
+    heading = "Designs that none beats" + (f", the first {_MOST}" if len(rows) > _MOST else "")
+    return Table("front", "Front", heading, columns, tuple(rows[:_MOST]), (OnPage("front", heading),))
+
+
+def _value(found: Explored, k: int) -> Callable[[int], str]:
+    return lambda i: found.fields[k].said(float(found.values[i, k]))
+
+
+def _sought(found: Explored, k: int) -> Callable[[int], float]:
+    return lambda i: float(found.found[i, k])
+
+
+def effects(found: Explored, currency: str) -> Table:
+    """What each field does to what is sought first, one row a field and value."""
+    rows = (
+        [(found.fields[k].path, effect) for k in found.ordered for effect in found.effects(k)]
+        if found.count
+        else []
+    )
+    figure = found.figures[next(iter(found.sought))]
+    kind = priced(figure.kind, currency)
+    columns = (
+        Column("field", "text", itemgetter(0)),
+        Column("value", "text", lambda row: row[1].value),
+        Column("designs", "count", lambda row: row[1].count),
+        *(Column(f"{figure.label}, {words}", kind, _effect(get), key=get)
+          for words, get in (("mean", "mean"), ("least", "least"), ("most", "most"))),
+    )  # fmt: skip
+    heading = "What each field does"
+    return Table(
+        "effects", "Effects", heading, columns, rows, (OnPage("effects", heading, printed=False),), named=2
+    )
+
+
+def _effect(get: str) -> Callable[[Any], float]:
+    return lambda row: float(getattr(row[1], get))
+
+
+def refused(found: Explored) -> Table:
+    """Why designs have no answer, and how many."""
+    columns = (Column("designs", "count", itemgetter(1)), Column("no answer because", "text", itemgetter(0)))
+    heading = "Designs without an answer"
+    return Table(
+        "refused", "Refused", heading, columns, tuple(found.refused.items()), (OnPage("refused", heading),)
+    )
+
+
+def drawings(found: Explored, system: System, currency: str) -> Iterator[tuple[str, Any]]:
+    """Figures of a study by name; none where no design has an answer."""
+    if len(found.values):
+        for name, draw in Shown(found, system, currency).every.items():
+            yield name, draw()
+
+
+def plain(found: Explored, currency: str) -> dict[str, Any]:
+    """Plain numbers for JSON; SI, the unit in the key."""
+    table = replace(best(found, currency), page=())
+    front = found.numbers[found.front].tolist()
+    return {
+        "designs": found.count,
+        "keep_the_limits": int(found.keeps.sum()),
+        "best": table.records(),
+        "front": front,
+    }

@@ -1,0 +1,235 @@
+"""Designs of a study: figures of each over the states that it meets, limits, and which of them no other beats."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import InputError
+from conveyor.laws.energy import YEAR, DutyStep, duty_sums
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.loop.year import year_cost
+from conveyor.models import Conveyor, Operation
+from conveyor.models.study import Changes, Limit, Plan
+from conveyor.studies.points import OUTPUTS, Answer, outputs_of
+
+Array: TypeAlias = NDArray[np.float64]
+_NAMED: Final = re.compile(r"(\S+)(?: (mean|lowest|highest|(\d+(?:\.\d+)?) ?%))?")
+_YEARLY: Final = ("energy_per_year", "cost_per_year")
+
+
+@dataclass(frozen=True)
+class DesignFigure:
+    """A figure of a design: words, kind of quantity, outputs it is made of, and how [SI]."""
+
+    label: str
+    kind: str
+    needs: tuple[str, ...]
+    get: Callable[[Sequence[Array]], float | None]
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design over its states.
+
+    Attributes
+    ----------
+    number : int
+        Of the design, from 1.
+    changes : mapping
+        Its fields, by path.
+    figures : mapping of str to float or None
+        By name [SI]; empty without an answer.
+    why : str or None
+        Why it has no answer.
+    broken : tuple of str
+        Limits that it does not keep.
+    """
+
+    number: int
+    changes: Changes
+    figures: Mapping[str, float | None]
+    why: str | None
+    broken: tuple[str, ...] = ()
+
+    @property
+    def keeps(self) -> bool:
+        """Whether it has an answer and keeps every limit."""
+        return self.why is None and not self.broken
+
+
+def figures_of(plan: Plan, base: Conveyor) -> dict[str, DesignFigure]:
+    """Figures of a plan's designs by name: those asked for, then those that are sought or limited.
+
+    Without any, every output asked for: its mean over the states.
+
+    Raises
+    ------
+    InputError
+        A name is not known, a yearly figure has no hours, or a limit is of another kind.
+    """
+    named = plan.figures or (() if plan.best or plan.limits else tuple(outputs_of(plan.outputs)))
+    hours = plan.hours
+    weights = np.ones(max(len(plan.rows), 1)) if hours is None else np.array(hours)
+    if float(weights.sum()) * 3600.0 > YEAR and hours is not None:
+        raise InputError(f"states: {weights.sum():g} h together; a year has at most {YEAR / 3600.0:g} h")
+    found = {
+        name: _figure(name, plan, base.operation, weights)
+        for name in dict.fromkeys((*named, *plan.best, *plan.limits))
+    }
+    for name, limit in plan.limits.items():
+        limit.ends(name, found[name].kind)
+    return found
+
+
+def _figure(name: str, plan: Plan, operation: Operation | None, weights: Array) -> DesignFigure:
+    match = _NAMED.fullmatch(name)
+    if match is None or match[1] not in OUTPUTS:
+        raise InputError(
+            f'no figure "{name}"; expected one of {", ".join(OUTPUTS)}, and after it, over states, '
+            'mean, lowest, highest or a percentile such as "95 %"'
+        )
+    key, how, percent = match.groups()
+    output, many = OUTPUTS[key], len(weights) > 1
+    if how is None and many and key in _YEARLY:
+        return _yearly(key, plan, operation, weights)
+    if how is None or how == "mean":
+        label = f"{output.label}, mean" if many else output.label
+        kind = "ratio" if many and output.kind == "count" else output.kind
+        return DesignFigure(label, kind, (key,), lambda values: mean(values[0], weights))
+    label = f"{output.label}, {how}" if many else output.label
+    if percent is None:
+        end = np.min if how == "lowest" else np.max
+        return DesignFigure(label, output.kind, (key,), lambda values: float(end(values[0])))
+    share = float(percent) / 100.0
+    if not 0.0 < share < 1.0:
+        raise InputError(f'figure "{name}": a percentile lies between 0 and 100 %')
+    return DesignFigure(label, output.kind, (key,), lambda values: percentile(values[0], weights, share))
+
+
+def _yearly(key: str, plan: Plan, operation: Operation | None, hours: Array) -> DesignFigure:
+    """Energy and cost of the states' hours, as of a duty."""
+    if plan.hours is None:
+        raise InputError(f"{key}: the states have no hours; give them hours, or ask for {key} mean")
+    if key == "cost_per_year" and (operation is None or operation.price is None):
+        raise InputError("cost_per_year: the spec has no operation.price")
+
+    def get(values: Sequence[Array]) -> float | None:
+        steps = zip((3600.0 * hours).tolist(), *(one.tolist() for one in values), strict=True)
+        sums = duty_sums([DutyStep(*step) for step in steps])
+        if key == "energy_per_year":
+            return JOULE_PER_KWH * sums.net_kwh
+        return None if operation is None else year_cost(operation, sums)
+
+    return DesignFigure(OUTPUTS[key].label, OUTPUTS[key].kind, ("mains_power", "flow"), get)
+
+
+def mean(values: Array, weights: Array) -> float:
+    """Mean by weight.
+
+    Parameters
+    ----------
+    values, weights : ndarray
+        Shape `(n,)`.
+
+    Examples
+    --------
+    >>> mean(np.array([1.0, 4.0]), np.array([2.0, 1.0]))
+    2.0
+    """
+    return float(weights @ values / weights.sum())
+
+
+def percentile(values: Array, weights: Array, share: float) -> float:
+    """Least value that is not exceeded for a share of the weight: the inverse of the distribution.
+
+    Parameters
+    ----------
+    values, weights : ndarray
+        Shape `(n,)`.
+    share : float
+        Between 0 and 1 [-].
+
+    Examples
+    --------
+    >>> percentile(np.array([3.0, 1.0, 2.0]), np.array([10.0, 50.0, 40.0]), 0.9)
+    2.0
+    """
+    order = np.argsort(values, kind="stable")
+    reached = np.cumsum(weights[order])
+    # the sum of hours rounds; a share that they reach exactly is reached
+    at = int(np.searchsorted(reached, share * reached[-1] * (1.0 - 1e-12)))
+    return float(values[order][at])
+
+
+def reduced(
+    plan: Plan, figures: Mapping[str, DesignFigure], outputs: Sequence[str], answers: Sequence[Answer]
+) -> tuple[dict[str, float | None], str | None, tuple[str, ...]]:
+    """Figures of a design of the answers of its states; why it has none; limits that it does not keep.
+
+    Parameters
+    ----------
+    plan : Plan
+        With the limits.
+    figures : mapping
+        Those of a design, by name.
+    outputs : sequence of str
+        Keys of the answers' figures.
+    answers : sequence
+        One a state.
+    """
+    known: list[Sequence[float | int | None]] = []
+    for i, answer in enumerate(answers, start=1):
+        if isinstance(answer, str):
+            return {}, f"state {i}: {answer}" if len(answers) > 1 else answer, ()
+        known.append(answer)
+    columns = dict(zip(outputs, zip(*known, strict=True), strict=True))
+    found: dict[str, float | None] = {}
+    for name, figure in figures.items():
+        needed = [columns[key] for key in figure.needs]
+        missing = any(value is None for column in needed for value in column)
+        found[name] = None if missing else figure.get([np.array(column, dtype=float) for column in needed])
+    limits = plan.limits.items()
+    broken = (name for name, one in limits if violation(one, name, figures[name].kind, found[name]) > 0.0)
+    return found, None, tuple(broken)
+
+
+def violation(limit: Limit, name: str, kind: str, value: float | None) -> float:
+    """How far a figure is beyond its limit, over the limit's size if it has one; infinite if it is not known [-]."""
+    if value is None:
+        return float("inf")
+    least, most = limit.ends(name, kind)
+    over = [(end, sign * (value - end)) for end, sign in ((least, -1.0), (most, 1.0)) if end is not None]
+    return max(0.0, *(beyond / (abs(end) or 1.0) for end, beyond in over))
+
+
+def front(costs: Array) -> NDArray[np.bool_]:
+    """Which points no other beats: none is as good in every cost and better in one (Pareto).
+
+    Parameters
+    ----------
+    costs : ndarray
+        Shape `(n, m)`, less is better.
+
+    Returns
+    -------
+    ndarray
+        Shape `(n,)`.
+
+    Examples
+    --------
+    >>> front(np.array([[1.0, 4.0], [2.0, 2.0], [3.0, 3.0], [4.0, 1.0]])).tolist()
+    [True, True, False, True]
+    """
+    kept = np.zeros(len(costs), dtype=bool)
+    best = np.empty((0, costs.shape[1]))
+    for i in np.lexsort(costs.T[::-1]):  # none that comes later beats an earlier one
+        if not np.any(np.all(best <= costs[i], axis=1) & np.any(best < costs[i], axis=1)):
+            kept[i] = True
+            best = np.vstack([best, costs[i]])
+    return kept

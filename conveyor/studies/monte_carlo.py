@@ -1,0 +1,203 @@
+"""Draws of what is not known, each calculated in full: no first order, inputs together and correlated.
+
+Every input is normal with the ends of its range at the 5 % and 95 % quantiles, as in the first-order band; replicas of
+a rubber's fit are equally likely. Draws are independent of each other, so that the ranks of a binomial distribution
+bound their percentiles.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr
+from scipy.stats import binom
+
+from conveyor.errors import ConveyorError, InputError, NoSolutionError
+from conveyor.line.stretches import Strand
+from conveyor.models import Conveyor, RubberCompound, Uncertainty
+from conveyor.models.uncertainty import FEWEST
+from conveyor.models.variants import with_alternative
+from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.studies.compared import COVERED, ends
+
+Array: TypeAlias = NDArray[np.float64]
+_BATCH = 64
+SURE = 0.9
+"""Chance that a percentile lies between the ends it is given with."""
+
+
+@dataclass(frozen=True)
+class DrawnInput:
+    """An input that is drawn: its name, and a conveyor, or what else of a variant, of how far from the middle it is.
+
+    `change` takes a conveyor and multiples of the half width, 1 at the high end [-]; `drag` and `level` give factors of
+    the variant; `rubber` are a compound and its equally likely replicas.
+    """
+
+    name: str
+    change: Callable[[Conveyor, float], Conveyor] | None = None
+    drag: float = 0.0
+    level: Mapping[Strand, float] | None = None
+    rubber: tuple[RubberCompound, tuple[RubberCompound, ...]] | None = None
+
+
+@dataclass(frozen=True)
+class Percentiles:
+    """Ends of the 90 % interval after some draws, each with the ends between which it lies with 90 % [W]."""
+
+    draws: int
+    low: float
+    low_between: tuple[float, float]
+    high: float
+    high_between: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class MonteCarlo:
+    """Power of draws.
+
+    Attributes
+    ----------
+    power : ndarray
+        At the motors' shafts, in the order of the draws, shape `(n,)` [W].
+    refused : mapping of str to int
+        Why draws have no answer, and how many.
+    """
+
+    power: Array
+    refused: Mapping[str, int]
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Between which nine tenths lie [W]."""
+        return ends(self.power)
+
+    @cached_property
+    def convergence(self) -> tuple[Percentiles, ...]:
+        """The interval after 64, 128, 256 draws and so on."""
+        count = len(self.power)
+        steps = [FEWEST * 2**k for k in range(32) if FEWEST * 2**k < count]
+        return tuple(percentiles(self.power[:n]) for n in (*steps, count))
+
+
+def percentiles(power: Array) -> Percentiles:
+    """The 90 % interval of draws, and how well its ends are known: by ranks, whatever the distribution is.
+
+    Parameters
+    ----------
+    power : ndarray
+        Of at least 64 independent draws, shape `(n,)` [W]; of fewer the outermost bounds nothing.
+    """
+    ranked, count = np.sort(power), len(power)
+    low, high = ends(power)
+
+    def between(share: float) -> tuple[float, float]:
+        first, last = (int(binom.ppf(0.5 + sign * 0.5 * SURE, count, share)) for sign in (-1.0, 1.0))
+        return float(ranked[first - 1]), float(ranked[last])
+
+    return Percentiles(count, low, between(0.5 - 0.5 * COVERED), high, between(0.5 + 0.5 * COVERED))
+
+
+def drawn(
+    conveyor: Conveyor,
+    inputs: Sequence[DrawnInput],
+    ranges: Uncertainty,
+    *,
+    end: float,
+    rtol: float | None = None,
+    progress: Progress | None = None,
+    known: CalculatedConveyor | None = None,
+) -> MonteCarlo:
+    """Draw inputs together and calculate every draw.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    inputs : sequence of DrawnInput
+        What is drawn.
+    ranges : Uncertainty
+        Draws, seed and correlations.
+    end : float
+        Standard deviations from the middle to an end of a range [-].
+    rtol : float, optional
+        Relative tolerance of the contacts [-]; that of the spec without it.
+    progress : callable, optional
+        Called with what is done and the whole.
+    known : CalculatedConveyor, optional
+        The spec calculated.
+
+    Raises
+    ------
+    InputError
+        No inputs have these correlations, or one of them is not drawn.
+    NoSolutionError
+        Fewer than 64 draws have an answer.
+    """
+    rng = np.random.default_rng(ranges.seed)
+    normal = rng.standard_normal((ranges.draws, len(inputs))) @ _root([one.name for one in inputs], ranges).T
+    power: list[float] = []
+    refused: Counter[str] = Counter()
+    for at in range(0, ranges.draws, _BATCH):
+        variants: list[Variant] = []
+        for row in normal[at : at + _BATCH]:
+            try:
+                variants.append(_variant(conveyor, inputs, row.tolist(), end))
+            except ConveyorError as error:
+                refused[str(error)] += 1
+        for found in calculate_many(variants, rtol, known=known):
+            if isinstance(found, CalculatedConveyor):
+                power.append(found.balance.power.motor)
+            else:
+                refused[str(found)] += 1
+        if progress is not None:
+            progress(min(at + _BATCH, ranges.draws), ranges.draws)
+    if len(power) < FEWEST:
+        why = "; ".join(refused)
+        raise NoSolutionError(
+            f"uncertainty.draws: {len(power)} of {ranges.draws} draws have an answer: {why}"
+        )
+    return MonteCarlo(np.array(power), dict(refused.most_common()))
+
+
+def _root(names: Sequence[str], ranges: Uncertainty) -> Array:
+    """Root of the matrix of correlations: times independent normals it gives correlated ones."""
+    matrix = np.eye(len(names))
+    for pair in ranges.correlations:
+        for name in pair.between:
+            if name not in names:
+                raise InputError(
+                    f"uncertainty.correlations: {name} is not drawn; give it a range that matters"
+                )
+        i, j = (names.index(name) for name in pair.between)
+        matrix[i, j] = matrix[j, i] = pair.coefficient
+    try:
+        return np.asarray(np.linalg.cholesky(matrix), dtype=float)
+    except np.linalg.LinAlgError:
+        raise InputError("uncertainty.correlations: contradict each other: no inputs have them all") from None
+
+
+def _variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float) -> Variant:
+    """A draw."""
+    made, drag = conveyor, 1.0
+    level: dict[Strand, float] = {}
+    for one, normal in zip(inputs, row, strict=True):
+        away = normal / end
+        if one.change is not None:
+            made = one.change(made, away)
+        if one.rubber is not None:
+            compound, replicas = one.rubber
+            made = with_alternative(made, compound, replicas[int(float(ndtr(normal)) * len(replicas))])
+        if one.level is not None:
+            level |= {strand: math.exp(away * half) for strand, half in one.level.items()}
+        drag += one.drag * away
+    if drag <= 0.0:
+        raise InputError("roll drag: a draw of it is not above 0; its range is too wide to be normal")
+    return Variant(made, level=level, roll_drag=drag)

@@ -1,0 +1,171 @@
+"""The best design: differential evolution over ranges and lists, every design calculated in full and kept.
+
+Storn and Price 1997 in SciPy's implementation, with Lampinen's rule for limits (2002): a design that keeps them beats
+one that does not, of two that do not the one that is less beyond. Which designs are tried follows from the seed and the
+answers alone; a search that was stopped finds its answers in the file and goes on where it was.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import Bounds, NonlinearConstraint, differential_evolution
+
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.models.study import SearchPlan, Value
+from conveyor.studies.campaign import Answers, Campaign, design_of, run
+from conveyor.studies.designs import Design, violation
+
+Array: TypeAlias = NDArray[np.float64]
+Generation: TypeAlias = Callable[[int, int, Design], None]
+"""Called with generations done, the most there are, and the best design so far."""
+_SPREAD: Final = 0.01
+"""Of the costs of a generation over their mean: below it the search ends (SciPy's own)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """The best design of a search.
+
+    Attributes
+    ----------
+    design : Design
+        It.
+    tried : int
+        Different designs that were calculated.
+    generations : int
+        Gone through.
+    settled : bool
+        Whether the designs of the last generation cost alike; else generations ran out.
+    history : tuple of float
+        Best cost of each generation, of those that keep every limit [SI].
+    """
+
+    design: Design
+    tried: int
+    generations: int
+    settled: bool
+    history: tuple[float, ...]
+
+
+def optimise(
+    campaign: Campaign,
+    known: Answers,
+    *,
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: Generation | None = None,
+) -> Found:
+    """Search the best design of a plan.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Of a `SearchPlan`.
+    known : Answers
+        What is known; new answers are added.
+    executor : concurrent.futures.Executor, optional
+        Where designs are calculated, a generation side by side.
+    workers : int
+        Of the executor.
+    progress : callable, optional
+        Called after every generation.
+
+    Raises
+    ------
+    InputError
+        The plan is of another kind, or a list of fields leaves no choice.
+    NoSolutionError
+        No design that was tried keeps the limits; it says what the next best breaks.
+    ConveyorError
+        As `campaign.run`.
+    """
+    plan = campaign.plan
+    if not isinstance(plan, SearchPlan):
+        raise InputError("optimise: takes a campaign of a SearchPlan")
+    search = _Search(campaign, plan, known, partial(run, executor=executor, workers=workers))
+    history: list[float] = []
+    gone = itertools.count(1)
+
+    def told(*_: object, **__: object) -> None:
+        best = search.best
+        if best.keeps:
+            history.append(search.cost(best))
+        if progress is not None:
+            progress(next(gone), plan.generations, best)
+
+    ends = [(0.0, 1.0)] * len(plan.ranges) + [(0.0, len(listed) - 1.0) for listed in plan.choices]
+    found = differential_evolution(
+        search.costs,  # type: ignore[arg-type]  # side by side, as vectorized says
+        Bounds(*np.transpose(ends)),
+        popsize=plan.population,
+        maxiter=plan.generations,
+        tol=_SPREAD,
+        rng=plan.seed,
+        callback=told,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+        integrality=[False] * len(plan.ranges) + [True] * len(plan.choices),
+        constraints=NonlinearConstraint(search.beyond, -math.inf, 0.0),
+    )
+    best = search.best
+    if not best.keeps:
+        why = best.why or f"the least beyond them breaks {', '.join(best.broken)}"
+        raise NoSolutionError(f"none of {len(search.designs)} designs keeps the limits: {why}")
+    return Found(best, len(search.designs), int(found.nit), bool(found.success), tuple(history))
+
+
+class _Search:
+    """Designs that were tried, by their fields; each is calculated once."""
+
+    def __init__(
+        self, campaign: Campaign, plan: SearchPlan, known: Answers, calculate: Callable[..., None]
+    ) -> None:
+        self._campaign, self._plan, self._known, self._calculate = campaign, plan, known, calculate
+        self._name, self._direction = next(iter(plan.best.items()))
+        self.designs: dict[tuple[Value, ...], Design] = {}
+
+    def costs(self, shares: Array, /) -> Array:
+        """What is sought of designs, less is better, shape `(n,)` of `(fields, n)`."""
+        return np.array([self.cost(design) for design in self._of(shares)])
+
+    def beyond(self, shares: Array) -> Array:
+        """How far designs are beyond their limits, shape `(1, n)` of `(fields, n)`."""
+        return np.array([[self.violation(design) for design in self._of(shares)]])
+
+    def cost(self, design: Design) -> float:
+        """What is sought, less is better."""
+        value = design.figures.get(self._name)
+        return math.inf if value is None else value if self._direction == "least" else -value
+
+    def violation(self, design: Design) -> float:
+        """Sum of what it is beyond its limits [-]; infinite without an answer."""
+        if design.figures.get(self._name) is None:
+            return math.inf
+        limits = self._plan.limits.items()
+        kinds = self._campaign.figures
+        return math.fsum(violation(one, name, kinds[name].kind, design.figures[name]) for name, one in limits)
+
+    @property
+    def best(self) -> Design:
+        """The best that keeps the limits, else the one least beyond; the first of equal ones."""
+        return min(self.designs.values(), key=lambda one: (self.violation(one), self.cost(one)))
+
+    def _of(self, shares: Array) -> list[Design]:
+        """Designs of shares; those that are new are calculated side by side."""
+        asked = [self._plan.design(one) for one in np.atleast_2d(shares.T).tolist()]
+        new = {key: one for one in asked if (key := tuple(one.values())) not in self.designs}
+        points = [point for one in new.values() for point in self._plan.points_of(one)]
+        self._calculate(self._campaign, self._known, points)
+        for key, one in new.items():
+            self.designs[key] = design_of(self._campaign, self._known, one, len(self.designs) + 1)
+        return [self.designs[tuple(one.values())] for one in asked]

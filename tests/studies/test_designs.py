@@ -1,0 +1,203 @@
+"""Designs over their states: a year as `analyse_duty` has it, reductions, limits, the front, what is written."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.errors import InputError
+from conveyor.models.study import StudyPlan
+from conveyor.studies.campaign import Answers, Campaign, designs, run
+from conveyor.studies.designs import front, mean, percentile
+from conveyor.studies.duty import analyse_duty
+from conveyor.studies.explored import explored
+from conveyor.studies.points import RTOL
+from conveyor.study_file import read_plan
+from tests.command_line import run as command
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+DUTY = [
+    {"hours": "2000 h", "share": "100 %"},
+    {"hours": "500 h", "share": "50 %", "temperature": "0 degC"},
+    {"hours": "100 h", "share": "0 %"},
+]
+PLAN = {
+    "name": "n",
+    "base": "shuttle.yaml",
+    "axes": {"belt.speed": ["1 m/s", "1.2 m/s"], "idlers.carry.spacing": ["1 m", "1.2 m"]},
+    "states": "duty",
+    "figures": ["cost_per_year", "energy_per_year", "motor_power highest", "motor_power 90 %", "motor_power"],
+    "best": {"energy_per_year": "least", "belt_safety lowest": "most"},
+}
+
+
+@pytest.fixture(scope="module")
+def line():
+    given = conveyor.load(SPECS / "shuttle.yaml")
+    return given.replace(operation={"price": "0.1 EUR/kWh", "duty": DUTY})
+
+
+@pytest.fixture(scope="module")
+def answers(tmp_path_factory):
+    with Answers(tmp_path_factory.mktemp("answers") / "a") as known:
+        yield known
+
+
+def campaign(line, **changes):
+    return Campaign.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
+
+
+def designed(line, known, **changes):
+    study = campaign(line, **changes)
+    run(study, known)
+    return study, list(designs(study, known))
+
+
+def test_a_design_over_the_duty_is_the_year_that_the_duty_gives(line, answers):
+    _, (first, *_) = designed(line, answers)
+    changed = line.replace(
+        belt=line.belt.replace(speed="1 m/s"),
+        idlers=line.idlers.replace(carry=line.idlers.carry.replace(spacing="1 m")),
+    )
+    year = analyse_duty(changed, rtol=RTOL)
+    shafts, hours = np.array([row.shaft for row in year.rows]), np.array([row.hours for row in year.rows])
+    expected = {
+        "cost_per_year": year.cost,
+        "energy_per_year": 3.6e6 * year.year.net_kwh,
+        "motor_power highest": shafts.max(),
+        "motor_power 90 %": shafts.max(),  # 2000 of 2600 h, the rest is less
+        "motor_power": shafts @ hours / hours.sum(),
+    }
+    assert {key: first.figures[key] for key in expected} == pytest.approx(expected, rel=2.0 * RTOL)
+
+
+def test_percentiles_are_of_hours():
+    values, hours = np.array([3.0, 1.0, 2.0]), np.array([1.0, 5.0, 4.0])
+    assert [percentile(values, hours, share) for share in (0.5, 0.51, 0.9, 0.91)] == [1.0, 2.0, 2.0, 3.0]
+    assert mean(values, hours) == pytest.approx(1.6)
+    assert mean(np.full(3, 7.0), hours) == pytest.approx(7.0)
+
+
+def test_the_front_is_that_of_the_definition():
+    rng = np.random.default_rng(1)
+    for width in (1, 2, 3):
+        costs = rng.integers(0, 12, (60, width)).astype(float)
+        beaten = [any((other <= one).all() and (other < one).any() for other in costs) for one in costs]
+        assert front(costs).tolist() == [not each for each in beaten]
+
+
+def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
+    (tmp_path / "year.csv").write_text(
+        "hours [h];ambient.temperature [degC]\n10;5\n20;6\n30;5\n", encoding="utf-8"
+    )
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"states": "year.csv"}), encoding="utf-8")
+    plan = read_plan(file)
+    assert plan.hours == (40.0, 20.0)
+    assert [row["ambient.temperature"] for row in plan.states] == ["5 degC", "6 degC"]
+    assert plan.count == 4 * 2
+    for table, said in (
+        ("hours\n1\n", "every state has to change a field"),
+        ("hours,ambient.temperature [degC]\n,5\n", "row 2: expected 2 cells"),
+        ("hours,ambient.temperature [degC]\n-1,5\n", "row 2: hours: expected a time above 0"),
+        ("hours,ambient temperature\n1,5\n", "expected a column a field"),
+        ("hours,belt.speed [m/s]\n1,5\n", "belt.speed: varied twice"),
+    ):
+        (tmp_path / "year.csv").write_text(table, encoding="utf-8")
+        with pytest.raises(InputError, match=said):
+            read_plan(file)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"states": [{"hours": "1 h", "belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
+        ({"states": [{"hours": "1 kg", "material.flow": "1 t/h"}]}, "expected a time"),
+        ({"states": [{"hours": "9000 h", "material.flow": "1 t/h"}]}, "a year has at most 8784 h"),
+        ({"states": [{"material.flow": "1 t/h"}, {"material.flow": "2 t/h"}]}, "the states have no hours"),
+        ({"figures": ["motor_power most"]}, 'no figure "motor_power most"; expected'),
+        ({"figures": ["motor_power 100 %"]}, "a percentile lies between"),
+        (
+            {"limits": {"motor_power": {"most": "3 kg"}}},
+            'limits: motor_power: got "3 kg", expected a value such as',
+        ),
+        ({"limits": {"belt_safety lowest": {"least": "3 m"}}}, "expected a number"),
+        ({"limits": {"belt_safety lowest": {}}}, "give least, most or both"),
+        ({"states": "year.csv"}, "was not read"),
+    ],
+)
+def test_what_cannot_be_reduced_is_refused(line, changes, said):
+    with pytest.raises(InputError, match=said):
+        campaign(line, **changes)
+
+
+def test_without_a_duty_or_a_price_there_is_no_cost(line):
+    for operation, said in ((None, "no operation.duty"), ({"duty": DUTY}, "no operation.price")):
+        with pytest.raises(InputError, match=said):
+            campaign(line.replace(operation=operation))
+
+
+def test_limits_and_front_and_what_fields_do(line, answers):
+    _, every = designed(line, answers)
+    highest = sorted(one.figures["motor_power highest"] for one in every)
+    limit = {"motor_power highest": {"most": f"{(highest[1] + highest[2]) / 2.0:.9g} W"}}
+    study, every = designed(line, answers, limits=limit)
+    found = explored(study, every)
+    assert sum(one.keeps for one in every) == found.keeps.sum() == 2
+    assert [one.broken for one in every if not one.keeps] == [("motor_power highest",)] * 2
+    assert [one.keeps for one in found.best] == [True, True, False, False]
+    energies = [one.figures["energy_per_year"] for one in found.best]
+    assert energies[0] <= energies[1]
+    assert not (found.front & ~found.keeps).any()
+    for field in range(2):
+        effects = found.effects(field)
+        assert [effect.count for effect in effects] == [2, 2]
+        assert np.mean([effect.mean for effect in effects]) == pytest.approx(found.found[:, 0].mean())
+
+
+def test_a_design_with_a_state_without_an_answer_says_which(line, answers):
+    states = [{"material.flow": "10 t/h"}, {"material.flow": "90000 t/h"}]
+    study, every = designed(
+        line, answers, states=states, figures=["motor_power"], best={}, axes={"belt.speed": ["1 m/s"]}
+    )
+    assert every[0].why.startswith("state 2: material")
+    found = explored(study, every)
+    assert (found.count, len(found.values), sum(found.refused.values())) == (1, 0, 1)
+
+
+def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_path):
+    file = tmp_path / "study.json"
+    states = [{"hours": 2000, "material.flow": "100 t/h"}, {"hours": 600, "material.flow": "50 t/h"}]
+    plan = PLAN | {
+        "base": str(SPECS / "shuttle.yaml"),
+        "states": states,
+        "axes": {"belt.speed": ["1 m/s", "1.2 m/s"]},
+    }
+    plan |= {
+        "figures": ["motor_power highest"],
+        "together": [{"idlers.carry.spacing": "1 m", "idlers.return.spacing": "2 m"}],
+    }
+    file.write_text(json.dumps(plan | {"best": {"motor_power highest": "least"}}), encoding="utf-8")
+    outputs = ("--designs", "d.csv", "--html", "p.html", "--plots", "plots", "--specs", "best")
+    given = [str(tmp_path / one) if "." in one or one in {"plots", "best"} else one for one in outputs]
+    done = command("study", file, "-o", tmp_path / "t.csv", *given)
+    assert done.returncode == 0, done.stderr
+    assert "motor power, highest" in " ".join(done.stdout.split())
+    with (tmp_path / "d.csv").open(encoding="utf-8-sig", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert len(rows) == 2
+    assert {path.name for path in (tmp_path / "plots").iterdir()} == {"effects.png", "lines.png", "map.png"}
+    page = (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert "Main effects" in page
+    assert "<svg" in page
+    specs = sorted((tmp_path / "best").iterdir())
+    assert len(specs) == 2
+    shown = command("power", specs[0], "--json", "--set", "material.flow=100 t/h")
+    highest = min(float(row["motor power, highest [kW]"]) for row in rows)
+    assert json.loads(shown.stdout)["power_kW"]["motor"] == pytest.approx(highest, rel=2.0 * RTOL)
