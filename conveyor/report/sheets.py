@@ -175,6 +175,7 @@ def ranking(page: Page) -> None:
         row = place.last + 3
         if "costs" in contents:
             row = page.place("costs", row, widest=44).last + 3
+            row = page.stacked(["what_if"], row)["what_if"].last + 4
         speeds = [each.speed for each in ranked.rows]
         last = place.header + speeds.count(speeds[0])  # those of the first speed stand first
         if place.whole and "motor_power_against_base" in place.keys:
@@ -183,7 +184,7 @@ def ranking(page: Page) -> None:
             sheet.add_chart(charts.differences(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS
     row = paragraphs(sheet, row, "What to know", contents.lines("warning"), columns=8)
-    told = {"ranking", "costs"}
+    told = {"ranking", "costs", "what_if"}
     page.stacked([key for key in contents.of(sheet.title) if key not in told], row)
     sheet.page_setup.fitToHeight = 1
 
