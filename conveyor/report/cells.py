@@ -59,6 +59,7 @@ _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
+_BOLD = 1.1  # of the width of plain text
 _PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
 _HIGHEST = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
@@ -129,7 +130,7 @@ def table(
             _ask(sheet, at, len(values))
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
-        wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
+        wanted = min(widest, max(_NARROWEST, longest, round(_BOLD * _two_lines(name)) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
     _tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
     wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))

@@ -251,7 +251,7 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) ->
     )
     yield Column("saving per year", money, attrgetter("saving"), sparse=True, formula=saving)
     yield Column(
-        "carbon dioxide per year", "conveyed", attrgetter("emission"), sparse=True,
+        "carbon dioxide per year", "carbon dioxide", attrgetter("emission"), sparse=True,
         formula=where("emission", what_if.emission_formula(*of)),
     )  # fmt: skip
     if any(row.saving is not None for row in rows):

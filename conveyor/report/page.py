@@ -234,7 +234,7 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, 
     body = element(
         "body",
         element("header", element("p", kind, class_="kind"), element("h1", title), top),
-        element("nav", contents, aria_label="Contents"),
+        element("nav", element("details", element("summary", "Contents"), contents), aria_label="Contents"),
         element("main", *sections),
         element("footer", foot),
     )

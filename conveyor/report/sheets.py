@@ -15,6 +15,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, put
 from conveyor.report.columns import FAILS
+from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
@@ -183,7 +184,9 @@ def ranking(page: Page) -> None:
             title = f"Mean motor power against {facts['savings against']} at {at}"
             sheet.add_chart(charts.differences(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS
-    row = paragraphs(sheet, row, "What to know", contents.lines("warning"), columns=8)
+    for heading, lines in zip(HEADINGS, ordered(contents.lines("warning")), strict=True):
+        if lines:
+            row = paragraphs(sheet, row, heading.capitalize(), lines, columns=8)
     told = {"ranking", "costs", "what_if"}
     page.stacked([key for key in contents.of(sheet.title) if key not in told], row)
     sheet.page_setup.fitToHeight = 1

@@ -283,7 +283,7 @@ def year(study: CalculatedYear) -> Table:
         Figure("net", "energy", sums.net_kwh * JOULE_PER_KWH),
         Figure("energy", "specific energy", study.energy_per_tonne_km),
         Figure("cost", f"{MONEY}{study.currency or '-'}", study.cost),
-        Figure("carbon dioxide", "conveyed", study.emission),
+        Figure("carbon dioxide", "carbon dioxide", study.emission),
     )
     note = f"Carbon dioxide: {study.emission_source}." if study.emission_source else ""
     return figures(

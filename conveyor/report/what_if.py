@@ -53,7 +53,7 @@ def _energy(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterato
     if operation.price is not None:
         yield Figure("cost", f"{MONEY}{operation.price.currency}", cost, formula=cost_formula(*of))
     if operation.emission is not None and emission is not None:
-        yield Figure("carbon dioxide", "conveyed", emission, formula=emission_formula(*of))
+        yield Figure("carbon dioxide", "carbon dioxide", emission, formula=emission_formula(*of))
 
 
 def to_change(operation: Operation, hours: float, *, emission: bool) -> Iterator[Figure]:
