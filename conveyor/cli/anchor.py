@@ -70,7 +70,7 @@ def anchor(
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
-    """What tests of a cover measured over the theory on their rolls: the level of the compound's indentation."""
+    """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = Outputs(compound, tests, force=force)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     from conveyor import anchoring

@@ -92,7 +92,7 @@ def verify_sheet(
     quiet: Quiet = False,
     shelf: Shelves = None,
 ) -> None:
-    """What compounds lose under rolls, beside empty columns for a maker's tests, as a workbook and a page."""
+    """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = Outputs(spec, *compounds, force=force)
     to.file("--output", output, ".xlsx", kind=marks.REPORT)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)

@@ -35,6 +35,7 @@ _LINE = Side(style="thin", color="B5A55A")
 _BOX = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
 _HEADER = Font(name="Calibri", bold=True, color="FFFFFF")
 _FILL = PatternFill("solid", fgColor=ACCENT)
+_GAP = Border(left=Side(style="thin", color="FFFFFF"), right=Side(style="thin", color="FFFFFF"))
 _LEFT = Alignment(horizontal="left", indent=1)
 _CENTRE = Alignment(horizontal="center")
 
@@ -183,6 +184,8 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
         else:
             cell.number_format, models[shown] = shown, cell
         put(cell, value)
+        if isinstance(value, str):
+            cell.alignment = Alignment(horizontal="right")
         longest = max(longest, _length(cell.value, shown))
     return longest
 
@@ -223,7 +226,7 @@ def _worded(value: Any, infinite: str = INFINITE) -> Any:
 
 def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
     put(cell, name, _HEADER)
-    cell.fill = _FILL
+    cell.fill, cell.border = _FILL, _GAP
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
 

@@ -1,4 +1,4 @@
-"""Every table of a comparison of compounds, declared once; its ranking, and what to know before believing it."""
+"""Every table of a comparison of compounds, declared once; its ranking and its notes."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ _COSTS = (
     "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
     "payback", "energy_drawn", "energy_fed_back",
 )  # fmt: skip
+_ON_PAPER = "paper"  # a view that no page has: columns of the workbook that it prints
 _COMPOUND = Column("compound", "text", attrgetter("compound"))
 _TEMPERATURE = Column("temperature", "temperature", attrgetter("temperature"))
 _SPEED = Column("belt speed", "speed", attrgetter("speed"), key="speed")
@@ -386,7 +387,10 @@ def coverage(comparison: CalculatedComparison) -> Table:
     columns = (
         _COMPOUND,
         _TEMPERATURE,
-        *bands(attrgetter("excited"), lambda row: row.data or (None, None)),
+        *(
+            replace(column, page=_ON_PAPER if column.page is None else column.page)
+            for column in bands(attrgetter("excited"), lambda row: row.data or (None, None))
+        ),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
     heading = "90 % loss band of the rolls against the data of the compounds"
@@ -470,7 +474,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         )
     if len(speeds) > 1 and warmth is not None:
         at = unit("temperature", system).brief(warmth)
-        turning = " The ranking turns with the temperature: see what to know." if turned(comparison) else ""
+        turning = " The ranking turns with the temperature: see the notes." if turned(comparison) else ""
         yield Drawing(
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
@@ -519,7 +523,7 @@ def _where(comparison: CalculatedComparison) -> Iterator[str]:
 
 
 def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
-    """What to know of a comparison before believing it."""
+    """Notes of a comparison: where it stands, what it rests on."""
     lines = [*_where(comparison), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
@@ -616,6 +620,6 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
 
 
 def notebook(comparison: CalculatedComparison) -> Html:
-    """The ranking, and what to know of it."""
+    """The ranking and its notes."""
     shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
-    return joined([shown, folded("what to know", remarks(comparison))])
+    return joined([shown, folded("notes", remarks(comparison))])

@@ -180,7 +180,7 @@ def ranking(page: Page) -> None:
         speeds = [each.speed for each in ranked.rows]
         last = place.header + speeds.count(speeds[0])  # those of the first speed stand first
         if place.whole and "motor_power_against_base" in place.keys:
-            at = unit("speed", contents.system).said(speeds[0])
+            at = unit("speed", contents.system).brief(speeds[0])
             title = f"Mean motor power against {facts['savings against']} at {at}"
             sheet.add_chart(charts.differences(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS
@@ -201,8 +201,8 @@ def power(page: Page) -> None:
         place = page.place(key, row, widest=24)
         if place.whole and len(part.rows) > 1:
             chart = charts.power_over_temperature(sheet, place, part, contents.system)
-            sheet.add_chart(chart, f"{get_column_letter(place.last_column + 2)}{row + 1}")
-        row = max(place.last, row + CHART_ROWS) + 3
+            sheet.add_chart(chart, f"A{place.last + 2}")
+        row = place.last + CHART_ROWS + 5
     if row == 1:
         put(sheet["A1"], "No temperature that every compound has an answer for", HEADING)
 
