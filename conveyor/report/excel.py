@@ -36,7 +36,7 @@ SHEETS: Final = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.stacked,
-    "Load cases": sheets.stacked,
+    "Load cases": sheets.cases,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
     "Uncertainty": sheets.uncertainty,

@@ -19,6 +19,7 @@ from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
+_CASES_WIDE = 34  # characters of a name
 _INPUTS_WIDE = 110  # characters of what is given of a part
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
@@ -31,6 +32,11 @@ _PIECE = 1000  # characters of a note in one cell
 def stacked(page: Page) -> None:
     """All tables of the sheet under one another."""
     page.stacked(page.contents.of(page.sheet.title))
+
+
+def cases(page: Page) -> None:
+    """All tables of the sheet under one another, names of cases and sections on two lines where they are long."""
+    page.stacked(page.contents.of(page.sheet.title), widest=_CASES_WIDE)
 
 
 def single(page: Page) -> None:

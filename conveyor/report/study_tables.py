@@ -174,8 +174,8 @@ def governing(study: CalculatedCases, found: Sequence[Governing]) -> Table:
     low, high = study.friction_band
     columns = (
         Column("figure", NAMED, attrgetter("label")),
-        Column("value", OF_ROW, lambda row: row.value.value),
         Column("case", "text", lambda row: row.value.result.case.name),
+        Column("value", OF_ROW, lambda row: row.value.value),
         *(replace(column, get=_of_result(column.get)) for column in _AT),
     )
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in found)
@@ -206,12 +206,12 @@ def motors(studies: CalculatedStudies) -> Table:
     """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
     columns = (
         Column("drive", "text", attrgetter("drive")),
+        Column("governing case", "text", attrgetter("case")),
         Column("required at the shaft", "power", attrgetter("needed"), json="needed at the shaft"),
         Column("reserve", "ratio", attrgetter("reserve")),
         Column("motors", "count", attrgetter("count")),
         Column("rated each", "power", attrgetter("rated")),
         Column("installed", "power", lambda row: row.count * row.rated),
-        Column("governing case", "text", attrgetter("case")),
     )
     heading = "Selected standard motors"
     page, note = (OnPage(_CASES, heading),), "For the largest motor power of all load cases and load states."
