@@ -1,5 +1,7 @@
 """Belt-conveyor power from the viscoelastic rolling contact of every idler roll.
 
+Examples
+--------
 >>> import conveyor
 >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
 >>> result = conveyor.analyse(line)  # doctest: +SKIP

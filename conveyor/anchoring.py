@@ -17,6 +17,7 @@ from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.report.columns import Column, Table
 from conveyor.rubber.anchor import Anchor
+from conveyor.units.sentences import percent
 
 SHEET = "Anchor"
 
@@ -121,7 +122,7 @@ def rows(found: Anchored) -> Table:
         Column("measured", "line force", attrgetter("measured"), json="measured_N_per_m"),
         Column("theory", "line force", attrgetter("calculated"), json="theory_N_per_m"),
         Column("ratio", "factor", lambda row: row.measured / row.calculated, json="ratio"),
-        Column("left", "share", found.left, json="left"),
+        Column("residual", "share", found.left, json="left"),
     )
     return Table("tests", SHEET, "Tests beside the theory", columns, found.rows)
 
@@ -134,8 +135,8 @@ def lines(found: Anchored) -> tuple[str, ...]:
     strain = "at the strain of each test" if found.softened and found.compound.strain_dependence else "linear"
     count = "1 test" if len(tests) == 1 else f"{len(tests)} tests"
     said = [
-        f"{level.points} points of {count}; the anchor leaves {float(np.median(left)):.1%} of a row in the "
-        f"median, {max(left):.1%} at most; rubber taken {strain}",
+        f"{level.points} points of {count}; residual {percent(float(np.median(left)), 1)} in the median, "
+        f"{percent(max(left), 1)} at most; rubber taken {strain}",
         f"factor over the line load: exponent {level.slope:+.3f}"
         if level.slope
         else "one factor for all line loads: the tests do not tell more",

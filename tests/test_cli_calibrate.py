@@ -40,7 +40,7 @@ def test_calibrate_shows_factors_runs_and_what_to_know(tmp_path: Path) -> None:
         "Factors with their 90 % interval",
         "idler rotation",
         "January (empty)",
-        "what to know:",
+        "basis and limitations:",
         "chi square",
     ):
         assert words in done.stdout

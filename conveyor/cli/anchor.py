@@ -57,7 +57,7 @@ def anchor(
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the compound file (.yaml).")
     ] = None,
 ) -> None:
-    """What tests of a cover measured over the theory on their rolls: the level of the compound's indentation."""
+    """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = session.outputs(compound, tests)
     to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
     from conveyor import anchoring

@@ -137,7 +137,7 @@ UnitsOption = Annotated[
     ),
 ]
 Force = Annotated[
-    bool, typer.Option("--force", "-f", help="Replace older files, whatever they are; never an input.")
+    bool, typer.Option("--force", "-f", help="Overwrite existing files of any kind; never an input.")
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
 Drawing = "to this file (.png, .svg, .pdf)."

@@ -67,7 +67,7 @@ def calibrate(
         ),
     ] = None,
 ) -> None:
-    """Which factors on indentation, idler rotation and flexure measured power tells apart, with bands."""
+    """Fit factors on indentation, idler rotation and flexure to measured power, as far as the runs tell them apart."""
     to = session.outputs(spec, measured)
     is_book = output is not None and output.suffix.lower() == ".xlsx"
     to.file("--output", output, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if is_book else marks.TO_FILL_IN)
@@ -103,7 +103,7 @@ def _show(found: CalibrationStudy, system: System) -> None:
             screen.print(shown(part, system), "")
             if part.note:
                 say(part.note, "")
-    say("what to know:")
+    say("basis and limitations:")
     say(*(wrapped(line, screen.width, first="  - ", further="    ") for line in calibrating.lines(found)))
     say("", "to paste into the spec:", found.fragment.rstrip())
 

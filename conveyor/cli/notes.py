@@ -1,56 +1,22 @@
-"""Notes for a terminal: what has to be seen to first, then what the figures rest on; alike ones as one."""
+"""Notes for a terminal."""
 
 from __future__ import annotations
 
-import re
 import textwrap
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Final
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from conveyor.cli.terminal import words
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-_NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
-"""What alike notes differ in: quoted names and fields."""
-_OF_DATA: Final = re.compile(
-    r"^compound \"|^calculation\.calibration|not given|assumed|illustrative|not read in the standard"
-)
-"""Notes on what was given, not on what was found."""
-
-
-def merged(notes: Iterable[str]) -> list[str]:
-    """Make one of notes that differ in quoted names or fields only, listing those.
-
-    Examples
-    --------
-    >>> merged(['compound "a" is made up', "no brake", 'compound "b" is made up'])
-    ['compound "a", "b" is made up', 'no brake']
-    """
-    alike: dict[str, list[list[str]]] = {}
-    for note in notes:
-        alike.setdefault(_NAMES.sub("\0", note), []).append(_NAMES.findall(note))
-    return [_joined(pattern, names) for pattern, names in alike.items()]
-
-
-def _joined(pattern: str, names: Sequence[Sequence[str]]) -> str:
-    columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
-    return "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
-
-
-def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Give merged notes on what was found, then those on what the figures rest on."""
-    every = merged(notes)
-    of_data = [note for note in every if _OF_DATA.search(note)]
-    return [note for note in every if note not in of_data], of_data
-
 
 def show(console: Console, notes: Sequence[str]) -> None:
     """Print notes as two short lists, their lines no wider than the terminal."""
-    for heading, colour, listed in zip(
-        ("action required", "basis and limitations"), ("bold yellow", "bold"), ordered(notes), strict=True
-    ):
+    from conveyor.report.notes import HEADINGS, ordered
+
+    for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
         if listed:
             console.print(words(f"\n{heading}", style=colour))
         for note in listed:

@@ -179,7 +179,7 @@ def _checks(screen: Console, contents: Contents) -> None:
         )
     for check in found:
         if check.leads or check.verdict == "FAIL":
-            cells = [check.subject, f"{check.found}, {check.asked}", unit("share").written(check.margin)]
+            cells = [check.subject, f"{check.found}, {check.asked}", unit("margin").written(check.margin)]
             cells += [*([check.case] if cases else []), check.verdict]
             made.add_row(*map(words, cells), style="red" if check.verdict == "FAIL" else "")
     screen.print(made)

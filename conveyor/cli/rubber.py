@@ -118,7 +118,7 @@ def fit(
         list[str] | None,
         typer.Option(
             metavar="FINDING",
-            help="Insist on what is refused as hardly rubber: few-rows, modulus, contradiction; may be repeated.",
+            help="Accept what is refused as implausible for rubber: few-rows, modulus, contradiction; may be repeated.",
         ),
     ] = None,
     html: Annotated[
@@ -146,7 +146,7 @@ def fit(
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:
-    """Fit a compound to laboratory data: isotherms are shifted, a Prony series is fitted, what is doubtful is asked."""
+    """Fit a compound to laboratory data: shift isotherms, fit a Prony series; what a file leaves open is asked for."""
     from conveyor import shelf as shelf_of
     from conveyor.fitting import compound as described
     from conveyor.units import in_si

@@ -74,7 +74,7 @@ def verify_sheet(
     output: Workbook = None,
     html: WebPage = None,
 ) -> None:
-    """What compounds lose under rolls, beside empty columns for a maker's tests, as a workbook and a page."""
+    """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = session.outputs(spec, *compounds)
     to.file("--output", output, ".xlsx", kind=marks.REPORT)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)

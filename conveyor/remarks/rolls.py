@@ -18,7 +18,7 @@ from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units import quantity, same, text
-from conveyor.units.sentences import Said, said
+from conveyor.units.sentences import Said, figure, said
 
 COLD_OIL = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
@@ -148,22 +148,23 @@ def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
 
 def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
     conveyor = found.conveyor
-    air, at = conveyor.air_temperature, text(conveyor.ambient.temperature)
+    air = conveyor.air_temperature
     in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         for name, roll in _rolls(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
-                yield from _bearing_warnings(field, law, air, at)
+                yield from _bearing_warnings(field, law, air)
             elif law is None and roll.drag is None and idlers.drag is None and in_service:
                 drags = _drags_of(found, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
+                ends = list({figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values())
                 yield said(
-                    f"idlers.{strand}: roll drag not given, {{}} to {{}} a roll assumed (bearings {bearing}, usual "
-                    f"grease and seals in service in air of {at}; {band.low:g} to {band.high:g} times that is usual, "
-                    f"general knowledge), give {field}.drag",
-                    (min(drags), "force"),
-                    (max(drags), "force"),
+                    f"idlers.{strand}: roll drag not given, {' to '.join('{}' for _ in ends)} a roll assumed (bearings "
+                    f"{bearing}, usual grease and seals in service in air of {{}}; {band.low:g} to {band.high:g} times "
+                    f"that is usual, general knowledge), give {field}.drag",
+                    *((drag, "force") for drag in ends),
+                    (air, "temperature"),
                 )
             elif law is None and roll.drag is None and idlers.drag is None:
                 limit = acceptance_limit(roll)
@@ -181,7 +182,7 @@ def _drags_of(found: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Ro
     return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
 
 
-def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str) -> Iterator[Said]:
+def _bearing_warnings(field: str, law: BearingDrag, air: float) -> Iterator[Said]:
     missing = [name for name in ("f0", "f1_factor", "f1_exponent") if name not in law.model_fields_set]
     if missing:
         yield said(
@@ -191,8 +192,9 @@ def _bearing_warnings(field: str, law: BearingDrag, air: float, temperature: str
     viscosity = bearing_viscosity(law, air)
     if viscosity > COLD_OIL:
         yield said(
-            f"{field}.drag_law: the oil has {viscosity * 1e6:.4g} mm²/s at {temperature}: bearings warm themselves, "
-            "the drag is overestimated; give a measured drag or drag_law.warming"
+            f"{field}.drag_law: the oil has {viscosity * 1e6:.4g} mm²/s at {{}}: bearings warm themselves, "
+            "the drag is overestimated; give a measured drag or drag_law.warming",
+            (air, "temperature"),
         )
 
 

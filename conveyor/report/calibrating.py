@@ -86,8 +86,8 @@ def _entry(k: int) -> Callable[[Any], float]:
 
 def notes(found: CalculatedCalibration) -> Table:
     """What is not told apart, and what the figures rest on."""
-    columns = (Column("what to know", "text", lambda row: row),)
-    return Table("notes", SHEET, "What to know", columns, lines(found))
+    columns = (Column("note", "text", lambda row: row),)
+    return Table("notes", SHEET, "Basis and limitations", columns, lines(found))
 
 
 def lines(found: CalculatedCalibration) -> tuple[str, ...]:

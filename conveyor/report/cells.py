@@ -35,6 +35,7 @@ _LINE = Side(style="thin", color="B5A55A")
 _BOX = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
 _HEADER = Font(name="Calibri", bold=True, color="FFFFFF")
 _FILL = PatternFill("solid", fgColor=ACCENT)
+_GAP = Border(left=Side(style="thin", color="FFFFFF"), right=Side(style="thin", color="FFFFFF"))
 _LEFT = Alignment(horizontal="left", indent=1)
 _CENTRE = Alignment(horizontal="center")
 
@@ -59,6 +60,7 @@ _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
+_BOLD = 1.1  # of the width of plain text
 _PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
 _HIGHEST = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
@@ -129,7 +131,7 @@ def table(
             _ask(sheet, at, len(values))
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
-        wanted = min(widest, max(_NARROWEST, longest, _two_lines(name) + 3))
+        wanted = min(widest, max(_NARROWEST, longest, round(_BOLD * _two_lines(name)) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
     _tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
     wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))
@@ -182,6 +184,8 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
         else:
             cell.number_format, models[shown] = shown, cell
         put(cell, value)
+        if isinstance(value, str):
+            cell.alignment = Alignment(horizontal="right")
         longest = max(longest, _length(cell.value, shown))
     return longest
 
@@ -222,7 +226,7 @@ def _worded(value: Any, infinite: str = INFINITE) -> Any:
 
 def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
     put(cell, name, _HEADER)
-    cell.fill = _FILL
+    cell.fill, cell.border = _FILL, _GAP
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
 

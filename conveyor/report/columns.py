@@ -62,7 +62,10 @@ class Column:
     sparse : bool
         Whether it is left out where no row has a value.
     asked : bool
-        Whether its cells are left empty for the reader to fill in.
+        Whether its cells are for the reader to fill in or to change.
+    formula : callable or None
+        Of a row what the workbook calculates its cell by, "" for a plain value; `[key]` is the cell of a column in the
+        same row, `[key:3]` that in the fourth.
     key : str
         A stable name; without it made of the label.
     """
@@ -76,6 +79,7 @@ class Column:
     total: bool = False
     sparse: bool = False
     asked: bool = False
+    formula: Callable[[Any], str] | None = None
     key: str = ""
 
     def __post_init__(self) -> None:

@@ -1,32 +1,38 @@
-"""Every table of a comparison of compounds, declared once; its ranking, and what to know before believing it."""
+"""Every table of a comparison of compounds, declared once; its ranking and its notes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
+from conveyor.laws.energy import Duty, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.loop.year import earns_nothing
+from conveyor.loop.year import earns_nothing, year_cost
 from conveyor.markup import Html, joined
-from conveyor.report import plots
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report import plots, what_if
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, figures
 from conveyor.report.representations import folded, of_table
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, unit
+from conveyor.units.presentation import MONEY, NEVER, unit
 from conveyor.units.sentences import celsius
 
 if TYPE_CHECKING:
+    from conveyor.models import Operation
     from conveyor.studies.comparison import CalculatedComparison, ComparedScene
 
-_COSTS = ("energy_per_year", "cost_per_year", "saving_per_year", "extra_cost_of_the_belt", "payback")
+_COSTS = (
+    "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
+    "payback", "energy_drawn", "energy_fed_back",
+)  # fmt: skip
+_ON_PAPER = "paper"  # a view that no page has: columns of the workbook that it prints
 _COMPOUND = Column("compound", "text", attrgetter("compound"))
 _TEMPERATURE = Column("temperature", "temperature", attrgetter("temperature"))
 _SPEED = Column("belt speed", "speed", attrgetter("speed"), key="speed")
@@ -38,6 +44,7 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
     parts = (
         replace(ranked, columns=tuple(c for c in ranked.columns if c.key not in _COSTS)),
         costs(ranked),
+        to_change(comparison),
         *powers(comparison, system),
         every,
         coverage(comparison),
@@ -126,8 +133,10 @@ class Ranked:
         Means [N, W], ends of the band [W], largest power [W]; None of one whose data do not reach.
     base : float or None
         Mean power of the base [W]; None where the two do not compare.
-    energy, cost, before, extra : float or None
-        Of a year [kWh, currency]; the base's cost; what its belt costs more [currency].
+    year : Duty or None
+        Energy drawn and fed back.
+    cost, before, emission, extra : float or None
+        Of a year [currency]; the base's; carbon dioxide [kg]; what its belt costs more [currency].
     why : str or None
         Why it is not compared with the base.
     """
@@ -142,9 +151,10 @@ class Ranked:
     high: float | None
     peak: float | None
     base: float | None
-    energy: float | None
+    year: Duty | None
     cost: float | None
     before: float | None
+    emission: float | None
     extra: float | None
     why: str | None
 
@@ -181,7 +191,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
     Means are over the temperatures that the data of every compound reach at that speed, each of the same weight; the
     peak is the largest where its own data reach: the cold start of the rubber. What does not compare stands last.
     """
-    money, speeds = _money(comparison), dict.fromkeys(scene.speed for scene in comparison.scenes)
+    speeds = dict.fromkeys(scene.speed for scene in comparison.scenes)
     rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
     columns = (
         _COMPOUND,
@@ -203,11 +213,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("difference, high", "share", lambda row: row.band[1], sparse=True),
         Column("peak motor power", "power", attrgetter("peak"), sparse=True),
         Column("at temperature", "temperature", attrgetter("temperature"), sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(row.energy), sparse=True),
-        Column("cost per year", money, attrgetter("cost"), sparse=True),
-        Column("saving per year", money, attrgetter("saving"), sparse=True),
-        Column("extra cost of the belt", money, attrgetter("extra"), sparse=True),
-        Column("payback", "years", attrgetter("payback"), sparse=True),
+        *_year_columns(comparison, rows),
         Column("not compared", "text", attrgetter("why"), sparse=True),
     )
     heading, page = (
@@ -215,6 +221,64 @@ def ranking(comparison: CalculatedComparison) -> Table:
         (OnPage("ranking", "Ranking by mean motor power, lowest first"),),
     )
     return Table("ranking", "Ranking", heading, columns, rows, page)
+
+
+def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) -> Iterator[Column]:
+    """Energy, cost, saving, carbon dioxide, payback: calculated again where a reader changes hours or prices."""
+    money, bases = (
+        _money(comparison),
+        {row.speed: i for i, row in enumerate(rows) if row.compound == comparison.base},
+    )
+    of = "[energy_drawn]", "[energy_fed_back]"
+    shown = "" if comparison.extra_costs else None
+
+    def where(known: str, formula: str) -> Callable[[Ranked], str]:
+        """A formula where its figure is known."""
+        return lambda row: "" if getattr(row, known) is None else formula
+
+    def saving(row: Ranked) -> str:
+        return "" if row.saving is None else f"[cost_per_year:{bases[row.speed]}]-[cost_per_year]"
+
+    yield Column(
+        "energy per year", "energy", _energy("net_kwh"), sparse=True,
+        formula=where("year", f"({of[0]}-{of[1]}){what_if.OF_HOURS}"),
+    )  # fmt: skip
+    yield Column(
+        "cost per year",
+        money,
+        attrgetter("cost"),
+        sparse=True,
+        formula=where("cost", what_if.cost_formula(*of)),
+    )
+    yield Column("saving per year", money, attrgetter("saving"), sparse=True, formula=saving)
+    yield Column(
+        "carbon dioxide per year", "carbon dioxide", attrgetter("emission"), sparse=True,
+        formula=where("emission", what_if.emission_formula(*of)),
+    )  # fmt: skip
+    if any(row.saving is not None for row in rows):
+        extra, saved = "[extra_cost_of_the_belt]", "[saving_per_year]"
+        formula = f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
+        yield Column("extra cost of the belt", money, attrgetter("extra"), shown, asked=True)
+        yield Column("payback", "years", attrgetter("payback"), shown, formula=where("saving", formula))
+    yield Column("energy drawn", "energy", _energy("drawn_kwh"), None, sparse=True)
+    yield Column("energy fed back", "energy", _energy("fed_back_kwh"), None, sparse=True)
+
+
+def _energy(name: str) -> Callable[[Ranked], float | None]:
+    """An energy of the year [J]."""
+    return lambda row: None if row.year is None else _joule(getattr(row.year, name))
+
+
+def to_change(comparison: CalculatedComparison) -> Table:
+    """Hours, prices and factors that the year's formulas take."""
+    operation = comparison.conveyor.operation
+    rows = (
+        () if operation is None else what_if.to_change(operation, operation.seconds_per_year, emission=True)
+    )
+    return figures(
+        "what_if", "Ranking", "What if: change the yellow cells, extra costs of the belts too", rows,
+        note="Energy, cost, saving, carbon dioxide and payback follow; power does not.", prefix="what_if_",
+    )  # fmt: skip
 
 
 def costs(ranked: Table) -> Table:
@@ -248,7 +312,9 @@ def _row(
 ) -> Ranked:
     name, speed = key
     why = _not_compared(comparison, name, at, base)
-    energy, cost = (None, None) if why else _year(comparison, name, speed, at)
+    operation = comparison.conveyor.operation
+    year = None if why else _year(comparison, name, speed, at)
+    before = None if why else _year(comparison, comparison.base, speed, base)
     peak = max(found.values(), key=lambda scene: scene.motor) if found else None
     return Ranked(
         compound=name,
@@ -261,9 +327,10 @@ def _row(
         high=_mean([s.motor_high for s in at]),
         peak=None if peak is None else peak.motor,
         base=None if why else _mean([s.motor for s in base]),
-        energy=energy,
-        cost=cost,
-        before=None if why else _year(comparison, comparison.base, speed, base)[1],
+        year=year,
+        cost=_cost(operation, year),
+        before=_cost(operation, before),
+        emission=_emission(operation, year),
         extra=comparison.extra_costs.get(name),
         why=why,
     )
@@ -282,14 +349,31 @@ def _not_compared(
     return None
 
 
-def _year(
-    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]
-) -> tuple[float | None, float | None]:
-    """Energy [kWh] and cost of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
-    if not comparison.conveyor.duty:
-        return _mean([s.energy_per_year for s in at]), _mean([s.cost_per_year for s in at])
-    study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
-    return (None, None) if study is None else (study.year.net_kwh, study.cost)
+def _year(comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]) -> Duty | None:
+    """Energies of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
+    operation = comparison.conveyor.operation
+    if comparison.conveyor.duty:
+        study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
+        return None if study is None else study.year
+    net = [scene.energy_per_year for scene in at if scene.energy_per_year is not None]
+    if operation is None or not net:
+        return None
+    drawn, fed_back = (math.fsum(max(sign * kwh, 0.0) for kwh in net) / len(net) for sign in (1.0, -1.0))
+    return Duty(operation.seconds_per_year, drawn, fed_back, 0.0)
+
+
+def _cost(operation: Operation | None, year: Duty | None) -> float | None:
+    """Of a year's energy [currency]; None without hours or price."""
+    return None if operation is None or year is None else year_cost(operation, year)
+
+
+def _emission(operation: Operation | None, year: Duty | None) -> float | None:
+    """Carbon dioxide of a year [kg]; None without hours or factor."""
+    if operation is None or year is None or operation.emission is None:
+        return None
+    saved = operation.feed_in_emission
+    credit = 0.0 if saved is None else saved.amount
+    return duty_emission(year, factor=operation.emission.amount, credit_factor=credit)
 
 
 def _mean(values: list[float] | list[float | None]) -> float | None:
@@ -303,7 +387,10 @@ def coverage(comparison: CalculatedComparison) -> Table:
     columns = (
         _COMPOUND,
         _TEMPERATURE,
-        *bands(attrgetter("excited"), lambda row: row.data or (None, None)),
+        *(
+            replace(column, page=_ON_PAPER if column.page is None else column.page)
+            for column in bands(attrgetter("excited"), lambda row: row.data or (None, None))
+        ),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
     heading = "90 % loss band of the rolls against the data of the compounds"
@@ -387,7 +474,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         )
     if len(speeds) > 1 and warmth is not None:
         at = unit("temperature", system).brief(warmth)
-        turning = " The ranking turns with the temperature: see what to know." if turned(comparison) else ""
+        turning = " The ranking turns with the temperature: see the notes." if turned(comparison) else ""
         yield Drawing(
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
@@ -436,7 +523,7 @@ def _where(comparison: CalculatedComparison) -> Iterator[str]:
 
 
 def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
-    """What to know of a comparison before believing it."""
+    """Notes of a comparison: where it stands, what it rests on."""
     lines = [*_where(comparison), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
@@ -533,6 +620,6 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
 
 
 def notebook(comparison: CalculatedComparison) -> Html:
-    """The ranking, and what to know of it."""
+    """The ranking and its notes."""
     shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
-    return joined([shown, folded("what to know", remarks(comparison))])
+    return joined([shown, folded("notes", remarks(comparison))])

@@ -175,7 +175,7 @@ def _tiles(page: Page, row: int) -> int:
         put(cell, *_three(figure, written, FIGURE))
         caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
         cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
-    sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 31.0, 26.0
+    sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 42.0, 26.0
     row += 2
     if "defaults" in page.contents:
         _across(sheet, row, page.contents["defaults"].note)

@@ -36,7 +36,7 @@ SHEETS: Final = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.stacked,
-    "Load cases": sheets.stacked,
+    "Load cases": sheets.cases,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
     "Scenarios": sheets.stacked,
@@ -104,7 +104,7 @@ def write(contents: Contents, path: Path) -> Path:
 
 def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
     """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
-    live: dict[tuple[str, str], float] = {}
+    live: dict[tuple[str, str], float | str] = {}
     with _uncollected():
         book, content = build(contents, path.stem, fills, live), BytesIO()
         try:
@@ -133,7 +133,7 @@ def build(
     contents: Contents,
     stem: str = "",
     fills: Fills | None = None,
-    live: dict[tuple[str, str], float] | None = None,
+    live: dict[tuple[str, str], float | str] | None = None,
 ) -> Workbook:
     """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas.
 

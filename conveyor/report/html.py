@@ -12,6 +12,7 @@ from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
 from conveyor.report.columns import Contents, Drawing, Table
+from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
 from conveyor.units import System
@@ -43,7 +44,7 @@ PARTS: Final = (
 """Parts of the page of a conveyor; those that hold nothing are left out."""
 COMPARISON_PARTS: Final = (
     ("ranking", "Ranking"),
-    ("warnings", "What to know"),
+    ("warnings", "Action required, basis and limitations"),
     ("power", "Power"),
     ("loss-tangents", "Loss tangents"),
     ("coverage", "Coverage of the data"),
@@ -162,10 +163,19 @@ def _key_figures(contents: Contents) -> Html:
     return joined(content)
 
 
+def _warnings(contents: Contents) -> Html:
+    """What has to be seen to, then what the figures rest on."""
+    lists = zip(HEADINGS, ordered(contents.lines("warning")), strict=True)
+    shown = [
+        (element("h3", heading.capitalize()), bullets(lines, "warnings")) for heading, lines in lists if lines
+    ]
+    return joined(part for pair in shown for part in pair) if shown else bullets(())
+
+
 _OWN: Final[dict[str, Callable[[Contents], Html]]] = {
     "key-figures": _key_figures,
     "method": lambda contents: bullets(contents.lines("method")),
-    "warnings": lambda contents: bullets(contents.lines("warning"), "warnings"),
+    "warnings": _warnings,
     "assumptions": lambda contents: bullets(contents.lines("assumption")),
 }
 """What parts of the page hold beside tables and drawings."""

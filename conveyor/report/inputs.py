@@ -9,7 +9,8 @@ from typing import Any, Literal
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
 from conveyor.models.listed import Listed
-from conveyor.units import is_quantity, si_with_unit, text
+from conveyor.units import System, is_quantity, si_with_unit, text
+from conveyor.units.sentences import figure
 
 Origin = Literal["spec", "library", "default"]
 Row = tuple[str, str, float | None, str, Origin]
@@ -63,17 +64,31 @@ def _fields(place: tuple[str | int, ...], model: Model, origin: Origin, entry: A
 
 _ITEM = re.compile(r"\[\d+\]")
 _DEGREES = re.compile(r"\bdeg(?=[CF]?\b)")
+_KINDS = {"m": "length", "m/s": "speed", "m/s²": "acceleration", "Pa": "pressure", "N": "force", "kg": "mass"}
+"""Of the SI units of defaults."""
 
 
-def gathered(rows: Iterable[Row], *, alike: bool = False) -> tuple[tuple[str, str], ...]:
+def _worded(entered: str) -> str:
+    """What was entered, its unit as people write it."""
+    if entered in {"true", "false"}:
+        return "yes" if entered == "true" else "no"
+    spelled = _DEGREES.sub("°", entered).replace("^2", "²").replace("^3", "³").replace("short_ton/h", "stph")
+    return spelled.removesuffix(" °") + "°" if spelled.endswith(" °") else spelled
+
+
+def gathered(
+    rows: Iterable[Row], system: System = "SI", *, alike: bool = False
+) -> tuple[tuple[str, str], ...]:
     """Rows by the part of the spec they are of: part, fields with their values; items of lists as one if alike."""
     parts: dict[str, dict[str, list[str]]] = {}
-    for field, entered, value, *_ in rows:
+    for field, entered, value, sign, origin in rows:
         of, _, name = field.rpartition(".")
         if alike:
             of = _ITEM.sub("", of)
         known = parts.setdefault(of, {}).setdefault(_ITEM.sub("", name).replace("_", " "), [])
-        shown = "0" if value == 0.0 else _DEGREES.sub("°", entered)
+        shown = "0" if value == 0.0 else _worded(entered)
+        if system == "US" and origin == "default" and value and sign in _KINDS:
+            shown = figure(value, _KINDS[sign], system)
         if not alike or shown not in known:
             known.append(shown)
     return tuple(

@@ -8,8 +8,8 @@ from io import BytesIO
 from typing import Final
 from zipfile import ZIP_DEFLATED, ZipFile
 
-Values = Mapping[tuple[int, str], float]
-"""Of formulas, by the number of their sheet, from 1, and their cell."""
+Values = Mapping[tuple[int, str], float | str]
+"""Of formulas, numbers or words, by the number of their sheet, from 1, and their cell."""
 
 _SHEET: Final = "xl/worksheets/sheet{}.xml"
 
@@ -37,9 +37,10 @@ def with_values(workbook: bytes, values: Values) -> bytes:
     return made.getvalue()
 
 
-def _valued(sheet: bytes, cell: str, value: float) -> bytes:
-    pattern = rf'(<c r="{cell}"[^>]*><f>[^<]*</f>)<v\s*/?>(?:</v>)?'.encode()
-    found, count = re.subn(pattern, rb"\g<1><v>%s</v>" % repr(value).encode(), sheet)
+def _valued(sheet: bytes, cell: str, value: float | str) -> bytes:
+    pattern = rf'(<c r="{cell}"[^>]*)(><f>[^<]*</f>)<v\s*/?>(?:</v>)?'.encode()
+    kind, shown = (' t="str"', value) if isinstance(value, str) else ("", repr(value))
+    found, count = re.subn(pattern, rf"\g<1>{kind}\g<2><v>{shown}</v>".encode(), sheet)
     if count != 1:
         raise ValueError(f"{cell}: no formula without a value")
     return found

@@ -37,9 +37,21 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell(shown, column, row, system) for row in shown.rows] for column in shown.columns]
     values = [[column.get(row) for row in shown.rows] for column in shown.columns]
-    classes = [None if kind else _class(given, named=j < shown.named) for j, given in enumerate(values)]
+    empty = [
+        column.asked and all(map(_missing, given))
+        for column, given in zip(shown.columns, values, strict=True)
+    ]
+    classes = [
+        "asked" if empty[j] else None if kind else _class(given, named=j < shown.named)
+        for j, given in enumerate(values)
+    ]
     heads = [
-        element("th", _with_unit(column.label, _unit(column, system)), scope="col", class_=how)
+        element(
+            "th",
+            _with_unit(column.label, _unit(column, system)),
+            scope="col",
+            class_=None if how == "asked" else how,
+        )
         for column, how in zip(shown.columns, classes, strict=True)
     ]
 
@@ -51,9 +63,7 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
                     "th", cell, scope="row", class_=how, data_label=_spelled(column, system) if j else None
                 )
                 if j < shown.named
-                else element(
-                    "td", cell, class_="asked" if column.asked else how, data_label=_spelled(column, system)
-                )
+                else element("td", cell, class_=how, data_label=_spelled(column, system))
                 for j, (column, cell, how) in enumerate(zip(shown.columns, cells, classes, strict=True))
             ),
         )
@@ -106,7 +116,9 @@ def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
     if column.kind == NAMED:
         return _with_unit(value, row.unit(system).sign)
     if _missing(value):
-        return escaped("" if column.asked else _NOTHING)
+        return escaped(
+            "" if column.asked and all(_missing(column.get(one)) for one in shown.rows) else _NOTHING
+        )
     if column.kind == "verdict" and value in _MARKS:
         return verdict(value)
     return escaped(shown.unit(column, row, system).written(value))
@@ -234,7 +246,7 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, 
     body = element(
         "body",
         element("header", element("p", kind, class_="kind"), element("h1", title), top),
-        element("nav", contents, aria_label="Contents"),
+        element("nav", element("details", element("summary", "Contents"), contents), aria_label="Contents"),
         element("main", *sections),
         element("footer", foot),
     )

@@ -55,7 +55,8 @@ a { color: var(--accent); }
 .kind { margin: 0; font-size: .9rem; letter-spacing: .04em; text-transform: uppercase; }
 .note { font-size: .9rem; }
 nav { margin: 1.2rem 0; padding: .7rem 1rem; background: var(--pale); }
-nav ol { margin: 0; padding-left: 1.4rem; columns: 15rem; }
+nav details { margin: 0; }
+nav ol { margin: .6rem 0 0; padding-left: 1.4rem; columns: 15rem; }
 nav li { padding: .1rem 0; }
 .facts, .tiles { display: grid; gap: .6rem; margin: 1rem 0; }
 .facts { grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); }

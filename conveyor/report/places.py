@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from openpyxl.cell.cell import Cell
+from openpyxl.cell.cell import Cell, MergedCell
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
 from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
@@ -89,7 +90,7 @@ class Page:
     contents: Contents
     stem: str
     placed: dict[str, tuple[Worksheet, TablePlace]] = field(default_factory=dict)
-    live: dict[tuple[str, str], float] = field(default_factory=dict)
+    live: dict[tuple[str, str], float | str] = field(default_factory=dict)
 
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
@@ -115,6 +116,7 @@ class Page:
                 for i, figure in enumerate(part.rows, start=top + 1):
                     define(self.sheet, figure.key, f"{letter}{i}")
                     self._changing(self.sheet[f"{letter}{i}"], figure)
+            self._live_columns(part, place)
             if part.foot:
                 total(self.sheet, last + 1, part, self.contents.system)
         return place
@@ -124,8 +126,27 @@ class Page:
         if "input" in figure.on.split():
             ask(cell)
         if figure.formula:
-            self.live[self.sheet.title, cell.coordinate] = float(str(cell.value))
-            cell.value = f"={figure.formula}"
+            self._calculated(cell, figure.formula)
+
+    def _live_columns(self, part: Table, place: TablePlace) -> None:
+        """Write the formulas of a table's columns, cells for the columns that they name."""
+        for column in part.columns:
+            for i, row in enumerate(part.rows if column.formula else ()):
+                formula = column.formula(row) if column.formula else ""
+
+                def cell(named: re.Match[str], own: int = i) -> str:
+                    at = own if named[2] is None else int(named[2])
+                    return f"{get_column_letter(place.column(named[1]))}{place.header + 1 + at}"
+
+                if formula:
+                    here = self.sheet.cell(place.header + 1 + i, place.column(column.key))
+                    self._calculated(here, re.sub(r"\[(\w+)(?::(\d+))?\]", cell, formula))
+
+    def _calculated(self, cell: Cell | MergedCell, formula: str) -> None:
+        """Write a formula; what stands in the cell is kept for saving."""
+        value = "" if cell.value is None else cell.value
+        self.live[self.sheet.title, cell.coordinate] = value if isinstance(value, str) else float(str(value))
+        cell.value, cell.data_type = f"={formula}", "f"
 
     def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> TablePlace:
         """Write the one table of a sheet: its header stays in view and is printed on each page."""

@@ -250,7 +250,7 @@ _COMPARISON: Final = _of(
         "scenes": _ROWS,
         "coverage": _ROWS,
         "refused": _ROWS,
-        "warnings": _texts("what to know"),
+        "warnings": _texts("notes"),
     },
     of="conveyor compare SPEC --json",
 )

@@ -15,9 +15,11 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, put
 from conveyor.report.columns import FAILS
+from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
+_CASES_WIDE = 34  # characters of a name
 _INPUTS_WIDE = 110  # characters of what is given of a part
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
@@ -30,6 +32,11 @@ _PIECE = 1000  # characters of a note in one cell
 def stacked(page: Page) -> None:
     """All tables of the sheet under one another."""
     page.stacked(page.contents.of(page.sheet.title))
+
+
+def cases(page: Page) -> None:
+    """All tables of the sheet under one another, names of cases and sections on two lines where they are long."""
+    page.stacked(page.contents.of(page.sheet.title), widest=_CASES_WIDE)
 
 
 def single(page: Page) -> None:
@@ -175,15 +182,18 @@ def ranking(page: Page) -> None:
         row = place.last + 3
         if "costs" in contents:
             row = page.place("costs", row, widest=44).last + 3
+            row = page.stacked(["what_if"], row)["what_if"].last + 4
         speeds = [each.speed for each in ranked.rows]
         last = place.header + speeds.count(speeds[0])  # those of the first speed stand first
         if place.whole and "motor_power_against_base" in place.keys:
-            at = unit("speed", contents.system).said(speeds[0])
+            at = unit("speed", contents.system).brief(speeds[0])
             title = f"Mean motor power against {facts['savings against']} at {at}"
             sheet.add_chart(charts.differences(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS
-    row = paragraphs(sheet, row, "What to know", contents.lines("warning"), columns=8)
-    told = {"ranking", "costs"}
+    for heading, lines in zip(HEADINGS, ordered(contents.lines("warning")), strict=True):
+        if lines:
+            row = paragraphs(sheet, row, heading.capitalize(), lines, columns=8)
+    told = {"ranking", "costs", "what_if"}
     page.stacked([key for key in contents.of(sheet.title) if key not in told], row)
     sheet.page_setup.fitToHeight = 1
 
@@ -197,8 +207,8 @@ def power(page: Page) -> None:
         place = page.place(key, row, widest=24)
         if place.whole and len(part.rows) > 1:
             chart = charts.power_over_temperature(sheet, place, part, contents.system)
-            sheet.add_chart(chart, f"{get_column_letter(place.last_column + 2)}{row + 1}")
-        row = max(place.last, row + CHART_ROWS) + 3
+            sheet.add_chart(chart, f"A{place.last + 2}")
+        row = place.last + CHART_ROWS + 5
     if row == 1:
         put(sheet["A1"], "No temperature that every compound has an answer for", HEADING)
 

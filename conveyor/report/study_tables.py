@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, replace
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
     from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
-    from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.cases import CalculatedCases, CaseResult, Governing
     from conveyor.studies.duty import CalculatedYear
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
@@ -47,7 +47,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     if studies.states is not None:
         tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.cases is not None:
-        tables += _of_cases(studies.cases)
+        tables += _of_cases(studies, studies.cases)
         drawn += _case_drawings(studies.cases, system)
     if studies.duty is not None:
         tables += [year(studies.duty), duty(studies.duty)]
@@ -117,8 +117,8 @@ def refused_states(study: CalculatedStates) -> Table:
     return Table("refused_states", "Load cases", heading, columns, study.refused, (OnPage(_STATES, heading),))
 
 
-def _of_cases(study: CalculatedCases) -> Iterator[Table]:
-    yield governing(study)
+def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Table]:
+    yield governing(study, studies.governing)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
     page = (OnPage(_CASES, "Load cases"),)
@@ -130,8 +130,7 @@ def _of_cases(study: CalculatedCases) -> Iterator[Table]:
     yield replace(
         tensions, key="case_tensions", heading=heading, columns=columns, page=(OnPage(_CASES, heading),)
     )
-    if study.governing:
-        yield motors(study)
+    yield motors(studies)
     yield refused(study)
 
 
@@ -178,16 +177,16 @@ def _governing(result: CaseResult) -> str:
     return settled.condition_name(settled.governed_by)
 
 
-def governing(study: CalculatedCases) -> Table:
-    """One row a figure: its value and the case that decides it."""
+def governing(study: CalculatedCases, found: Sequence[Governing]) -> Table:
+    """One row a figure: its value and the load case or load state that decides it."""
     low, high = study.friction_band
     columns = (
         Column("figure", NAMED, attrgetter("label")),
-        Column("value", OF_ROW, lambda row: row.value.value),
         Column("case", "text", lambda row: row.value.result.case.name),
+        Column("value", OF_ROW, lambda row: row.value.value),
         *(replace(column, get=_of_result(column.get)) for column in _AT),
     )
-    rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in study.governing)
+    rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in found)
     left_out = [row.label.text() for row in study.results if not row.covered]
     note = f"friction factor {low:g}-{high:g}, least favourable"
     if left_out:
@@ -211,20 +210,20 @@ def refused(study: CalculatedCases) -> Table:
     return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))
 
 
-def motors(study: CalculatedCases) -> Table:
-    """One row a drive pulley: what it needs, and motors of the series."""
+def motors(studies: CalculatedStudies) -> Table:
+    """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
     columns = (
         Column("drive", "text", attrgetter("drive")),
+        Column("governing case", "text", attrgetter("case")),
         Column("required at the shaft", "power", attrgetter("needed"), json="needed at the shaft"),
         Column("reserve", "ratio", attrgetter("reserve")),
         Column("motors", "count", attrgetter("count")),
         Column("rated each", "power", attrgetter("rated")),
         Column("installed", "power", lambda row: row.count * row.rated),
-        Column("governing case", "text", attrgetter("case")),
     )
     heading = "Selected standard motors"
-    page = (OnPage(_CASES, heading),)
-    return Table("motors", "Load cases", heading, columns, study.motors(), page)
+    page, note = (OnPage(_CASES, heading),), "For the largest motor power of all load cases and load states."
+    return Table("motors", "Load cases", heading, columns, studies.motors, page, note)
 
 
 def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
@@ -292,7 +291,7 @@ def year(study: CalculatedYear) -> Table:
         Figure("net", "energy", sums.net_kwh * JOULE_PER_KWH),
         Figure("energy", "specific energy", study.energy_per_tonne_km),
         Figure("cost", f"{MONEY}{study.currency or '-'}", study.cost),
-        Figure("carbon dioxide", "conveyed", study.emission),
+        Figure("carbon dioxide", "carbon dioxide", study.emission),
     )
     note = f"Carbon dioxide: {study.emission_source}." if study.emission_source else ""
     return figures(
@@ -374,8 +373,8 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),
             "cases": cases(study).records(),
-            "governing": governing(study).records(),
-            "motors": motors(study).records() if study.governing else [],
+            "governing": governing(study, studies.governing).records(),
+            "motors": motors(studies).records(),
             "refused": refused(study).records(),
         }
     if studies.duty is not None:
@@ -421,7 +420,7 @@ def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
     caption = f"{study.conveyor.name}: governing load cases"
-    shown = of_table(governing(study), caption, study.conveyor.report.units)
+    shown = of_table(governing(study, study.governing), caption, study.conveyor.report.units)
     return joined([shown, folded("without an answer", refusals)])
 
 

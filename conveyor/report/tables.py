@@ -97,7 +97,7 @@ def of_analysis(
         identity(analysis.conveyor, system),
         replace(governs, note=verdict),
         results(analysis, left_open),
-        *given(analysis.conveyor),
+        *given(analysis.conveyor, system),
         defaults(left_open, system),
         inputs(analysis.conveyor),
         sections(analysis),
@@ -288,7 +288,7 @@ def inputs(conveyor: Conveyor) -> Table:
     return Table("inputs", "Inputs", heading, columns, entered(conveyor), page, printed=False)
 
 
-def given(conveyor: Conveyor) -> Iterator[Table]:
+def given(conveyor: Conveyor, system: System) -> Iterator[Table]:
     """Inputs as they are read: what was given, one row a part, then what was left to defaults."""
     columns = (Column("part", "text", itemgetter(0)), Column("values", "text", itemgetter(1)))
     rows = entered(conveyor)
@@ -296,7 +296,7 @@ def given(conveyor: Conveyor) -> Iterator[Table]:
         ("inputs_given", "Inputs given", [row for row in rows if row[-1] != "default"]),
         ("inputs_default", "Inputs left to defaults", [row for row in rows if row[-1] == "default"]),
     ):
-        shown = gathered(chosen, alike=key == "inputs_default")
+        shown = gathered(chosen, system, alike=key == "inputs_default")
         yield Table(key, "Given", heading, columns, shown, (OnPage("inputs", heading),))
 
 
@@ -1131,14 +1131,15 @@ class CheckRow(NamedTuple):
         """Write a check in a system of units."""
         name, found, asked = (said.text(system) for said in (check.name, check.found, check.asked))
         case = AS_GIVEN if check.case is None else check.case.text(system)
-        return cls(name, found, asked, check.margin, case, check.verdict, leads)
+        margin = None if check.verdict == "not checked" else check.margin
+        return cls(name, found, asked, margin, case, check.verdict, leads)
 
 
 _CHECK: Final = (
     Column("check", "text", attrgetter("subject")),
     Column("calculated", "text", attrgetter("found"), key="found"),
     Column("required", "text", attrgetter("asked"), key="asked"),
-    Column("margin", "share", attrgetter("margin")),
+    Column("margin", "margin", attrgetter("margin")),
 )
 _OF_CASE: Final = Column("case", "text", attrgetter("case"))
 _VERDICT: Final = Column("verdict", "verdict", attrgetter("verdict"))

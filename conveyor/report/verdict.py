@@ -120,15 +120,10 @@ def _rows(  # noqa: PLR0917 one line of the first page each
         where += f"; 90 % interval {low} to {high} by defaults and the level of the rubber"
     yield GoverningRow("motor power as given", power.short(left_open.motor), where)
     installed = [drive.power for drive in a.line.drives if drive.power is not None]
-    chosen = (
-        ()
-        if studies is None or studies.cases is None or not studies.cases.governing
-        else studies.cases.motors()
-    )
     if installed:
         yield GoverningRow("installed power", power.short(sum(installed)), f"{len(installed)} driven pulleys"
                            if len(installed) > 1 else a.line.drives[0].name)  # fmt: skip
-    for motor in chosen:
+    for motor in () if studies is None else studies.motors:
         yield GoverningRow(
             f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
             f"{power.short(motor.needed)} needed in {motor.case}, reserve {motor.reserve:.2f}",

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.models import Operation
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import Figure, Table, figures
 from conveyor.studies import CalculatedStudies
@@ -13,8 +14,7 @@ from conveyor.studies.cases import MOTOR_RESERVE
 from conveyor.units.presentation import MONEY
 
 _PREFIX: Final = "what_if_"
-_OF_HOURS: Final = "*what_if_operating_hours/what_if_hours_calculated"
-_HOUR: Final = 3600.0
+OF_HOURS: Final = "*what_if_operating_hours/what_if_hours_calculated"
 _TONNE: Final = 1000.0
 
 
@@ -46,27 +46,39 @@ def _energy(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterato
     else:
         hours, drawn, fed_back = duty.year.time, duty.year.drawn_kwh, duty.year.fed_back_kwh
         cost, emission = duty.cost, duty.emission
-    yield Figure("hours calculated", "life", hours)
     yield Figure("energy drawn", "energy", drawn * JOULE_PER_KWH)
     yield Figure("energy fed back", "energy", fed_back * JOULE_PER_KWH)
+    yield from to_change(operation, hours, emission=emission is not None)
+    of = "what_if_energy_drawn", "what_if_energy_fed_back"
+    if operation.price is not None:
+        yield Figure("cost", f"{MONEY}{operation.price.currency}", cost, formula=cost_formula(*of))
+    if operation.emission is not None and emission is not None:
+        yield Figure("carbon dioxide", "carbon dioxide", emission, formula=emission_formula(*of))
+
+
+def to_change(operation: Operation, hours: float, *, emission: bool) -> Iterator[Figure]:
+    """Hours [s], prices and emission factors of a year, for the reader to change."""
+    yield Figure("hours calculated", "life", hours)
     yield Figure("operating hours", "life", hours, on="input")
     price, credit = operation.price, operation.feed_in_price
     if price is not None:
         per_kwh = f"{MONEY}{price.currency}/kWh"
         yield Figure("energy price", per_kwh, price.amount, on="input")
         yield Figure("feed-in price", per_kwh, 0.0 if credit is None else credit.amount, on="input")
-        formula = (
-            f"({_TONNE:g}*what_if_energy_drawn*what_if_energy_price"
-            f"-{_TONNE:g}*what_if_energy_fed_back*what_if_feed_in_price){_OF_HOURS}"
-        )
-        yield Figure("cost", f"{MONEY}{price.currency}", cost, formula=formula)
     factor, saved = operation.emission, operation.feed_in_emission
-    if factor is not None and emission is not None:
+    if factor is not None and emission:
         yield Figure("emission factor", "emission factor", factor.amount, on="input")
         less = 0.0 if saved is None else saved.amount
         yield Figure("emission factor of energy fed back", "emission factor", less, on="input")
-        formula = (
-            "(what_if_energy_drawn*what_if_emission_factor"
-            f"-what_if_energy_fed_back*what_if_emission_factor_of_energy_fed_back){_OF_HOURS}"
-        )
-        yield Figure("carbon dioxide", "conveyed", emission, formula=formula)
+
+
+def cost_formula(drawn: str, fed_back: str) -> str:
+    """Of a year, of the cells with its energies [MWh]."""
+    credit = f"{_TONNE:g}*{fed_back}*what_if_feed_in_price"
+    return f"({_TONNE:g}*{drawn}*what_if_energy_price-{credit}){OF_HOURS}"
+
+
+def emission_formula(drawn: str, fed_back: str) -> str:
+    """Carbon dioxide of a year [t], of the cells with its energies [MWh]."""
+    less = f"{fed_back}*what_if_emission_factor_of_energy_fed_back"
+    return f"({drawn}*what_if_emission_factor-{less}){OF_HOURS}"

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import TypeAlias
 
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.studies.cases import CalculatedCases, analyse_cases
+from conveyor.studies.cases import (
+    CalculatedCases,
+    Governing,
+    MotorChoice,
+    analyse_cases,
+    governing,
+)
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.studies.uncertainty import CalculatedRanges, study
@@ -37,6 +43,21 @@ class CalculatedStudies:
     cases: CalculatedCases | None = None
     duty: CalculatedYear | None = None
     uncertainty: CalculatedRanges | None = None
+
+    @cached_property
+    def governing(self) -> tuple[Governing, ...]:
+        """For every figure of the design the load case or load state that decides it."""
+        if self.cases is None or not self.cases.governing:
+            return ()
+        covered = [result for result in self.cases.results if result.covered]
+        return governing([*covered, *(() if self.states is None else self.states.as_cases)])
+
+    @property
+    def motors(self) -> tuple[MotorChoice, ...]:
+        """Motors of every drive pulley for the governing of cases and load states; none without a case to design by."""
+        if self.cases is None or not self.cases.governing:
+            return ()
+        return self.cases.motors(states=() if self.states is None else self.states.loads)
 
 
 def studies(

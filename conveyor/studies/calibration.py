@@ -208,7 +208,7 @@ def calibrate(
     else:
         raise NoSolutionError("the factors and the loads on vertical curves do not settle: fit fewer factors")
     _check_direction(runs, found.power, "with the factors")
-    source = f"{len(runs)} measured runs, conveyor calibrate {version('conveyor')}"
+    source = f"{len(runs)} measured run{'s'[: len(runs) > 1]}, conveyor calibrate {version('conveyor')}"
     made = found.calibration.replace(source=source)
     calibrated = conveyor.replace(calculation=conveyor.calculation.replace(calibration=made))
     relations = [*notes, *_not_told(runs, chosen), *found.notes]
@@ -432,8 +432,9 @@ def _chosen(scene: _Scene, free: Group, *, wanted: bool) -> tuple[Grouping, _Fit
             reasons.append(f"{_said(way)}: {fit}")
         if wanted:
             break
+    too_few = all("runs at least are needed" in reason for reason in reasons)
     raise InputError(
-        "; ".join(reasons)
+        "; ".join(reasons[-1:] if too_few else reasons)
         + ". Give more runs, empty and full ones and at several temperatures, or ask for fewer factors"
     )
 

@@ -205,20 +205,25 @@ class CalculatedCases:
         """Every criterion in every case; those without an answer say why."""
         return (*_unanswered(self), *(check for result in self.results for check in result.checks))
 
-    def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
-        """Motors of every drive pulley from the series, for the governing case.
+    def motors(
+        self, reserve: float = MOTOR_RESERVE, states: Sequence[tuple[Said, CalculatedConveyor]] = ()
+    ) -> tuple[MotorChoice, ...]:
+        """Motors of every drive pulley from the series, for the governing load.
 
         Parameters
         ----------
         reserve : float
             Rated power over needed power [-], at least 1.
+        states : sequence of (Said, CalculatedConveyor)
+            Load states that the motors must give or hold, too.
 
         Raises
         ------
         InputError
             The reserve is below 1, or no case has an answer.
         """
-        return recommended_motors([result for result in self.results if result.covered], reserve=reserve)
+        covered = [(result.label, result.found) for result in self.results if result.covered]
+        return recommended_motors([*covered, *states] if covered else [], reserve=reserve)
 
 
 @checked
@@ -345,30 +350,35 @@ def _unanswered(study: CalculatedCases) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def recommended_motors(results: Sequence[CaseResult], *, reserve: float) -> tuple[MotorChoice, ...]:
+def recommended_motors(
+    loads: Sequence[tuple[Said, CalculatedConveyor]], *, reserve: float
+) -> tuple[MotorChoice, ...]:
     """Motors of every drive pulley: the least number of equal ones of the series that give or hold its share.
 
     Parameters
     ----------
-    results : sequence of CaseResult
-        Cases; the one that asks for most, driving with the friction high or braking with it low, decides.
+    loads : sequence of (Said, CalculatedConveyor)
+        The one that asks for most, driving with the friction high or braking with it low, decides.
     reserve : float
         Rated power over needed power [-], at least 1.
 
     Raises
     ------
     InputError
-        The reserve is below 1, or there is no result.
+        The reserve is below 1, or there is no load.
     """
-    if not results or not 1.0 <= reserve < math.inf:
+    if not loads or not 1.0 <= reserve < math.inf:
         raise InputError(
-            f"reserve = {reserve}: at least 1 is needed" if results else "no case has an answer to design by"
+            f"reserve = {reserve}: at least 1 is needed" if loads else "no case has an answer to design by"
         )
-    ends = [(power, result) for result in results for power in reversed(result.motors)]
-    power, decisive = max(ends, key=lambda end: abs(end[0]))
-    case = decisive.label.text(decisive.found.conveyor.report.units)
+    asked = [
+        (max(map(found.balance.frame.motor, reversed(found.drive_forces)), key=abs), label, found)
+        for label, found in loads
+    ]
+    power, label, decisive = max(asked, key=lambda load: abs(load[0]))
+    case = label.text(decisive.conveyor.report.units)
     choices = []
-    for drive in decisive.found.line.drives:
+    for drive in decisive.line.drives:
         if drive.share == 0.0:
             continue
         needed = drive.share * power

@@ -24,7 +24,7 @@ from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import CalculatedCases
+from conveyor.studies.cases import CalculatedCases, CaseResult
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
@@ -67,10 +67,14 @@ class LoadState:
         return self.name
 
     @property
+    def title(self) -> str:
+        """What it is called among load cases."""
+        return f"load state {self.name if self.name in _KEYS else f'worst for {self.worst_for[0]}'}"
+
+    @property
     def case(self) -> Said:
         """What its checks are of."""
-        name = f"worst for {self.worst_for[0]}" if self.name not in _KEYS else self.name
-        return said(f"load state {quoted(name)}, {{}}", (self.temperature, "temperature"))
+        return said(f"{quoted(self.title)}, {{}}", (self.temperature, "temperature"))
 
     @property
     def loaded_in_words(self) -> str:
@@ -130,11 +134,19 @@ class CalculatedStates:
     @cached_property
     def loads(self) -> tuple[tuple[Said, CalculatedConveyor], ...]:
         """Every state that is not the spec's own load; its contacts are those of the spec's."""
-        return tuple(
-            (state.case, replace(self.own, temperature=state.temperature, balance=state.balance))
-            for state in self.states
-            if state.balance is not self.own.balance
-        )
+        return tuple((state.case, self._found(state)) for state in self._others)
+
+    @property
+    def as_cases(self) -> tuple[CaseResult, ...]:
+        """The same as load cases, for the figures that a case governs."""
+        return tuple(CaseResult(LoadCase(name=state.title), self._found(state)) for state in self._others)
+
+    @property
+    def _others(self) -> tuple[LoadState, ...]:
+        return tuple(state for state in self.states if state.balance is not self.own.balance)
+
+    def _found(self, state: LoadState) -> CalculatedConveyor:
+        return replace(self.own, temperature=state.temperature, balance=state.balance)
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
@@ -265,8 +277,13 @@ _Ends = tuple[Balance, Balance]
 def _full_and_empty(
     conveyor: Conveyor, own: CalculatedConveyor, cases: CalculatedCases | None, progress: Progress | None
 ) -> tuple[dict[float, _Ends], list[StateRefusal]]:
-    """The full and the empty belt at the spec's temperature and those of its cases; of cases what they know."""
-    results = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
+    """The full and the empty belt at the spec's temperature and those of its cases; of cases what they know.
+
+    A temperature at which the rubber's data do not cover a case is left out: worst loadings would design by it.
+    """
+    every = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
+    beyond = {r.temperature for r in every if not r.covered}
+    results = [r for r in every if r.temperature not in beyond]
     known: dict[tuple[float, str], CalculatedConveyor] = {
         (r.temperature, r.case.loading): r.found for r in results
     }

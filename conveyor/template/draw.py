@@ -51,12 +51,20 @@ HOW_TO: Final = (
     "Grey defaults hold where the value cell stays empty. Notes on the field names repeat meaning and range.",
     "Parts that may be left out are folded: the + beside their heading opens them. Paper has what is open.",
     "Lists have a row for each item, in order; empty rows are passed over, rows may be added at the end.",
+    "Sheets that few conveyors need are hidden while they are empty: right-click a tab, Unhide. Paper leaves them out.",
     "Write numbers as your spreadsheet program shows numbers; cells may refer to other sheets of your own, "
     "which are ignored.",
     'Rows and sheets are found by the names in the column "Key" and by the sheets\' names: leave those as they '
     "are.",
     "Calculate with: conveyor power input.xlsx -o report.xlsx",
 )
+
+
+_RARE: Final = frozenset(
+    {"Further feeding", "Ploughs", "Train", "Torque curve", "Further drives", "Scenarios", "Events"}
+)
+"""Lists that few conveyors have: their sheets are hidden while they are empty."""
+_WIDE: Final = 16  # columns of a list that one page shows legibly
 
 
 def _filled(sheets: FilledSheets, part: tuple[str, ...]) -> bool:
@@ -83,6 +91,8 @@ class Book:
         self._how_to(self.book.worksheets[0], every)
         for sheet in self.book.worksheets:
             print_set_up(sheet, self.title, sheet.max_row, portrait=sheet.print_area != "")
+            if not sheet.print_area:
+                sheet.page_setup.fitToWidth = -(-sheet.max_column // _WIDE)
         self.rules.draw(self.book)
         return self.book
 
@@ -196,6 +206,8 @@ class Book:
         sheet.row_dimensions[_HEAD + 1].height, sheet.row_dimensions[_KEYS].height = 46, 24
         sheet.freeze_panes = sheet.cell(first, len(fixed) + 2)
         sheet.print_title_rows = f"{_HEAD}:{_KEYS}"
+        sheet.print_title_cols = f"A:{leader}"
+        sheet.sheet_state = "hidden" if not rows and table.name in _RARE else "visible"
 
     def _column(
         self,
@@ -250,8 +262,14 @@ class Book:
         docs |= {table.name: table.table.doc for sheets in every for table in sheets.plan.tables}
         for other in self.book.worksheets[1:]:
             row += 1
-            put(sheet.cell(row, 1), other.title, LINK)
-            sheet.cell(row, 1).hyperlink = Hyperlink(ref=f"A{row}", location=f"'{other.title}'!A1")
+            shown = other.sheet_state == "visible"
+            put(
+                sheet.cell(row, 1),
+                other.title if shown else f"{other.title} (hidden)",
+                LINK if shown else GREY,
+            )
+            if shown:
+                sheet.cell(row, 1).hyperlink = Hyperlink(ref=f"A{row}", location=f"'{other.title}'!A1")
             put(sheet.cell(row, 4), docs[other.title])
         put(sheet.cell(row + 2, 1), f"Template of conveyor {version('conveyor')}", GREY)
 

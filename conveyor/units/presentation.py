@@ -23,6 +23,7 @@ NEVER: Final = "never"
 MONEY: Final = "money "
 """Before a currency's code: a kind of its own."""
 _HUGE: Final = 1e12
+_AMPLE: Final = 1.0  # margin beyond which its size says nothing
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _SPELLED: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 
@@ -41,10 +42,9 @@ _SAME: Final = {
     "decades": _Kind("-", ".4f"),
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
-    "angle": _Kind("deg", ".2f"), "conveyed": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
+    "angle": _Kind("deg", ".2f"), "carbon dioxide": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
     "heat": _Kind("MJ", ",.3f"),
-    "emission factor": _Kind("kg/kWh", ".3f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
-    "years": _Kind("a", ".1f"),
+    "emission factor": _Kind("kg/kWh", ".3f"), "years": _Kind("a", ".1f"), "margin": _Kind("-", ".1%"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
@@ -57,6 +57,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "strength": _Kind("N/mm", ",.1f"), "pressure": _Kind("MPa", ",.3f"), "mass": _Kind("kg", ",.0f"),
         "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
         "torque": _Kind("N m", ",.0f"), "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
+        "conveyed": _Kind("t", ",.0f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
     },
     "US": {
         **_SAME,
@@ -67,10 +68,13 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
         "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
+        "carbon dioxide": _Kind("metric ton", ",.0f"), "conveyed": _Kind("short ton", ",.0f"),
+        "specific energy": _Kind("kWh/(short ton mile)", ".4f"),
     },
 }  # fmt: skip
 _SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
-    "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048,
+    "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048, "short ton": 907.18474, "metric ton": 1000.0,
+    "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344),
 }  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
 
@@ -89,6 +93,8 @@ class Unit:
         What one of it is in SI, and where it is zero.
     exact : bool
         Whether numbers are shown with all their digits, not rounded where a conversion is.
+    most : float
+        Beyond it a number is written as more than it.
     """
 
     label: str | None
@@ -96,6 +102,7 @@ class Unit:
     size: float = 1.0
     zero: float = 0.0
     exact: bool = field(default=True, repr=False)
+    most: float = math.inf
 
     def __call__(self, values: ArrayLike) -> Any:
         """Values in this unit, of SI values; for axes."""
@@ -121,8 +128,8 @@ class Unit:
 
         Examples
         --------
-        >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("error").written(8e-7)
-        ('84,148', '46.8 %', '8.0E-07')
+        >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("margin").written(102.7)
+        ('84,148', '46.8 %', '> 100 %')
         """
         number = self.shown(value)
         if isinstance(number, bool):
@@ -131,11 +138,15 @@ class Unit:
             return number
         if number is None or math.isnan(number):
             return ""
-        if math.isinf(number):
+        if math.isinf(number) and math.isinf(self.most):
             return NEVER if self.label == "a" else "∞" if number > 0.0 else "-∞"
         if isinstance(number, int):
             return f"{number:,}"
-        return unsigned(f"{number:{self.digits or ',.6g'}}").replace("%", " %")
+        if number > self.most:
+            number, digits, more = self.most, ".0%", "> "
+        else:
+            digits, more = self.digits or ",.6g", ""
+        return more + unsigned(f"{number:{digits}}").replace("%", " %")
 
     def said(self, value: Any) -> str:
         """One SI value as text with its unit, for sentences.
@@ -153,14 +164,14 @@ class Unit:
         Examples
         --------
         >>> unit("speed").brief(5.0), unit("speed", "US").brief(5.08), unit("mass flow").brief(2000.0 / 3.6)
-        ('5 m/s', '1000 fpm', '2000 t/h')
+        ('5 m/s', '1,000 fpm', '2,000 t/h')
         """
         number = self.shown(value)
         if isinstance(number, str):
             return number
         written = f"{number:.4g}"
-        if "e" in written and 1.0 <= abs(number) < _HUGE:
-            written = f"{number:.0f}"
+        if 1000.0 <= abs(float(written)) < _HUGE:
+            written = f"{float(written):,.0f}"
         return f"{written} {self.sign}".rstrip()
 
     def short(self, value: float | str | None) -> str:
@@ -213,7 +224,8 @@ class Unit:
         decimals = int(self.digits.strip(",.f%E"))
         whole = "#,##0" if self.digits.startswith(",") else "0"
         ending = {"%": " %", "E": "E+00"}.get(self.digits[-1], "")
-        return whole + ("." + "0" * decimals if decimals else "") + ending
+        shown = whole + ("." + "0" * decimals if decimals else "") + ending
+        return shown if math.isinf(self.most) else f'[>{self.most:g}]"{self.written(math.inf)}";{shown}'
 
 
 @cache
@@ -231,6 +243,8 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
     found = _KINDS[system][kind]
     label, digits = found.large if large and found.large else (found.unit, found.digits)
     exact = system == "SI" or _KINDS["SI"][kind].unit == label
+    if kind == "margin":
+        return Unit(label, digits, most=_AMPLE)
     if label is None or label in _SIZES:
         return Unit(label, digits, _SIZES.get(label or "-", 1.0))
     if kind == "temperature":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import zipfile
 from datetime import date
 from pathlib import Path
@@ -390,3 +391,60 @@ def test_two_workbooks_of_one_analysis_hold_the_same_cells(overland, tmp_path):
         for name in ("a.xlsx", "b.xlsx")
     )
     assert first == second
+
+
+@pytest.fixture(scope="module")
+def covers(overland, tmp_path_factory):
+    """A comparison with a year, an emission factor and one extra cost; its workbook."""
+    year = {
+        "hours_per_year": "6000 h",
+        "price": "0.1 EUR/kWh",
+        "emission": "0.4 kg/kWh",
+        "emission_source": "x",
+    }
+    names = ["standard-cover", "low-rolling-resistance-cover"]
+    found = conveyor.compare_compounds(
+        overland.conveyor.replace(operation=year),
+        names,
+        temperatures=["20 degC"],
+        extra_costs={names[1]: 9e3},
+    )
+    return found.to_excel(tmp_path_factory.mktemp("covers") / "covers.xlsx")
+
+
+def _recalculated(book, changes):
+    """Values of the formulas of the costs by their cells, names and other cells at their values or changed."""
+    values, formulas = (openpyxl.load_workbook(book, data_only=shown)["Ranking"] for shown in (True, False))
+    names = {
+        name: at.attr_text.rpartition("!")[2].replace("$", "")
+        for name, at in openpyxl.load_workbook(book).defined_names.items()
+    }
+    known = {cell.coordinate: cell.value for row in values.iter_rows() for cell in row}
+    known |= {names[name]: value for name, value in changes.items()}
+    space = {name: known.get(at) for name, at in names.items()}
+    for column in formulas.iter_cols():  # a saving takes a cost of a row below it
+        for cell in column:
+            if cell.data_type == "f":
+                paid = r'IF\((\w+)="","",IF\((\w+)>0,\1/\2,"never"\)\)'
+                text = re.sub(paid, r'"" if \1 is None else \1 / \2 if \2 > 0.0 else "never"', cell.value[1:])
+                known[cell.coordinate] = eval(text, {}, space | known)  # noqa: S307 our own
+                yield cell.coordinate, known[cell.coordinate], values[cell.coordinate].value
+
+
+def test_a_year_of_a_comparison_follows_its_formulas(covers):
+    rows = list(_recalculated(covers, {}))
+    assert len(rows) == 2 * 5  # energy, cost, saving, carbon dioxide, payback of two covers
+    for at, found, saved in rows:
+        assert found == (
+            pytest.approx(saved, rel=1e-12, abs=1e-6) if isinstance(saved, float) else saved or ""
+        ), at
+
+
+def test_twice_the_price_costs_twice_and_pays_back_in_half_the_time(covers):
+    for before, after in zip(
+        _recalculated(covers, {}), _recalculated(covers, {"what_if_energy_price": 0.2}), strict=True
+    ):
+        column = before[0][0]
+        factor = {"C": 1.0, "D": 2.0, "E": 2.0, "F": 1.0, "H": 0.5}[column]
+        if isinstance(before[1], float):
+            assert after[1] == pytest.approx(factor * before[1], rel=1e-12), before[0]
