@@ -129,12 +129,12 @@ class Contacts:
     @property
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
-        return max(curve.curve.error for curve in self.curves)
+        return max(curve.error for curve in self.curves)
 
     @property
     def energy_error(self) -> float:
         """Largest relative difference of any roll's friction by geometry and by loss [-]."""
-        return max(curve.curve.energy_error for curve in self.curves)
+        return max(curve.energy_error for curve in self.curves)
 
 
 def solve_contacts(
@@ -207,10 +207,11 @@ def _read(
         parts = np.split(resistance, np.cumsum([kind.distinct.size for kind in kinds])[:-1])
         for k, kind, part in zip(members, kinds, parts, strict=True):
             level = covers[kind.strand].level
-            drags[k] = _along_the_rolls(kind, part if level is None else part * level.factor(kind.distinct))
+            at_level = part if level is None else part * level.factor(kind.distinct)
+            drags[k] = along_the_rolls(kind, at_level[kind.which])
     return Contacts(line, covers, tuple(curves), tuple(drags))
 
 
-def _along_the_rolls(kind: RollKind, resistance: Array) -> Array:
-    """Integrate the resistance per width at the distinct loads [N/m] along each roll [N]."""
-    return np.asarray(np.add.reduceat(resistance[kind.which] * kind.weights, kind.starts))
+def along_the_rolls(kind: RollKind, resistance: Array) -> Array:
+    """Integrate the resistance per width at every line load [N/m] along each roll [N]."""
+    return np.asarray(np.add.reduceat(resistance * kind.weights, kind.starts))
