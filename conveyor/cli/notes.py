@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 _NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
 """What alike notes differ in: quoted names and fields."""
 _OF_DATA: Final = re.compile(
-    r"^compound \"|^calculation\.calibration|not given|assumed|illustrative|not read in the standard"
+    r"^compound \"|^calculation\.(calibration|flexure)|^the belt gives|not given|assumed|illustrative|"
+    "not read in the standard"
 )
 """Notes on what was given, not on what was found."""
 

@@ -39,7 +39,7 @@ def _transform(degree: int) -> Array:
 
 def at_places(degree: int, t: Array) -> Array:
     """Weights of the values at the points in the interpolant at places t, shape (*t.shape, degree + 1)."""
-    weights: Array = chebyshev.chebvander(t, degree) @ _transform(degree)
+    weights: Array = chebyshev.chebvander(t, degree).reshape(*np.shape(t), -1) @ _transform(degree)
     return weights
 
 

@@ -151,9 +151,16 @@ class BeltContacts(Contacts):
         """The rolls of one set of every stretch, left to right; each at the mean tension of its stretch."""
         of_kinds, middle = super().rolls, self.pulls @ GAUSS[1]
         return tuple(
-            tuple(replace(roll, curve=_under(roll.curve, pull)) for roll in rolls)
-            for rolls, pull in zip(of_kinds, middle.tolist(), strict=True)
+            tuple(
+                replace(roll, curve=_under(roll.curve, pull), held=fast.curve)
+                for roll, fast in zip(rolls, held, strict=True)
+            )
+            for rolls, held, pull in zip(of_kinds, self.confined.rolls, middle.tolist(), strict=True)
         )
+
+    def deepest(self, strand: Strand) -> float:
+        """Largest penetration of the cover alone over its thickness [-]: the carcass yields besides."""
+        return self.confined.deepest(strand)
 
     @cached_property
     def gives(self) -> tuple[Give, ...]:

@@ -41,16 +41,24 @@ class RollResult:
         The load curve it was read from.
     resistance : float
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
+    held : IndentationCurve, optional
+        Of the same cover on a carcass that does not give, where the one of `curve` does.
     """
 
     load: RollLoad
     curve: IndentationCurve
     resistance: float
+    held: IndentationCurve | None = None
 
     @cached_property
     def peak(self) -> Indentation:
         """Contact at the highest line load, for a wing that of its inner end."""
         return self.curve.at(self.load.peak_line_load)
+
+    @property
+    def pressed_in(self) -> float:
+        """Penetration of the cover alone at the highest line load, without what the carcass yields [m]."""
+        return float((self.held or self.curve).at(self.load.peak_line_load).penetration)
 
 
 @dataclass(frozen=True, eq=False)

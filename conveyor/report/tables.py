@@ -437,7 +437,7 @@ def rolls(a: CalculatedConveyor) -> Table:
         Column("eccentricity", "thickness", lambda row: float(row[1].peak.eccentricity), page=None),
         Column("penetration", "thickness", lambda row: float(row[1].peak.penetration)),
         Column("penetration of cover", "share",
-               lambda row: float(row[1].peak.penetration) / row[1].curve.contact.cover_thickness, page=None),
+               lambda row: row[1].pressed_in / row[1].curve.contact.cover_thickness, page=None),
         Column("peak pressure", "pressure", lambda row: float(row[1].peak.peak_pressure)),
         Column("transit frequency", "passing",
                lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
@@ -939,7 +939,7 @@ def belt_support(a: CalculatedConveyor) -> Table:
     )
     rows = a.contacts.gives if isinstance(a.contacts, BeltContacts) else ()
     heading = "What the give of the belt changes, and where the loss goes"
-    page = (OnPage("indentation", heading),)
+    page = (OnPage("rolls", heading),)
     return Table("belt_support", "Indentation", heading, columns, rows, page)
 
 
