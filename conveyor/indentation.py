@@ -15,12 +15,40 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact import ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curves, solve
+from conveyor.contact import Belt, ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curves, solve
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber import PronySeries
 
 Array = NDArray[np.float64]
-Support = Literal["confined", "free", "half-space"]
+Support = Literal["confined", "free", "half-space", "belt"]
+
+
+@dataclass(frozen=True)
+class Backing:
+    """What is behind the cover that rolls run on, in a belt that gives: carcass and other cover, per width.
+
+    Parameters
+    ----------
+    tension : float
+        T - m' V², that bends the moving belt less [N/m].
+    bending : float
+        D' of the carcass, flat [N m].
+    bending_loss : float
+        tan δ of the carcass in bending [-].
+    stretching : float
+        K, in-plane stiffness of the carcass [N/m].
+    cover_thickness : float
+        Of the other cover [m].
+    rubber : PronySeries
+        Of the other cover at its temperature [Pa, s].
+    """
+
+    tension: float
+    bending: float
+    bending_loss: float
+    stretching: float
+    cover_thickness: float
+    rubber: PronySeries
 
 
 @dataclass(frozen=True)
@@ -41,8 +69,10 @@ class RollContact:
         Relaxation spectrum of the cover at its temperature [Pa, s].
     poisson : float
         ν of the rubber [-].
-    support : {"confined", "free", "half-space"}
-        What holds the cover: a stiff carcass, nothing (the paper's belt), or endless rubber.
+    support : {"confined", "free", "half-space", "belt"}
+        What holds the cover: a stiff carcass, nothing (the paper's belt), endless rubber, or the belt behind it.
+    backing : Backing, optional
+        The belt behind the cover; of support "belt" only.
     """
 
     radius: float
@@ -52,12 +82,22 @@ class RollContact:
     rubber: PronySeries
     poisson: float = 0.5
     support: Support = "confined"
+    backing: Backing | None = None
 
     def __post_init__(self) -> None:
+        if (self.support == "belt") != (self.backing is not None):
+            raise InputError(
+                f"backing = {self.backing!r}: support {self.support!r}; a belt, and no other, has one"
+            )
         for name in ("radius", "spacing", "cover_thickness", "speed"):
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+
+    @property
+    def pull(self) -> float | None:
+        """Effective tension of the belt behind the cover, per width [N/m]; None on another support."""
+        return None if self.backing is None else self.backing.tension
 
 
 MEMORY = 4.0
@@ -148,19 +188,39 @@ def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
         A value outside what the contact allows, e.g. rolls that overlap.
     """
     k = 2.0 * math.pi / contact.spacing
-    creep = contact.rubber.creep()
     rubbery = contact.rubber.equilibrium
     return ContactProblem(
-        support=contact.support,
+        support=contact.support if contact.backing is None else _belt(contact, contact.backing),
         radius=contact.radius / contact.spacing,
         pressure=(1.0 - contact.poisson**2) * line_load / (math.pi * rubbery * contact.radius),
-        creep=CreepSpectrum(
-            instantaneous=rubbery * creep.instantaneous,
-            weights=rubbery * creep.compliances,
-            times=contact.speed * creep.times * k,
-        ),
+        creep=_normalised(contact.rubber, contact.speed * k),
         thickness=math.inf if contact.support == "half-space" else k * contact.cover_thickness,
         poisson=contact.poisson,
+    )
+
+
+def _normalised(rubber: PronySeries, rate: float) -> CreepSpectrum:
+    """Creep over 1/E0, times over 1/(V k)."""
+    creep, rubbery = rubber.creep(), rubber.equilibrium
+    return CreepSpectrum(
+        instantaneous=rubbery * creep.instantaneous,
+        weights=rubbery * creep.compliances,
+        times=creep.times * rate,
+    )
+
+
+def _belt(contact: RollContact, behind: Backing) -> Belt:
+    """The dimensionless belt: tension T k/E0, bending D k³/E0, in-plane stiffness K k/E0."""
+    k, rubbery = 2.0 * math.pi / contact.spacing, contact.rubber.equilibrium
+    bending = behind.bending * k**3 / rubbery
+    return Belt(
+        bottom=k * contact.cover_thickness,
+        top=k * behind.cover_thickness,
+        top_creep=_normalised(behind.rubber, contact.speed * k),
+        top_modulus=behind.rubber.equilibrium / rubbery,
+        tension=behind.tension * k / rubbery,
+        bending=complex(bending, bending * behind.bending_loss),
+        stretching=behind.stretching * k / rubbery,
     )
 
 
@@ -190,6 +250,21 @@ class IndentationCurve:
         if harmonics.size == 0:
             return None
         return self.contact.speed / self.contact.spacing * float(harmonics[k])
+
+    @property
+    def error(self) -> float:
+        """Estimated relative error of the resistance [-]."""
+        return self.curve.error
+
+    @property
+    def energy_error(self) -> float:
+        """Relative difference of the resistance by geometry and by loss compliance [-]."""
+        return self.curve.energy_error
+
+    @property
+    def solved(self) -> tuple[IndentationCurve, ...]:
+        """What was solved for it: itself."""
+        return (self,)
 
     @property
     def stats(self) -> SolveStats:

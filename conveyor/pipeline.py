@@ -3,8 +3,8 @@
 spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
 
 Many variants go through it side by side: their contacts are solved together; what several of them share (a line, a
-rubber at a temperature, a cover at its working strain) is made once. On vertical curves the tensions load the rolls
-again until both agree.
+rubber at a temperature, a cover at its working strain) is made once. On vertical curves, and under a belt that gives,
+the tensions act on the rolls again until both agree.
 """
 
 from __future__ import annotations
@@ -16,12 +16,15 @@ from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
 from conveyor.line.anchors import anchor
+from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
+    CoverName,
     Covers,
     Level,
     RunningCover,
@@ -36,7 +39,7 @@ from conveyor.line.strands import Strands
 from conveyor.line.stretches import STRANDS, Pressing, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
-from conveyor.loop.curves import Convergence, converged, pressing_masses
+from conveyor.loop.curves import Convergence, converged, pressing_masses, pulls
 from conveyor.loop.frame import Frame
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.starting import Motions, every_state, motions
@@ -47,6 +50,7 @@ from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
+Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 Progress: TypeAlias = Callable[[int, int], None]
@@ -131,7 +135,7 @@ class CalculatedConveyor:
     fixed : WithoutRubber
         Forces that no rubber changes.
     convergence : Convergence or None
-        How tensions and roll loads settled on vertical curves; None without curves.
+        How tensions and what they do to the rolls settled; None where they do nothing.
     friction_band : tuple of float or None
         Friction over the computed one to reckon with, low and high end [-]; drive.least_friction and 1 where None.
     """
@@ -291,7 +295,7 @@ def calculate_many(
             except (NoSolutionError, RangeError, InputError) as error:
                 refused[i] = error
             told(len(variants) - len(going), len(loaded))
-        for i, contacts in _solved(shared, loaded, rtol).items():
+        for i, contacts in _solved(shared, loaded, going, rtol).items():
             try:
                 made[i] = _closed(variants[i], loaded[i], contacts)
             except (NoSolutionError, RangeError, InputError) as error:
@@ -301,17 +305,15 @@ def calculate_many(
         if one_take_up:
             level = at_one_setting([found.balance for found in made.values()])
             made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
-        curved = [i for i in going if i in made and made[i].line.curved]
+        acted = [i for i in going if i in made and made[i].line.tension_acts]
         again: dict[int, _Step] = {}
-        for i in curved:
+        for i in acted:
             try:
                 made[i] = found = replace(made[i], convergence=_convergence(made[i], going[i]))
+                again[i] = _Step.after(found)
             except NoSolutionError as error:
                 refused[i] = error
                 del made[i]
-                continue
-            pressing = pressing_masses(found.line, found.balance.settled.steady)
-            again[i] = _Step(pressing, found.balance, found.convergence)
         moving = {i for i in again if not _settled(made[i])}
         # one that still moves the common setting moves the tensions of all
         going = again if one_take_up and moving else {i: again[i] for i in moving}
@@ -321,11 +323,19 @@ def calculate_many(
 
 @dataclass(frozen=True, eq=False)
 class _Step:
-    """Where the iteration of a variant stands: what presses on its curves, and the result before."""
+    """Where the iteration of a variant stands: what presses on its curves, what holds its belt, the result before."""
 
     pressing: Pressing = field(default_factory=dict)
+    pulls: Array | None = None
     before: Balance | None = None
     convergence: Convergence | None = None
+
+    @classmethod
+    def after(cls, found: CalculatedConveyor) -> _Step:
+        """The next step; its tensions are those found."""
+        line, steady = found.line, found.balance.settled.steady
+        held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
+        return cls(pressing_masses(line, steady), held, found.balance, found.convergence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -351,14 +361,24 @@ def _loaded(conveyor: Conveyor, strands: Strands, fixed: WithoutRubber) -> _Load
 
 
 def _solved(
-    shared: _Shared, loaded: Mapping[int, _Loaded], rtol: float | None
+    shared: _Shared, loaded: Mapping[int, _Loaded], steps: Mapping[int, _Step], rtol: float | None
 ) -> dict[int, Contacts | NoAnswer]:
-    """The contacts of loaded lines, their covers at their working strain; all side by side."""
+    """The contacts of loaded lines, their covers at their working strain; all side by side.
+
+    A belt that gives is first held fast: its tensions are not known before.
+    """
     running = dict(zip(loaded, shared.softened([one.works for one in loaded.values()]), strict=True))
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
     solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
-    return {**refused, **dict(zip(covers, solved, strict=True))}
+    found: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
+    tight = {i: one for i in loaded if (one := steps[i].pulls) is not None}
+    held = {i: fast for i in tight if isinstance(fast := found[i], Contacts)}
+    if held:
+        rtols = [loaded[i].line.rtol if rtol is None else rtol for i in held]
+        belts = solve_belts(list(held.values()), [tight[i] for i in held], rtols, shared.tensioned)
+        found |= dict(zip(held, belts, strict=True))
+    return found
 
 
 def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
@@ -378,7 +398,7 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) ->
 
 
 def _convergence(found: CalculatedConveyor, step: _Step) -> Convergence | None:
-    """How the tensions on vertical curves changed since the step before; None without curves or step."""
+    """How the tensions that act on rolls changed since the step before; None without them or it."""
     if step.before is None:
         return None
     before, now = step.before.settled.steady, found.balance.settled.steady
@@ -386,7 +406,7 @@ def _convergence(found: CalculatedConveyor, step: _Step) -> Convergence | None:
 
 
 def _settled(found: CalculatedConveyor) -> bool:
-    """Whether tensions and roll loads on the vertical curves agree."""
+    """Whether tensions and what they do to the rolls agree."""
     return found.convergence is not None and found.convergence.settled(found.line.rtol)
 
 
@@ -399,10 +419,11 @@ class _Shared:
     def __init__(self, known: CalculatedConveyor | None) -> None:
         self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
-        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
+        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[CoverName, PronySeries]]] = []
         self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self.tensioned: Tensioned = {}
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
@@ -464,7 +485,7 @@ class _Shared:
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
         calculation = conveyor.calculation
-        anchored = calculation.anchor == "tests" and calculation.support == "confined"
+        anchored = calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
         softened = calculation.strain != "off"
         found: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():

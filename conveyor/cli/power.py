@@ -80,16 +80,26 @@ def _wanted(
     contents: Contents, output: Path | None, html: Path | None, tables: Path | None, parquet: bool
 ) -> list[Wanted]:
     """Reports that are asked for: where they go, and what makes their files."""
-    from conveyor.report import excel, files
     from conveyor.report import html as page
 
-    kind: files.FileKind = "parquet" if parquet else "csv"
     every: list[tuple[str, Path | None, Callable[[Path], Mapping[Path, bytes]]]] = [
-        ("workbook", output, lambda path: excel.files(contents, path)),
+        ("workbook", output, lambda path: _workbook(contents, path)),
         ("page", html, lambda path: {path: page.build(contents).encode()}),
-        ("tables", tables, lambda folder: files.files(contents, folder, kind)),
+        ("tables", tables, lambda folder: _tables(contents, folder, parquet=parquet)),
     ]
     return [(what, where, made) for what, where, made in every if where is not None]
+
+
+def _workbook(contents: Contents, path: Path) -> Mapping[Path, bytes]:
+    from conveyor.report import excel
+
+    return excel.files(contents, path)
+
+
+def _tables(contents: Contents, folder: Path, *, parquet: bool) -> Mapping[Path, bytes]:
+    from conveyor.report import files
+
+    return files.files(contents, folder, "parquet" if parquet else "csv")
 
 
 def _drawn(result: Analysis, asked: Studies, folder: Path, kind: ImageKind) -> dict[Path, bytes]:

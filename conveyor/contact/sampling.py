@@ -37,6 +37,18 @@ def _transform(degree: int) -> Array:
     return matrix
 
 
+def at_places(degree: int, t: Array) -> Array:
+    """Weights of the values at the points in the interpolant at places t, shape (*t.shape, degree + 1)."""
+    weights: Array = chebyshev.chebvander(t, degree).reshape(*np.shape(t), -1) @ _transform(degree)
+    return weights
+
+
+def left_between(values: Array) -> Array:
+    """What the interpolant through values at the points, shape (N + 1, f), may miss of each; as in `missed`."""
+    miss = np.abs(_between(values.shape[0] - 1) @ values[::2] - values[1::2]).max(axis=0)
+    return _squared(miss, np.ptp(values, axis=0))
+
+
 def derivative(values: Array) -> Array:
     """Derivative by t at the points, of values along the last axis."""
     slope: Array = values @ _derivative(values.shape[-1] - 1).T

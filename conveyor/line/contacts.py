@@ -41,16 +41,24 @@ class RollResult:
         The load curve it was read from.
     resistance : float
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
+    held : IndentationCurve, optional
+        Of the same cover on a carcass that does not give, where the one of `curve` does.
     """
 
     load: RollLoad
     curve: IndentationCurve
     resistance: float
+    held: IndentationCurve | None = None
 
     @cached_property
     def peak(self) -> Indentation:
         """Contact at the highest line load, for a wing that of its inner end."""
         return self.curve.at(self.load.peak_line_load)
+
+    @property
+    def pressed_in(self) -> float:
+        """Penetration of the cover alone at the highest line load, without what the carcass yields [m]."""
+        return float((self.held or self.curve).at(self.load.peak_line_load).penetration)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,12 +137,12 @@ class Contacts:
     @property
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
-        return max(curve.curve.error for curve in self.curves)
+        return max(curve.error for curve in self.curves)
 
     @property
     def energy_error(self) -> float:
         """Largest relative difference of any roll's friction by geometry and by loss [-]."""
-        return max(curve.curve.energy_error for curve in self.curves)
+        return max(curve.energy_error for curve in self.curves)
 
 
 def solve_contacts(
@@ -207,10 +215,11 @@ def _read(
         parts = np.split(resistance, np.cumsum([kind.distinct.size for kind in kinds])[:-1])
         for k, kind, part in zip(members, kinds, parts, strict=True):
             level = covers[kind.strand].level
-            drags[k] = _along_the_rolls(kind, part if level is None else part * level.factor(kind.distinct))
+            at_level = part if level is None else part * level.factor(kind.distinct)
+            drags[k] = along_the_rolls(kind, at_level[kind.which])
     return Contacts(line, covers, tuple(curves), tuple(drags))
 
 
-def _along_the_rolls(kind: RollKind, resistance: Array) -> Array:
-    """Integrate the resistance per width at the distinct loads [N/m] along each roll [N]."""
-    return np.asarray(np.add.reduceat(resistance[kind.which] * kind.weights, kind.starts))
+def along_the_rolls(kind: RollKind, resistance: Array) -> Array:
+    """Integrate the resistance per width at every line load [N/m] along each roll [N]."""
+    return np.asarray(np.add.reduceat(resistance * kind.weights, kind.starts))

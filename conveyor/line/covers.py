@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact
+from conveyor.indentation import Backing, RollContact, Support
 from conveyor.laws.softening import SoftCover, WorkedCover, WorkingStrain, losing_load, softened_many
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
@@ -39,16 +40,20 @@ class RunningCover:
     """A cover that rolls run on: thickness [m], rubber at its temperature, Poisson's ratio.
 
     `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
-    the compound's rolling-resistance tests put on its indentation; None where the theory stands alone.
+    the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
+    belt's other cover: its thickness [m], and its rubber at small strain.
     """
 
     thickness: float
     rubber: PronySeries
     poisson: float
+    other: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
     level: Level | None = None
 
 
+CoverName: TypeAlias = Strand | Literal["top"]
+"""The rolls of a strand run on it; or whatever lies on top."""
 Covers = Mapping[Strand, RunningCover]
 """The cover under each strand."""
 
@@ -58,8 +63,8 @@ def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def rubbers(conveyor: Conveyor, temperature: float) -> dict[Strand, PronySeries]:
-    """Series of each strand's rubber at a temperature [K]; one series a compound.
+def rubbers(conveyor: Conveyor, temperature: float) -> dict[CoverName, PronySeries]:
+    """Series of each strand's rubber and of the top cover's at a temperature [K]; one series a compound.
 
     Raises
     ------
@@ -69,23 +74,32 @@ def rubbers(conveyor: Conveyor, temperature: float) -> dict[Strand, PronySeries]
     carry, back = conveyor.carry_compound, conveyor.return_compound
     series = carry.series(temperature)
     same = back is carry or back == carry
-    return {"carry": series, "return": series if same else back.series(temperature)}
+    behind = series if same else back.series(temperature)
+    own = conveyor.belt.top_cover.compound
+    turned = conveyor.route.turned_over and own is not None and conveyor.calculation.support == "belt"
+    return {
+        "carry": series,
+        "return": behind,
+        "top": own.series(temperature) if turned and own is not None else behind,
+    }
 
 
 def covers_of(
-    conveyor: Conveyor, rubber: Mapping[Strand, PronySeries], levels: Mapping[Strand, Level | None]
+    conveyor: Conveyor,
+    rubber: Mapping[CoverName, PronySeries],
+    levels: Mapping[Strand, Level | None],
 ) -> dict[Strand, RunningCover]:
     """The cover under each strand, of given rubber at its level."""
-    thickness = {
-        "carry": si(conveyor.belt.bottom_cover.thickness),
-        "return": si(conveyor.return_cover_thickness),
-    }
+    bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
+    top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
+    pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
     compounds = compounds_by_strand(conveyor)
     return {
         strand: RunningCover(
-            thickness[strand], rubber[strand], compounds[strand].poisson_ratio, level=levels[strand]
+            thickness, rubber[strand], compounds[strand].poisson_ratio, other, level=levels[strand]
         )
         for strand in STRANDS
+        for (thickness, _), other in [pairs[strand]]
     }
 
 
@@ -115,6 +129,7 @@ class StrandAtWork:
             line.softened,
             line.support,
             cover.thickness,
+            cover.other,
             cover.level,
         )
 
@@ -162,8 +177,18 @@ def _running(
     return replace(cover, rubber=soft[0], strain=soft[1]) if isinstance(soft, tuple) else soft
 
 
-def roll_contact(line: Line, kind: RollKind, cover: RunningCover) -> RollContact:
-    """The contact of a kind of roll under a cover."""
+def backing(line: Line, cover: RunningCover, tension: float) -> Backing:
+    """The belt behind a cover at a tension T - m' V² per width [N/m]."""
+    thickness, rubber = cover.other
+    body = line.belt
+    return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, rubber)
+
+
+def roll_contact(
+    line: Line, kind: RollKind, cover: RunningCover, behind: Backing | None = None
+) -> RollContact:
+    """The contact of a kind of roll under a cover; without the belt behind it, on a carcass that does not give."""
+    support: Support = "confined" if line.support == "belt" else line.support
     return RollContact(
         radius=kind.radius,
         spacing=kind.spacing,
@@ -171,5 +196,6 @@ def roll_contact(line: Line, kind: RollKind, cover: RunningCover) -> RollContact
         speed=line.speed,
         rubber=cover.rubber,
         poisson=cover.poisson,
-        support=line.support,
+        support=support if behind is None else "belt",
+        backing=behind,
     )

@@ -26,13 +26,19 @@ class FlexureLaw:
         Its `calculation.flexure`, or none.
     loads : SetLoads
         Of the strand: sag, width of the wings under the bulk.
+
+    Notes
+    -----
+    A belt as support of its covers (`calculation.support`) holds its own flexure: what is left is the bulk's, by the
+    law of load and sag that of the bulk's load.
     """
 
     def __init__(self, conveyor: Conveyor, loads: SetLoads) -> None:
         flexure = conveyor.calculation.flexure
         self._named = flexure is not None
         self._sag = si(loads.idlers.sag)
-        self._belt = None if flexure is None else flexure.belt
+        self._alone = conveyor.calculation.support == "belt"
+        self._belt = None if flexure is None or self._alone else flexure.belt
         self._bulk = None if flexure is None else flexure.bulk
         self._loads = loads
         self._speed = si(conveyor.belt.speed)
@@ -55,10 +61,14 @@ class FlexureLaw:
             The belt would fly: the tension is below m' v².
         """
         mass = belt_mass + bulk_mass
-        load = mass * self._gravity * math.cos(inclination)
+        weight = self._gravity * math.cos(inclination)
+        load = mass * weight
         if not self._named:
             return sag_flexure_resistance(
-                load, spacing=spacing, relative_sag=self._sag, coefficient=FLEXURE_COEFFICIENT.value
+                bulk_mass * weight if self._alone else load,
+                spacing=spacing,
+                relative_sag=self._sag,
+                coefficient=FLEXURE_COEFFICIENT.value,
             )
         bulk = 0.0 if self._bulk is None or bulk_mass == 0.0 else self._of_bulk(bulk_mass)
         if self._belt is None:

@@ -14,8 +14,9 @@ from conveyor.indentation import Support
 from conveyor.laws.belt import Condition
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
-from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, idler_rotation_resistance
+from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
+from conveyor.laws.tension import usual_stiffness
 from conveyor.line import usual
 from conveyor.line.places import Places, Spot
 from conveyor.line.roll_drags import roll_drags
@@ -56,7 +57,17 @@ class BeltBody:
     duty: Condition
     permanent_stretch: float | None
     retardation: float | None
+    bending: float
+    """D' of the carcass per width [N m]."""
+    bending_loss: float
     relaxing: tuple[float, float] | None = None
+
+    @property
+    def tensile_stiffness(self) -> float | None:
+        """Per width [N/m]: as given, else a usual multiple of the strength; None without both."""
+        if self.stiffness is not None or self.strength is None:
+            return self.stiffness
+        return usual_stiffness(self.strength, carcass=self.carcass)
 
     @property
     def steel_cord(self) -> bool:
@@ -342,9 +353,9 @@ class Line:
         return [drive.brake or 0.0 for drive in self.drives]
 
     @property
-    def curved(self) -> bool:
-        """Whether a section is a vertical curve."""
-        return any(section.curve for section in self.sections)
+    def tension_acts(self) -> bool:
+        """Whether tension changes what the rolls feel: on a vertical curve, or by a belt that gives."""
+        return self.support == "belt" or any(section.curve for section in self.sections)
 
     @property
     def length(self) -> float:
@@ -384,9 +395,10 @@ class Line:
 def _flexure_source(calculation: Calculation) -> str:
     if calculation.flexure_share is not None:
         return "share of the main resistance, calculation.flexure_share"
+    belt = "; the belt's is in the indentation" if calculation.support == "belt" else ""
     if calculation.flexure is not None:
-        return "calculation.flexure, laws"
-    return "load x sag of the set x coefficient of one measured site, flagged default"
+        return f"calculation.flexure, laws{belt}"
+    return f"load x sag of the set x coefficient of one measured site, flagged default{belt}"
 
 
 def _known(value: Quantity | None) -> float | None:
@@ -398,10 +410,10 @@ def _given(value: Quantity | None, default: float) -> float:
 
 
 def _belt(conveyor: Conveyor) -> BeltBody:
-    belt, carcass = conveyor.belt, conveyor.belt.carcass
+    belt, carcass, width = conveyor.belt, conveyor.belt.carcass, si(conveyor.belt.width)
     parts = (belt.top_cover.thickness, belt.bottom_cover.thickness, carcass.thickness)
     return BeltBody(
-        width=si(belt.width),
+        width=width,
         thickness=math.fsum(map(si, parts)),
         line_mass=belt.line_mass,
         carcass=carcass.kind,
@@ -414,6 +426,10 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         duty=carcass.duty,
         permanent_stretch=_known(carcass.permanent_stretch),
         retardation=_known(carcass.retardation_time),
+        bending=CARCASS_BENDING.value
+        if carcass.bending_stiffness is None
+        else si(carcass.bending_stiffness) / width,
+        bending_loss=carcass.bending_loss,
         relaxing=None
         if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
         else (si(carcass.relaxing_stiffness), si(carcass.relaxation_time)),

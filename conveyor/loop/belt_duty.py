@@ -17,7 +17,7 @@ from conveyor.laws.belt import (
     next_pulley_diameter,
     pulley_group_diameter,
 )
-from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter, usual_stiffness
+from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter
 from conveyor.laws.transition import EDGE_OVER_RATED, transition_length, transition_stretch
 from conveyor.laws.vertical_curve import (
     buckling_radius,
@@ -273,7 +273,7 @@ def _strips(
     None where stiffness or trough are not known.
     """
     middle, width = _middle(stretch, line.belt.width), line.belt.width
-    allowed, stiffness = _allowed(line), _stiffness(line)
+    allowed, stiffness = _allowed(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None or middle is None:
         return None, None, None, None
     trough = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
@@ -303,14 +303,6 @@ def _allowed(line: Line) -> float | None:
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
-def _stiffness(line: Line) -> float | None:
-    """Of the belt per width [N/m]: as given, else a usual multiple of its strength; None without both."""
-    belt = line.belt
-    if belt.stiffness is not None or belt.strength is None:
-        return belt.stiffness
-    return usual_stiffness(belt.strength, carcass=belt.carcass)
-
-
 def _middle(stretch: Stretch, width: float) -> float | None:
     """Belt on the middle roll [m]; None for four and five rolls, which have no rule."""
     return {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
@@ -324,7 +316,7 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
     else:
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
     lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
-    middle, rated, stiffness = _middle(stretch, width), _allowed(line), _stiffness(line)
+    middle, rated, stiffness = _middle(stretch, width), _allowed(line), line.belt.tensile_stiffness
     if middle is None or rated is None or stiffness is None:
         missing = (
             "no rule for four and five rolls" if middle is None else

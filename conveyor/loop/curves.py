@@ -1,15 +1,23 @@
-"""Vertical curves: tension presses on the rolls, their resistance adds to the tension, until both agree."""
+"""Where tension acts on the rolls and their resistance adds to the tension, until both agree.
+
+On vertical curves it presses on them; everywhere it holds a belt that gives.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from conveyor.errors import NoSolutionError
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
 from conveyor.line.stretches import Strand, Stretch
 from conveyor.loop.tensions import MotionState
+
+Array = NDArray[np.float64]
 
 MOST_STEPS = 40
 
@@ -23,7 +31,7 @@ class Convergence:
     steps : int
         Times the rolls were loaded anew.
     change : float
-        Largest change of the tension in a curve in the last step, over the largest tension [-].
+        Largest change of the tension where it acts in the last step, over the largest tension [-].
     ratio : float
         Change of the last step over that of the step before [-]; below 1 it converges.
     bound : float
@@ -61,22 +69,53 @@ def converged(
     NoSolutionError
         The iteration has taken too many steps.
     """
-    old, new = curve_tensions(line, before), curve_tensions(line, now)
-    change = max(abs(b - a) for (_, _, a), (_, _, b) in zip(old, new, strict=True)) / largest
+    moved = 0.5 * np.abs((now.starts - before.starts) + (now.ends - before.ends))
+    change = float(moved[_acting(line)].max()) / largest
     ratio = change / (1.0 if last is None or last.change == 0.0 else last.change)
     bound = change * ratio / (1.0 - ratio) if ratio < 1.0 else change
     found = Convergence(1 if last is None else last.steps + 1, change, ratio, bound)
     if found.steps >= MOST_STEPS and not found.settled(line.rtol):
         raise NoSolutionError(
-            f"tensions and roll loads on the vertical curves do not settle in {MOST_STEPS} steps (last change "
-            f"{change:.2g}): choose larger radii"
+            f"tensions and what they do to the rolls do not settle in {MOST_STEPS} steps (last change {change:.2g}): "
+            "choose larger radii of vertical curves"
         )
     return found
 
 
-def curve_tensions(line: Line, steady: MotionState) -> list[tuple[Stretch, float, float]]:
-    """Stretches on vertical curves with their radius [m] and mean tension in steady running [N]."""
-    return list(_curve_tensions(line, steady))
+def _acting(line: Line) -> NDArray[np.bool_]:
+    """Stretches whose rolls feel the tension, in loop order, shape (2n,)."""
+    curved = {section.name for section in line.sections if section.curve is not None}
+    return np.array([line.support == "belt" or stretch.section in curved for stretch in line.loop.stretches])
+
+
+def pulls(line: Line, steady: MotionState, places: Array) -> Array:
+    """T - m' V² per width along every stretch, in the line's order, shape (2n, k) [N/m].
+
+    Parameters
+    ----------
+    line : Line
+        The conveyor.
+    steady : MotionState
+        Steady running.
+    places : ndarray, shape (k,)
+        From a stretch's middle, over its length [-].
+
+    Raises
+    ------
+    NoSolutionError
+        The belt would fly, or is slack.
+    """
+    middle, rise = 0.5 * (steady.starts + steady.ends), steady.ends - steady.starts
+    mass = np.array([stretch.line_mass for stretch in line.loop.stretches])
+    found = middle[:, None] + rise[:, None] * places - (mass * line.speed**2)[:, None]
+    least = int(found.min(axis=1).argmin())
+    if found[least].min() <= 0.0:
+        stretch = line.loop.stretches[least]
+        raise NoSolutionError(
+            f'no tension is left to hold the belt in section "{stretch.section}", {stretch.strand}: T - m\' v² is '
+            f"{found[least].min():.5g} N; raise the take-up's tension (route.take_up.tension)"
+        )
+    return np.roll(found, line.count, axis=0) / line.belt.width
 
 
 def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, float, float]]:
@@ -90,7 +129,7 @@ def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, 
 def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     """Mass per length like which tension presses on the rolls of every curve [kg/m]; negative where it lifts."""
     pressing = {}
-    for stretch, radius, tension in curve_tensions(line, steady):
+    for stretch, radius, tension in _curve_tensions(line, steady):
         pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
         force = curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing)
         pressing[stretch.section, stretch.strand] = curve_belt_mass(

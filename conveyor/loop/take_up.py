@@ -14,7 +14,6 @@ from conveyor.laws.take_up import (
     take_up_mass,
     take_up_travel,
 )
-from conveyor.laws.tension import usual_stiffness
 from conveyor.line.line import BeltBody, Line, TakeUpUnit
 from conveyor.loop.balance import Balance
 from conveyor.loop.settled import holds
@@ -148,9 +147,7 @@ def _mass(line: Line, setting: float) -> float:
 
 def belt_stiffness(belt: BeltBody) -> float | None:
     """EA of the whole belt [N], as given or as is usual."""
-    per_width = belt.stiffness
-    if per_width is None and belt.strength is not None:
-        per_width = usual_stiffness(belt.strength, carcass=belt.carcass)
+    per_width = belt.tensile_stiffness
     return None if per_width is None else per_width * belt.width
 
 

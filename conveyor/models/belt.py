@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Final, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Problem, refuse
+from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.compound import CompoundReference, RubberCompound
 from conveyor.models.listed import Listed, ListedName
 from conveyor.units import (
     AreaMass,
     BeltMass,
+    BendingStiffness,
     Bounds,
     Fraction,
     Length,
@@ -81,6 +82,10 @@ class Carcass(Model):
     """Rated working tension per width, as US belts are sold: a "600 PIW" belt; instead of the strength or beside it."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
     """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
+    bending_stiffness: Annotated[BendingStiffness, Bounds(ge="0 N*m^2", le="10000 N*m^2")] | None = None
+    """Of the carcass, flat, over the belt's width, for calculation.support belt; 15 N m² a metre without it."""
+    bending_loss: Annotated[Number, Field(ge=0, le=1)] = 0.0
+    """tan δ of the carcass in bending, for calculation.support belt; without it the covers alone lose."""
     retardation_time: Annotated[Time, Bounds(ge="0 s", le="10 s")] | None = None
     """Damping of the belt lengthwise, force = stiffness (strain + time x its rate), for scenarios; 0.1 s without it, 0
     where relaxation_time is given."""

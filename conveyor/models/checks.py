@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from conveyor.errors import RangeError
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
+from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.drive import DrivePulley
@@ -31,6 +32,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _inertia_reduced,
         _coefficient_holds,
         _flexure_applies,
+        _belt_gives,
     )
     return [problem for check in checks for problem in check(conveyor)]
 
@@ -219,6 +221,27 @@ def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
             ("calculation", "flexure", "bulk"),
             f"given, but the wings of {rolls} rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
         )
+
+
+def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A belt as support needs covers that keep their volume, and the stiffness of its carcass."""
+    if conveyor.calculation.support != "belt":
+        return
+    carcass = conveyor.belt.carcass
+    usual = None if carcass.strength is None else usual_stiffness(si(carcass.strength), carcass=carcass.kind)
+    if carcass.stiffness is None and usual is None:
+        message = (
+            'missing: calculation.support "belt" needs it; give it, or the strength of a carcass of steel cord, EP or '
+            "polyamide"
+        )
+        yield Problem(("belt", "carcass", "stiffness"), message)
+    for name, cover in (("bottom_cover", conveyor.belt.bottom_cover), ("top_cover", conveyor.belt.top_cover)):
+        if cover.compound is not None and cover.compound.poisson_ratio != 0.5:
+            yield Problem(
+                ("belt", name, "compound"),
+                f"has the poisson_ratio {cover.compound.poisson_ratio:g}: the covers of calculation.support "
+                '"belt" are incompressible; set it to 0.5, or take the support "confined"',
+            )
 
 
 def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:

@@ -36,10 +36,10 @@ class Ambient(Model):
 class Calculation(Model):
     """How to calculate."""
 
-    support: Literal["confined", "free", "half-space"] = "confined"
-    """What holds the cover: a stiff carcass (confined), nothing (free), endless rubber (half-space)."""
-    rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-6
-    """Relative tolerance of the rolling contact."""
+    support: Literal["confined", "belt", "free", "half-space"] = "confined"
+    """What holds the cover: a stiff carcass (confined), the belt under its tension, nothing (free), endless rubber."""
+    rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-4
+    """Relative tolerance of the rolling contact: rubber is known to per cents, 1e-6 costs several times as much."""
     strain: Literal["where known", "off"] = "where known"
     """Moduli at the strain the rolls work the cover at, for compounds with strain sweeps."""
     anchor: Literal["tests", "off"] = "tests"
@@ -70,6 +70,12 @@ class Calculation(Model):
         if self.flexure is not None and self.flexure_share is not None:
             message = f"given beside flexure_share {text(self.flexure_share)}; give one of the two, remove the other"
             refuse("Calculation", [Problem(("flexure",), message)])
+        if self.support == "belt" and self.flexure_share is not None:
+            message = (
+                f"got {text(self.flexure_share)}: it holds the flexure of the belt, which support "
+                '"belt" computes with the indentation; remove it, or give flexure.bulk'
+            )
+            refuse("Calculation", [Problem(("flexure_share",), message)])
         return self
 
 

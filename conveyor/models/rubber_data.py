@@ -78,13 +78,13 @@ class TableShift(Model):
 
     def vertical(self, temperature: float) -> float:
         """Return b_T at an absolute temperature [K] inside the table, monotone between its points."""
-        from scipy.interpolate import PchipInterpolator
+        from conveyor.rubber.monotone import MonotoneCubic
 
         if self.log10_b_t is None:
             return 1.0
         at = np.array([si(t) for t in self.temperature])
         order = np.argsort(at)
-        return float(10.0 ** PchipInterpolator(at[order], np.array(self.log10_b_t)[order])(temperature))
+        return float(10.0 ** MonotoneCubic(at[order], np.array(self.log10_b_t)[order])(temperature))
 
     def at(self, reference: float) -> ShiftLaw:
         """Return the law for a reference temperature [K]."""

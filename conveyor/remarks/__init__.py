@@ -8,6 +8,8 @@ from typing import Final
 
 from conveyor.checks import Check
 from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
+from conveyor.laws.resistance import CARCASS_BENDING
+from conveyor.line.belts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.loop.year import earns_nothing
@@ -25,14 +27,15 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     """What every figure of an analysis rests on, in words."""
     support = {
         "confined": "the cover is bonded to a carcass that does not give (a real belt differs by 1 to 8 %)",
+        "belt": "the cover is bonded to a carcass that gives, held by its tension, the other cover above; all flat",
         "free": "the cover is a free layer that bends between the rolls (the paper's belt)",
         "half-space": "the cover is endlessly thick",
     }[conveyor.calculation.support]
     return (
         _rubber_law(conveyor),
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
-        "Error estimates are those of the indentation resistance; peak pressures are good to about 0.1 % "
-        "at the default tolerance.",
+        f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
+        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %, peak pressures to about 1.5 %, at 1e-6 to 0.1 %.",
         *roll_assumptions(conveyor),
         "Bearings of the driven pulleys (at each drive's place the most wrapped, as many as it stands for) are in the "
         "drive's efficiency; tension changes the load of the rolls on "
@@ -95,7 +98,7 @@ def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said,
                 *_rubber(conveyor),
                 *_strain(found),
                 *_level(found),
-                *_contact(conveyor),
+                *_contact(found),
                 *roll_warnings(found),
                 *_left_out(found),
                 *_trippers(found.line),
@@ -190,9 +193,27 @@ def _level(found: CalculatedConveyor) -> Iterator[Said]:
         )
 
 
-def _contact(conveyor: Conveyor) -> Iterator[Said]:
+def _contact(found: CalculatedConveyor) -> Iterator[Said]:
+    conveyor, contacts = found.conveyor, found.contacts
     support = conveyor.calculation.support
-    if support != "confined":
+    if isinstance(contacts, BeltContacts):
+        for give in contacts.gives:
+            yield said(
+                f"the belt gives under the {give.strand} rolls: indentation changes by {percent(give.change, 1)} "
+                "against a stiff carcass, at effective tensions of {} to {}",
+                (give.tensions[0], "line force"),
+                (give.tensions[2], "line force"),
+            )
+        if conveyor.belt.carcass.bending_stiffness is None:
+            yield said(
+                f"belt.carcass.bending_stiffness not given: {CARCASS_BENDING.value:g} N m² per metre of width taken "
+                f"({CARCASS_BENDING.low:g} to {CARCASS_BENDING.high:g}; general knowledge)"
+            )
+        if conveyor.belt.carcass.stiffness is None:
+            yield said("belt.carcass.stiffness not given: a usual multiple of the strength taken")
+        if conveyor.calculation.flexure is not None and conveyor.calculation.flexure.belt is not None:
+            yield said('calculation.flexure.belt is not used: support "belt" holds that loss')
+    elif support != "confined":
         yield said(
             f'calculation.support is "{support}": a real cover is bonded to a carcass far stiffer than rubber, '
             '"confined" is meaningful for it; use this one to compare with the paper'

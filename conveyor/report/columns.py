@@ -10,13 +10,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
-from typing import Any, Final
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.models.report import Paper
 from conveyor.units import System
 from conveyor.units.presentation import Unit, headed, spelled, unit
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FAILS: Final = "FAILS"
 """In the name of a state of motion whose tensions are not to be had."""
@@ -253,11 +254,15 @@ class Table:
     def frame(self, system: System = "SI") -> pd.DataFrame:
         """The table as a data frame, units in the names of its columns or rows."""
         shown = [column for column in self.columns if column.sheet]
+        import pandas as pd
+
         return pd.DataFrame({self.name(column, system): self.cells(column, system) for column in shown})
 
     def series(self, name: str, system: System = "SI") -> pd.Series:
         """Figures as a series, units in its index."""
         names = [headed(row.called(system), row.kind, system) for row in self.rows]
+        import pandas as pd
+
         return pd.Series(dict(zip(names, self.cells(self.columns[1], system), strict=True)), name=name)
 
     def records(self) -> list[dict[str, Any]]:

@@ -11,8 +11,8 @@ HEADINGS: Final = ("action required", "basis and limitations")
 _NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
 """What alike notes differ in: quoted names and fields."""
 _OF_DATA: Final = re.compile(
-    r"^compound \"|^calculation\.calibration|^means over|^energy and cost|not given|assumed|illustrative|"
-    "not read in the standard"
+    r"^compound \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|assumed|"
+    "illustrative|not read in the standard"
 )
 """Notes on what was given, not on what was found."""
 

@@ -20,7 +20,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from conveyor.checks import Check, checks, deciding, leading
+from conveyor.indentation import RollContact
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.line.belts import BeltContacts
 from conveyor.line.contacts import Contacts
 from conveyor.line.covers import Level, compounds_by_strand
 from conveyor.line.line import Line
@@ -125,6 +127,7 @@ def of_analysis(
         convergence(analysis),
         *studied,
         what_if(analysis, studies, maximum_motor_power(analysis, studies)),
+        belt_support(analysis),
         contact_solutions(analysis),
         indentation(analysis),
         rubber(analysis),
@@ -450,7 +453,7 @@ def rolls(a: CalculatedConveyor) -> Table:
         Column("eccentricity", "thickness", lambda row: float(row[1].peak.eccentricity), page=None),
         Column("penetration", "thickness", lambda row: float(row[1].peak.penetration)),
         Column("penetration of cover", "share",
-               lambda row: float(row[1].peak.penetration) / row[1].curve.contact.cover_thickness, page=None),
+               lambda row: row[1].pressed_in / row[1].curve.contact.cover_thickness, page=None),
         Column("peak pressure", "pressure", lambda row: float(row[1].peak.peak_pressure)),
         Column("transit frequency", "passing",
                lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
@@ -926,7 +929,34 @@ def convergence(a: CalculatedConveyor) -> Table:
 
 def _contacts(a: CalculatedConveyor) -> dict[Any, Any]:
     """Every distinct load curve and the last stretch that runs on it."""
-    return {roll.curve: r for r in a.stretches for roll in r.rolls}
+    return {curve: r for r in a.stretches for roll in r.rolls for curve in roll.curve.solved}
+
+
+def _tension(contact: Callable[[Any], RollContact], a: CalculatedConveyor) -> tuple[Column, ...]:
+    """T - m' V² per width that contacts on a belt that gives were solved at."""
+    if not isinstance(a.contacts, BeltContacts):
+        return ()
+    return (Column("effective tension", "line force", lambda row: contact(row).pull),)
+
+
+def belt_support(a: CalculatedConveyor) -> Table:
+    """What the give of the belt changes and where its loss goes, one row a strand; empty on a stiff carcass."""
+    columns = (
+        Column("strand", "text", attrgetter("strand")),
+        Column("lowest effective tension", "line force", lambda row: row.tensions[0]),
+        Column("mean effective tension", "line force", lambda row: row.tensions[1]),
+        Column("highest effective tension", "line force", lambda row: row.tensions[2]),
+        Column("indentation on a stiff carcass", "force", attrgetter("confined")),
+        Column("indentation on the belt", "force", attrgetter("force")),
+        Column("change by the give", "share", attrgetter("change")),
+        Column("loss in the cover on the rolls", "share", lambda row: row.shares.get("bottom_cover")),
+        Column("loss in the other cover", "share", lambda row: row.shares.get("top_cover")),
+        Column("loss in the carcass", "share", lambda row: row.shares.get("carcass")),
+    )
+    rows = a.contacts.gives if isinstance(a.contacts, BeltContacts) else ()
+    heading = "What the give of the belt changes, and where the loss goes"
+    page = (OnPage("rolls", heading),)
+    return Table("belt_support", "Indentation", heading, columns, rows, page)
 
 
 def contact_solutions(a: CalculatedConveyor) -> Table:
@@ -936,14 +966,15 @@ def contact_solutions(a: CalculatedConveyor) -> Table:
         Column("roll", "size", lambda row: 2.0 * row[0].contact.radius),
         Column("spacing", "spacing", lambda row: row[0].contact.spacing),
         Column("cover", "size", lambda row: row[0].contact.cover_thickness),
+        *_tension(lambda row: row[0].contact, a),
         Column("lowest load", "line force", lambda row: row[0].lowest),
         Column("highest load", "line force", lambda row: row[0].highest),
         Column("order", "count", lambda row: row[0].stats.order),
         Column("matrices", "count", lambda row: row[0].stats.matrices),
         Column("nodes", "count", lambda row: row[0].stats.nodes),
         Column("retardation terms", "count", lambda row: row[0].stats.terms),
-        Column("error estimate", "error", lambda row: row[0].curve.error),
-        Column("energy error", "error", lambda row: row[0].curve.energy_error),
+        Column("error estimate", "error", lambda row: row[0].error),
+        Column("energy error", "error", lambda row: row[0].energy_error),
     )
     heading, caption = (
         "Contacts, one a distinct roll, cover and spacing",
@@ -962,8 +993,10 @@ def indentation(a: CalculatedConveyor) -> Table:
                 unit(kind, a.conveyor.report.units).brief(value)
                 for kind, value in (("size", 2.0 * roll.curve.contact.radius), ("spacing", r.stretch.spacing))
             )
-            label = f"{r.stretch.strand}, {size}, {apart}"
-            seen.setdefault(roll.curve, (label, r.cover.level))
+            for curve in roll.curve.solved:
+                pull = curve.contact.pull
+                held = "" if pull is None else f", {unit('line force', a.conveyor.report.units).brief(pull)}"
+                seen.setdefault(curve, (f"{r.stretch.strand}, {size}, {apart}{held}", r.cover.level))
     rows: list[tuple[Any, ...]] = []
     for curve, (label, level) in seen.items():
         loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +13,8 @@ from scipy.constants import zero_Celsius
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
+from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.prony import PronySeries
-
-if TYPE_CHECKING:
-    from scipy.interpolate import PchipInterpolator
 
 REFERENCE_TOLERANCE = 0.01
 """Decades by which a table may miss log10 a_T = 0 at its reference: tables are printed to 2-3 decimals,
@@ -230,12 +228,10 @@ class ShiftTable:
     temperatures: FloatArray
     log10_factors: FloatArray
     reference: float
-    _curve: PchipInterpolator = field(init=False, repr=False)
+    _curve: MonotoneCubic = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Check, sort, freeze."""
-        from scipy.interpolate import PchipInterpolator
-
         t = positive_vector("temperatures", self.temperatures, "K")
         y = finite_vector("log10_factors", self.log10_factors, "decades")
         if t.shape != y.shape or t.size < 2:
@@ -260,7 +256,7 @@ class ShiftTable:
             array.setflags(write=False)
         object.__setattr__(self, "temperatures", t)
         object.__setattr__(self, "log10_factors", y)
-        object.__setattr__(self, "_curve", PchipInterpolator(t, y, extrapolate=False))
+        object.__setattr__(self, "_curve", MonotoneCubic(t, y))
         at_reference = float(self.log10_a_T(positive("reference", self.reference, "K")))
         if abs(at_reference) > REFERENCE_TOLERANCE:
             raise InputError(

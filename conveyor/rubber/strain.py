@@ -8,16 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
-
-if TYPE_CHECKING:
-    from scipy.interpolate import PchipInterpolator
+from conveyor.rubber.monotone import MonotoneCubic
 
 SAME_TEMPERATURE = 0.5
 """Sweeps this close are at one temperature, and this far beyond the last one it still counts [K]: control of a DMA."""
@@ -99,16 +96,14 @@ class _Run:
     """One sweep relative to its modulus at the reference strain."""
 
     strain: FloatArray
-    curve: PchipInterpolator
+    curve: MonotoneCubic
     unit: float
     plateau: bool
 
     @classmethod
     def of(cls, sweep: StrainSweep, name: str, reference: float) -> _Run:
-        from scipy.interpolate import PchipInterpolator
-
         values = getattr(sweep, name)
-        curve = PchipInterpolator(np.log(sweep.strain), values, extrapolate=False)
+        curve = MonotoneCubic(np.log(sweep.strain), values)
         head = values[sweep.strain <= PLATEAU_SPAN * sweep.strain[0]]
         flat = head.size >= _PLATEAU_POINTS and float(np.ptp(head)) <= PLATEAU_SPREAD * float(head.mean())
         run = cls(sweep.strain, curve, 1.0, flat)

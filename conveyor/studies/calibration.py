@@ -312,7 +312,7 @@ class _Scene:
     @property
     def curved(self) -> bool:
         """Whether tensions load the rolls."""
-        return self.found[0].line.curved
+        return self.found[0].line.tension_acts
 
     @property
     def estimated(self) -> bool:

@@ -261,8 +261,8 @@ def at_one_take_up(
 
 
 def _held(found: CalculatedConveyor, setting: float) -> CalculatedConveyor:
-    """A load with the take-up at a setting [N]; on vertical curves its tensions press on the rolls anew."""
-    if not found.line.curved:
+    """A load with the take-up at a setting [N]; where tension acts on the rolls, they are loaded anew."""
+    if not found.line.tension_acts:
         return replace(found, balance=found.balance.held(setting))
     (again,) = calculate_many([Variant(found.conveyor, found.temperature, take_up=setting)], known=found)
     if not isinstance(again, CalculatedConveyor):

@@ -187,7 +187,7 @@ def test_vertical_curves_are_solved_until_factors_and_loads_agree():
         {"name": "b", "length": "400 m", "lift": "-2 m"},
     ]
     given = line(calculation=QUICK, route={"sections": sections, "pulleys": []})
-    assert calculate(given).line.curved
+    assert calculate(given).line.tension_acts
     truth = with_factors(given, indentation=1.3, idler_rotation=0.8)
     found = conveyor.calibrate(
         given, measured(truth, states((0, 0), (0, 30), (1200, 0), (1200, 30))), error=0.02

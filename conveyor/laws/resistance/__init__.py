@@ -11,6 +11,7 @@ from conveyor.laws.resistance.cema import (
 from conveyor.laws.resistance.defaults import (
     BULK_ON_BELT_FRICTION,
     BULK_ON_SKIRT_FRICTION,
+    CARCASS_BENDING,
     CLEANER_FRICTION,
     CLEANER_PRESSURE,
     FLEXURE_SHARE,
@@ -100,6 +101,7 @@ __all__ = [
     "BEARING_F1_FACTOR",
     "BULK_ON_BELT_FRICTION",
     "BULK_ON_SKIRT_FRICTION",
+    "CARCASS_BENDING",
     "CLEANER_FRICTION",
     "CLEANER_PRESSURE",
     "FLEXURE_COEFFICIENT",

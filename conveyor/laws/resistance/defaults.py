@@ -57,3 +57,7 @@ ROLL_DRAG_LARGER: Final = Default(3.0, 0.0, 3.0, "acceptance limit of running dr
 ROLL_DRAG_STANDSTILL_FACTOR: Final = 1.5  # [-], acceptance: drag after standstill over running drag, at most
 
 FLEXURE_SHARE: Final = Default(0.11, 0.0, 0.11, "share of the total measured at one overland site")  # [-]
+
+# Bending stiffness D of a carcass per width, lengthwise and flat [N m]; cords and plies slide in the rubber, so far
+# below that of a solid as thick
+CARCASS_BENDING: Final = Default(15.0, 5.0, 50.0, "carcass that bends between its covers", True)

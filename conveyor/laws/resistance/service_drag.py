@@ -7,10 +7,9 @@ list them. Which bearing, grease and seal is usual, and how they cool, is genera
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
-
-from scipy.optimize import brentq
 
 from conveyor.laws.resistance.defaults import Default
 from conveyor.laws.resistance.rim_drag import RollDragParts, bearing_roll_drag, roll_rotation
@@ -255,5 +254,22 @@ def service_roll_drag(
     low, step = air_temperature, _FIRST_STEP
     while surplus(low + step) > 0.0:  # friction falls as the oil warms, so this ends
         low, step = low + step, 2.0 * step
-    balanced = float(brentq(surplus, low, low + step, xtol=_CLOSED))
+    balanced = _falling_root(surplus, low, low + step)
     return ServiceDrag(parts(balanced), balanced)
+
+
+def _falling_root(value: Callable[[float], float], low: float, high: float) -> float:
+    """Root of a falling function between two places of opposite sign, by false position (Illinois)."""
+    at_low, at_high, place, last = value(low), value(high), high, math.inf
+    above: bool | None = None
+    while abs(place - last) > _CLOSED:
+        last, place = place, low + (high - low) * at_low / (at_low - at_high)
+        found = value(place)
+        if found > 0.0:
+            low, at_low, at_high = place, found, 0.5 * at_high if above is True else at_high
+        elif found < 0.0:
+            high, at_high, at_low = place, found, 0.5 * at_low if above is False else at_low
+        else:
+            return place
+        above = found > 0.0
+    return place

@@ -1,0 +1,368 @@
+"""The contact of every roll of a line on the belt itself, whose carcass gives the more the less its tension.
+
+A contact is solved at Chebyshev-Lobatto points of the logarithm of the tension, as many as the tolerance asks for, and
+its resistance is read at any tension between: sections differ in tension, not in their curves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from conveyor.contact import solve
+from conveyor.contact.sampling import at_places, left_between, points
+from conveyor.errors import NoSolutionError
+from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curves, to_problem
+from conveyor.line.contacts import Contacts, RollResult, along_the_rolls
+from conveyor.line.covers import backing, roll_contact
+from conveyor.line.stretches import Strand
+
+Array = NDArray[np.float64]
+
+GAUSS: Final = tuple(0.5 * column for column in np.polynomial.legendre.leggauss(3))
+"""Places along a stretch over half its length, and weights: tension rises evenly along it."""
+_ROOM = 1.1  # beyond the tensions asked for: the loop of tension and indentation moves them by less
+_DEGREES = (2, 4, 8, 16, 32)
+_LOADS = 9  # at which interpolation over the tension is judged
+
+
+@dataclass(frozen=True, eq=False)
+class TensionedCurve(IndentationCurve):
+    """Indentation of a contact at one tension, read between those it was solved at.
+
+    Order, cost and excited frequencies are those of the nearest one.
+    """
+
+    among: TensionedCurves
+
+    @property
+    def _weights(self) -> Array:
+        backed = self.contact.backing
+        return np.zeros(0) if backed is None else self.among.weights(backed.tension)
+
+    @property
+    def error(self) -> float:
+        """Estimated relative error of the resistance, interpolation over the tension included [-]."""
+        return self.among.error
+
+    @property
+    def energy_error(self) -> float:
+        """Largest of the tensions it was solved at [-]."""
+        return max(curve.energy_error for curve in self.solved)
+
+    @property
+    def solved(self) -> tuple[IndentationCurve, ...]:
+        """At the tensions it was solved at."""
+        return self.among.curves
+
+    def resistance(self, line_load: ArrayLike) -> Array:
+        """As of every curve."""
+        return self._mixed([curve.resistance(line_load) for curve in self.solved])
+
+    def at(self, line_load: ArrayLike) -> Indentation:
+        """As of every curve."""
+        found = [curve.at(line_load) for curve in self.solved]
+        return Indentation(
+            line_load=found[0].line_load,
+            resistance=self._mixed([one.resistance for one in found]),
+            half_width=self._mixed([one.half_width for one in found]),
+            eccentricity=self._mixed([one.eccentricity for one in found]),
+            penetration=self._mixed([one.penetration for one in found]),
+            peak_pressure=self._mixed([one.peak_pressure for one in found]),
+            error=self.error,
+            energy_error=self.energy_error,
+        )
+
+    def _mixed(self, values: Sequence[Array]) -> Array:
+        return np.asarray(np.tensordot(self._weights, np.array(values), axes=1))
+
+
+@dataclass(frozen=True, eq=False)
+class TensionedCurves:
+    """Curves of one contact at the points of the logarithm of the tension, the highest first.
+
+    Attributes
+    ----------
+    curves : tuple of IndentationCurve
+        At 2^k + 1 tensions.
+    between : float
+        What interpolation between the tensions may miss of the resistance, measured at every other point [-].
+    """
+
+    curves: tuple[IndentationCurve, ...]
+    between: float
+
+    @property
+    def error(self) -> float:
+        """Estimated relative error of the resistance at any load and tension [-]."""
+        return max(curve.error for curve in self.curves) + self.between
+
+    @cached_property
+    def tensions(self) -> Array:
+        """At which it was solved [N/m]."""
+        backings = [curve.contact.backing for curve in self.curves]
+        return np.array([behind.tension for behind in backings if behind is not None])
+
+    def weights(self, tension: ArrayLike) -> Array:
+        """Weights of the curves at tensions [N/m], shape (*tension.shape, k)."""
+        high, low = np.log(self.tensions[[0, -1]])
+        t = (2.0 * np.log(tension) - high - low) / (high - low)
+        return at_places(len(self.curves) - 1, t)
+
+    def reaches(self, loads: tuple[float, float], tensions: tuple[float, float]) -> bool:
+        """Whether line loads and tensions, lowest and highest of each, lie within [N/m]."""
+        first = self.curves[0]
+        return (
+            first.lowest <= loads[0]
+            and loads[1] <= first.highest
+            and self.tensions[-1] <= tensions[0]
+            and tensions[1] <= self.tensions[0]
+        )
+
+    def under(self, tension: float) -> TensionedCurve:
+        """The curve at a tension [N/m]."""
+        nearest = self.curves[int(np.argmin(np.abs(np.log(self.tensions / tension))))]
+        contact = _at_tension(nearest.contact, tension)
+        return TensionedCurve(contact, nearest.curve, nearest.lowest, nearest.highest, self)
+
+
+@dataclass(frozen=True, eq=False)
+class BeltContacts(Contacts):
+    """Every roll of a line on the belt itself; `curves` are those at the mean tension of each kind of roll.
+
+    Attributes
+    ----------
+    pulls : ndarray, shape (2n, 3)
+        T - m' V² per width at three places along every stretch [N/m].
+    confined : Contacts
+        The same rolls on a carcass that does not give.
+    """
+
+    pulls: Array
+    confined: Contacts
+
+    @cached_property
+    def rolls(self) -> tuple[tuple[RollResult, ...], ...]:
+        """The rolls of one set of every stretch, left to right; each at the mean tension of its stretch."""
+        of_kinds, middle = super().rolls, self.pulls @ GAUSS[1]
+        return tuple(
+            tuple(
+                replace(roll, curve=_under(roll.curve, pull), held=fast.curve)
+                for roll, fast in zip(rolls, held, strict=True)
+            )
+            for rolls, held, pull in zip(of_kinds, self.confined.rolls, middle.tolist(), strict=True)
+        )
+
+    def deepest(self, strand: Strand) -> float:
+        """Largest penetration of the cover alone over its thickness [-]: the carcass yields besides."""
+        return self.confined.deepest(strand)
+
+    @cached_property
+    def gives(self) -> tuple[Give, ...]:
+        """What the belt's give changes, of each strand."""
+        return tuple(self._give(strand) for strand in ("carry", "return"))
+
+    def _give(self, strand: Strand) -> Give:
+        chosen = np.array([stretch.strand == strand for stretch in self.line.stretches])
+        forces, pulls = self.indentation[chosen], self.pulls[chosen]
+        tension = float(np.average(pulls @ GAUSS[1], weights=forces if forces.any() else None))
+        kinds = [kind for kind in self.line.kinds if kind.strand == strand]
+        most = max(kinds, key=lambda kind: float(kind.sets @ (kind.weights * kind.line_loads)))
+        load, cover = self.losing_load(strand), self.covers[strand]
+        contact = roll_contact(self.line, most, cover, backing(self.line, cover, tension))
+        solution = solve(to_problem(contact, load), self.line.rtol)
+        return Give(
+            strand=strand,
+            tensions=(float(pulls.min()), tension, float(pulls.max())),
+            line_load=load,
+            force=float(forces.sum()),
+            confined=float(self.confined.indentation[chosen].sum()),
+            shares=solution.loss_shares if _lossy(contact) else {},
+        )
+
+
+@dataclass(frozen=True)
+class Give:
+    """What the give of a belt changes on a strand.
+
+    Attributes
+    ----------
+    strand : {"carry", "return"}
+        Which.
+    tensions : tuple of float
+        T - m' V² per width: lowest, mean weighted by loss, highest [N/m].
+    line_load : float
+        At which the shares are taken [N/m].
+    force, confined : float
+        Indentation on the belt, and on a carcass that does not give [N].
+    shares : mapping of str to float
+        Of the loss: bottom_cover, the one the rolls run on, top_cover, the other one, carcass [-]; empty without loss.
+    """
+
+    strand: Strand
+    tensions: tuple[float, float, float]
+    line_load: float
+    force: float
+    confined: float
+    shares: Mapping[str, float]
+
+    @property
+    def change(self) -> float:
+        """Of indentation by the give, over that on a carcass that does not [-]; 0 without loss."""
+        return self.force / self.confined - 1.0 if self.confined > 0.0 else 0.0
+
+
+_Key: TypeAlias = tuple[RollContact, float]
+Tensioned: TypeAlias = dict[_Key, TensionedCurves]
+"""What is solved already, by contact at unit tension and tolerance."""
+
+
+def solve_belts(
+    held: Sequence[Contacts], pulls: Sequence[Array], rtols: Sequence[float], known: Tensioned
+) -> list[BeltContacts | NoSolutionError]:
+    """Solve the contacts of many lines on their belts, side by side.
+
+    Parameters
+    ----------
+    held : sequence of Contacts
+        The same on carcasses that do not give.
+    pulls : sequence of ndarray, shape (2n, 3)
+        Of each line T - m' V² per width at the places of `GAUSS` along every stretch [N/m], positive.
+    rtols : sequence of float
+        Relative tolerance of each [-].
+    known : dict
+        Curves solved already, taken where they reach and added to.
+
+    Returns
+    -------
+    list
+        In their order the contacts, or why there are none.
+    """
+    keys = [
+        [(_at_tension(contact, 1.0), rtol) for contact in _contacts(one)]
+        for one, rtol in zip(held, rtols, strict=True)
+    ]
+    asked: dict[_Key, _Span] = {}
+    for one, pull, own in zip(held, pulls, keys, strict=True):
+        for key, kind in zip(own, one.line.kinds, strict=True):
+            here = pull[[i for i, _ in kind.rolls]]
+            span = ((kind.lowest, kind.highest), (float(here.min()), float(here.max())))
+            asked[key] = _both(asked.get(key, span), span)
+    new = {key: span for key, span in asked.items() if key not in known or not known[key].reaches(*span)}
+    solved = _solved({key: _roomy(known.get(key), span) for key, span in new.items()})
+    refused = {key: one for key, one in solved.items() if isinstance(one, NoSolutionError)}
+    known.update({key: one for key, one in solved.items() if isinstance(one, TensionedCurves)})
+    found: list[BeltContacts | NoSolutionError] = []
+    for one, pull, own in zip(held, pulls, keys, strict=True):
+        why = next((refused[key] for key in own if key in refused), None)
+        found.append(_read(one, pull, [known[key] for key in own]) if why is None else why)
+    return found
+
+
+_Span: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+
+
+def _both(one: _Span, other: _Span) -> _Span:
+    (a, b), (c, d) = ((min(x[0], y[0]), max(x[1], y[1])) for x, y in zip(one, other, strict=True))
+    return (a, b), (c, d)
+
+
+def _roomy(known: TensionedCurves | None, span: _Span) -> _Span:
+    """Room for tensions that move, and what was solved before."""
+    loads, (low, high) = span
+    wide = (loads, (low / _ROOM, high * _ROOM))
+    if known is None:
+        return wide
+    first, tensions = known.curves[0], known.tensions
+    return _both(wide, ((first.lowest, first.highest), (float(tensions[-1]), float(tensions[0]))))
+
+
+def _at_tension(contact: RollContact, tension: float) -> RollContact:
+    behind = contact.backing
+    return contact if behind is None else replace(contact, backing=replace(behind, tension=tension))
+
+
+def _under(curve: IndentationCurve, tension: float) -> IndentationCurve:
+    return curve.among.under(tension) if isinstance(curve, TensionedCurve) else curve
+
+
+def _contacts(held: Contacts) -> list[RollContact]:
+    """The contact of every kind of roll on the belt, at unit tension."""
+    line, covers = held.line, held.covers
+    behind = {strand: backing(line, cover, 1.0) for strand, cover in covers.items()}
+    return [roll_contact(line, kind, covers[kind.strand], behind[kind.strand]) for kind in line.kinds]
+
+
+def _solved(spans: Mapping[_Key, _Span]) -> dict[_Key, TensionedCurves | NoSolutionError]:
+    """Curves at ever more tensions, those of all contacts side by side, until interpolation meets the tolerance."""
+    found: dict[_Key, TensionedCurves | NoSolutionError] = {}
+    curves: dict[_Key, list[IndentationCurve]] = {key: [] for key in spans}
+    for degree in _DEGREES:
+        jobs: dict[float, list[tuple[_Key, int, RollContact]]] = {}
+        for key in curves.keys() - found.keys():
+            middle, half = (0.5 * np.log(spans[key][1]) @ pair for pair in ((1.0, 1.0), (-1.0, 1.0)))
+            for j in range(degree + 1) if degree == _DEGREES[0] else range(1, degree, 2):
+                contact = _at_tension(key[0], float(np.exp(middle + half * points(degree)[j])))
+                jobs.setdefault(key[1], []).append((key, j, contact))
+        for rtol, asked in jobs.items():
+            lowest, highest = zip(*(spans[key][0] for key, _, _ in asked), strict=True)
+            answers = indentation_curves([contact for _, _, contact in asked], lowest, highest, 0.5 * rtol)
+            for (key, j, _), answer in zip(asked, answers, strict=True):
+                if isinstance(answer, NoSolutionError):
+                    found.setdefault(key, answer)
+                else:
+                    curves[key].insert(j, answer)
+        for key in curves.keys() - found.keys():
+            if (enough := _judged(curves[key], spans[key], key[1], last=degree == _DEGREES[-1])) is not None:
+                found[key] = enough
+    return found
+
+
+def _judged(
+    curves: Sequence[IndentationCurve], span: _Span, rtol: float, *, last: bool
+) -> TensionedCurves | NoSolutionError | None:
+    """What interpolation between these tensions is good for; None where more are needed."""
+    left = 0.0
+    if _lossy(curves[0].contact):
+        loads = np.geomspace(*span[0], _LOADS)
+        left = float(left_between(np.log([curve.resistance(loads) for curve in curves])).max())
+    if left <= 0.5 * rtol:
+        return TensionedCurves(tuple(curves), left)
+    if not last:
+        return None
+    low, high = span[1]
+    return NoSolutionError(
+        f"between tensions of {low:.4g} and {high:.4g} N/m the indentation is not known better than to {left:.1e} from "
+        f"{len(curves)} of them: give calculation.rtol a larger value"
+    )
+
+
+def _lossy(contact: RollContact) -> bool:
+    behind = contact.backing
+    inside = behind is not None and (
+        behind.rubber.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0
+    )
+    return inside or contact.rubber.moduli.size > 0
+
+
+def _read(held: Contacts, pulls: Array, families: Sequence[TensionedCurves]) -> BeltContacts:
+    """Every roll's resistance at the tensions of its stretch."""
+    line, covers = held.line, held.covers
+    curves, drags = [], []
+    for kind, family in zip(line.kinds, families, strict=True):
+        here = pulls[[i for i, _ in kind.rolls]]
+        middle = float((here @ GAUSS[1]).mean())
+        curves.append(family.under(middle))
+        resistance = np.array([curve.resistance(kind.distinct) for curve in family.curves])
+        level = covers[kind.strand].level
+        if level is not None:
+            resistance = resistance * level.factor(kind.distinct)
+        weights = (family.weights(here) * GAUSS[1][:, None]).sum(axis=1)
+        of_roll = np.repeat(weights, np.diff([*kind.starts, kind.which.size]), axis=0)
+        drags.append(along_the_rolls(kind, (of_roll * resistance.T[kind.which]).sum(axis=1)))
+    return BeltContacts(line, covers, tuple(curves), tuple(drags), pulls, held)
