@@ -1,0 +1,476 @@
+"""From a duty to ranked designs: candidates screened by a closed estimate, the best calculated exactly.
+
+Belt class, motors and brake of each follow from its own calculated tensions; those whose checks fail are no designs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from conveyor.checks import Check, checks
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.laws.belt import CLASSIC_SAFETY
+from conveyor.laws.energy import next_motor
+from conveyor.line.roll_lives import shortest_life
+from conveyor.line.stretches import STRANDS
+from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
+from conveyor.models import Conveyor
+from conveyor.models.sizing import SizingDuty
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
+from conveyor.sizing.costs import Costs, Parts, costs
+from conveyor.sizing.screen import Levels, Screened, candidates, first_levels, screen
+
+RTOL: Final = 1e-4
+"""Of the contacts, as in studies."""
+CALCULATED: Final = 24
+"""Candidates calculated at once, the best of the estimate."""
+ALIKE: Final = 3
+"""Of them of one width, speed and place of drives, so that the list shows what else could be built."""
+BRAKE_RESERVE: Final = 1.5
+"""Brake force over that which holds the loaded belt; general knowledge."""
+_SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
+_SCREENINGS: Final = 3  # levels of the estimate against calculated candidates
+_NO_LIFE: Final = 1e12  # [s], of rolls without load
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """A design that keeps every rule.
+
+    Attributes
+    ----------
+    choice, chosen : Choice, Chosen
+        What it is made of.
+    found : CalculatedConveyor
+        At the temperature of the duty; its spec is `found.conveyor`.
+    coldest : CalculatedConveyor
+        At the lowest temperature: motors and strength; `found` where the duty has none lower.
+    costs : Costs
+        Capital and a year.
+    estimate : float
+        Cost of a year by the closed estimate that chose it [currency/a].
+    roll_life : float
+        Of the set that lives shortest, L10 of its bearings [s].
+    """
+
+    choice: Choice
+    chosen: Chosen
+    found: CalculatedConveyor
+    coldest: CalculatedConveyor
+    costs: Costs
+    estimate: float
+    roll_life: float
+
+    @property
+    def conveyor(self) -> Conveyor:
+        """Its spec."""
+        return self.found.conveyor
+
+    @property
+    def year(self) -> float:
+        """Cost of a year [currency/a]."""
+        return float(self.costs.year)
+
+    @property
+    def safety(self) -> float:
+        """Of the belt in steady running, at the lowest temperature [-]."""
+        return self.chosen.carcass.strength * self.found.line.belt.width / _tension(self.pair)
+
+    @property
+    def pair(self) -> tuple[CalculatedConveyor, CalculatedConveyor]:
+        """Both calculations."""
+        return self.found, self.coldest
+
+
+@dataclass(frozen=True, eq=False)
+class CalculatedSizing:
+    """Ranked designs of a duty.
+
+    Attributes
+    ----------
+    duty : SizingDuty
+        What was sized.
+    designs : tuple of Design
+        The cheapest in a year first; every one calculated exactly.
+    candidates, possible, calculated : int
+        Combinations within the rules; those for which the series have parts; those calculated exactly.
+    refused : Mapping
+        Why calculated candidates are no designs, and how many.
+    estimate_error : float
+        Largest difference of the estimated cost of a year from the exact one, over it [-].
+    """
+
+    duty: SizingDuty
+    designs: tuple[Design, ...]
+    candidates: int
+    possible: int
+    calculated: int
+    refused: Mapping[str, int]
+    estimate_error: float
+
+    @cached_property
+    def task(self) -> SizingTask:
+        """The duty in SI."""
+        return SizingTask(self.duty)
+
+
+def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) -> CalculatedSizing:
+    """Size a conveyor from its duty.
+
+    Parameters
+    ----------
+    duty : SizingDuty
+        What is conveyed, and the rules.
+    best : int
+        Designs wanted.
+    progress : callable, optional
+        Called with what is done of all.
+
+    Raises
+    ------
+    NoSolutionError
+        No candidate keeps the rules; the message says which rule leaves none.
+    """
+    task = SizingTask(duty)
+    choices = candidates(task)
+    if not choices:
+        raise NoSolutionError(
+            "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
+            "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
+        )
+    levels = first_levels(len(duty.covers))
+    known: dict[int, Design | str] = {}
+    estimate = screen(task, choices, levels)
+    probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
+    if not probes:
+        raise NoSolutionError(
+            "no candidate has a belt, motors and bearings strong enough among the series: allow further carcasses or "
+            "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
+        )
+    levels = _levels(choices, estimate, probes, _first(task, choices, estimate, probes), levels)
+    for k in range(_SCREENINGS):
+        estimate = screen(task, choices, levels)
+        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in known]
+        if progress is not None:
+            progress(len(known), len(known) + len(new))
+        if not new:
+            break
+        known |= zip(new, _designs(task, choices, estimate, new), strict=True)
+        designs = {i: one for i, one in known.items() if isinstance(one, Design)}
+        if k == 0 and designs:
+            levels = _levels(choices, estimate, list(designs), [one.found for one in designs.values()], levels)
+    reasons = Counter(one for one in known.values() if isinstance(one, str))
+    if not designs:
+        told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
+        raise NoSolutionError(f"no candidate of {len(known)} calculated keeps every check: {told}")
+    off = max(abs(float(estimate.year[i]) / one.year - 1.0) for i, one in designs.items())
+    ranked = sorted(designs.values(), key=lambda design: design.year)[:best]
+    if duty.rules.graduated and len(task.sections) > 1:
+        ranked = sorted(_graduated(task, ranked), key=lambda design: design.year)
+    return CalculatedSizing(
+        duty, tuple(ranked), len(choices), int(np.isfinite(estimate.year).sum()), len(known), reasons, off
+    )
+
+
+def _shortlist(
+    task: SizingTask, choices: Sequence[Choice], estimate: Screened, most: int, *, covers: bool = False
+) -> list[int]:
+    """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
+    taken: Counter[object] = Counter()
+    found = []
+    for i in np.argsort(estimate.year, kind="stable").tolist():
+        if not math.isfinite(estimate.year[i]) or len(found) == most:
+            break
+        choice = choices[i]
+        key = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
+        limit = ALIKE if not covers else max(1, most // len(task.duty.covers))
+        if taken[key] < limit:
+            taken[key] += 1
+            found.append(i)
+    return found
+
+
+def _first(
+    task: SizingTask, choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int]
+) -> list[CalculatedConveyor | None]:
+    """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
+    specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
+    return [
+        one if isinstance(one, CalculatedConveyor) else None
+        for one in calculate_many([Variant(spec) for spec in specs], RTOL)
+    ]
+
+
+def _levels(
+    choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int],
+    found: Iterable[CalculatedConveyor | None], levels: Levels,
+) -> Levels:  # fmt: skip
+    """Levels at which the estimate meets calculations in the middle."""
+    over: dict[object, list[float]] = {}
+    for i, one in zip(chosen, found, strict=True):
+        if one is None:
+            continue
+        main = {force.key: force for force in one.balance.along}
+        cover, forces = choices[i].cover, one.balance.forces
+        for k, strand in enumerate(STRANDS):
+            exact = main["indentation"].by_strand()[strand]
+            over.setdefault((strand, cover), []).append(exact / estimate.indentation[i, k])
+        over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
+        over.setdefault("rest", []).append((forces.secondary + forces.special) / estimate.rest[i])
+
+    def middle(key: object) -> float:
+        return float(np.median(over[key])) if key in over else 1.0
+
+    carry, back = ([k * middle((strand, i)) for i, k in enumerate(of)] for strand, of in
+                   zip(STRANDS, (levels.carry, levels.back), strict=True))  # fmt: skip
+    drag = middle("drag") if "drag" in over else levels.drag
+    return Levels(tuple(carry), tuple(back), drag, levels.rest * middle("rest"))
+
+
+def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> Chosen:
+    """Class and motors as the estimate has them."""
+    carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
+    power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
+    motors = tuple(next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives))
+    return Chosen(carcass, *carcass.covers(task.wear(choice.speed)), motors, 0.0)
+
+
+def _designs(
+    task: SizingTask, choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int]
+) -> list[Design | str]:
+    """Candidates calculated exactly."""
+    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
+    return _settled(task, begin)
+
+
+def _settled(task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]]) -> list[Design | str]:
+    """Designs whose class, motors and brake suit their own calculated tensions, or why there is none."""
+    choices = [choice for choice, _, _ in begin]
+    now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
+    found: dict[int, Design | str] = {}
+    for _ in range(_SIZINGS):
+        specs: dict[int, Conveyor] = {}
+        for i, chosen in now.items():
+            try:
+                specs[i] = task.spec(choices[i], chosen, _name(task, choices[i]))
+            except InputError as error:
+                found[i] = str(error)
+        pairs = _calculated(task, specs)
+        again = {}
+        for i, pair in pairs.items():
+            try:
+                if isinstance(pair, str):
+                    raise NoSolutionError(pair)
+                wanted = _chosen(task, choices[i], now[i], pair)
+            except (NoSolutionError, RangeError) as error:
+                found[i] = str(error)
+                continue
+            if wanted != now[i]:
+                again[i] = wanted
+            else:
+                found[i] = _design(task, choices[i], now[i], pair, begin[i][2])
+        now = again
+        if not now:
+            break
+    return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
+
+
+def _calculated(
+    task: SizingTask, specs: Mapping[int, Conveyor]
+) -> dict[int, tuple[CalculatedConveyor, CalculatedConveyor] | str]:
+    """Calculations of specs at the duty's temperature and the lowest."""
+    variants = [Variant(spec) for spec in specs.values()]
+    if task.cold:
+        variants += [Variant(task.colder(spec)) for spec in specs.values()]
+    answers: list[CalculatedConveyor | NoAnswer] = calculate_many(variants, RTOL)
+    warm, cold = answers[: len(specs)], answers[-len(specs) :]
+    return {
+        i: (one, other)
+        if isinstance(one, CalculatedConveyor) and isinstance(other, CalculatedConveyor)
+        else str(other if isinstance(one, CalculatedConveyor) else one)
+        for i, one, other in zip(specs, warm, cold, strict=True)
+    }
+
+
+def _name(task: SizingTask, choice: Choice) -> str:
+    return f"{task.duty.name}"[:100]
+
+
+def _tension(pair: Iterable[CalculatedConveyor]) -> float:
+    """Highest in steady running [N]."""
+    return max(one.belt_duty.largest_steady for one in pair)
+
+
+def _chosen(
+    task: SizingTask, choice: Choice, before: Chosen, pair: tuple[CalculatedConveyor, CalculatedConveyor]
+) -> Chosen:
+    """What calculated tensions ask for; a class is never taken back, so that sizing ends.
+
+    Raises
+    ------
+    NoSolutionError
+        No class of the belt is strong enough, or no motor large enough.
+    """
+    carcass = _carcass(task, choice, _tension(pair))
+    if carcass.strength < before.carcass.strength and _fits(before.carcass, task, choice, pair):
+        carcass = carcass if len(before.motors) == 0 else before.carcass
+    powers = [_powers(one) for one in pair]
+    needed = [max(each) for each in zip(*powers, strict=True)]
+    most = max(needed)
+    if most * task.rules.motor_reserve > task.largest_motor:
+        raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor)")
+    motor = next_motor(most, reserve=task.rules.motor_reserve)
+    brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
+    brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
+    if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
+        brake = before.brake
+    return Chosen(carcass, *carcass.covers(task.wear(choice.speed)), (motor,) * len(needed), brake)
+
+
+def _fits(carcass: CarcassClass, task: SizingTask, choice: Choice, pair: Iterable[CalculatedConveyor]) -> bool:
+    """Whether a stronger class was taken after a weaker one had failed: then it stays."""
+    weaker = [one for one in task.carcasses[choice.kind] if one.strength < carcass.strength]
+    return bool(weaker) and _needed(weaker[-1], choice, _tension(pair)) > 0.98 * weaker[-1].strength
+
+
+def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
+    """Strength that a tension asks of a class [N/m]."""
+    return CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
+
+
+def _carcass(task: SizingTask, choice: Choice, tension: float) -> CarcassClass:
+    """The weakest class that bears a tension.
+
+    Raises
+    ------
+    NoSolutionError
+        None does.
+    """
+    for one in task.carcasses[choice.kind]:
+        if _needed(one, choice, tension) <= one.strength:
+            return one
+    raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
+
+
+def _powers(one: CalculatedConveyor) -> list[float]:
+    """Highest power of every drive, with the friction at both ends of its band [W]."""
+    return [check.calculated or 0.0 for check in checks(one, contacts=False) if check.key == "motor_power"]
+
+
+def _design(
+    task: SizingTask, choice: Choice, chosen: Chosen, pair: tuple[CalculatedConveyor, CalculatedConveyor], estimate: float
+) -> Design | str:  # fmt: skip
+    """The design, or what fails in it."""
+    failed = list(_failed(task, pair))
+    if failed:
+        return failed[0]
+    found, coldest = pair
+    life = _roll_life(found)
+    return Design(choice, chosen, found, coldest, _costs(task, choice, chosen, found, life), estimate, life)
+
+
+def _failed(task: SizingTask, pair: Iterable[CalculatedConveyor]) -> Iterator[str]:
+    """Criteria that fail in either; of penetration and rubber data the report warns."""
+    for one in pair:
+        for check in checks(one, contacts=False):
+            if check.failed:
+                yield check.subject.text("SI")
+        life = _roll_life(one)
+        if life < task.roll_life:
+            yield "L10 life of a roll set (rules.roll_life)"
+
+
+def _roll_life(one: CalculatedConveyor) -> float:
+    """L10 of the set that lives shortest [s]."""
+    lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
+    return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
+
+
+def _costs(
+    task: SizingTask, choice: Choice, chosen: Chosen, found: CalculatedConveyor, life: float
+) -> Costs:  # fmt: skip
+    """Of a calculated design."""
+    width, (count, length, _) = choice.trough.width, choice.trough.width.return_rolls
+    spacings = choice.graduated or (choice.carry,) * len(task.sections)
+    carry = math.fsum(along / apart for (along, _), apart in zip(task.sections, spacings, strict=True))
+    back, first = task.length / choice.back, choice.cover == 0
+    year = found.year
+    parts = Parts(
+        width=width.belt,
+        length=task.length,
+        strength=chosen.carcass.strength,
+        steel_cord=float(chosen.carcass.steel_cord),
+        cover=chosen.top + first * chosen.bottom,
+        special_cover=(not first) * chosen.bottom,
+        sets=carry + back,
+        rolls=3.0 * carry + count * back,
+        roll_mass=3.0 * choice.roll.mass(width.three) * carry + count * choice.roll.mass(length) * back,
+        roll_life=life,
+        drives=float(len(chosen.motors)),
+        power=math.fsum(chosen.motors),
+        pulley_mass=math.fsum(pulley.mass for pulley in found.line.pulleys),
+        take_up=found.balance.settled.setting,
+    )
+    cost = 0.0 if year is None or year.cost is None else year.cost
+    made = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=0.0, energy_price=0.0)
+    return Costs(made.capital, {**made.yearly, "energy": cost})
+
+
+def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
+    """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
+    begin = []
+    for design in designs:
+        apart = graduated_spacing(task, design)
+        begin.append((replace(design.choice, graduated=apart), design.chosen, design.estimate))
+    made = _settled(task, begin)
+    return [
+        new if isinstance(new, Design) and new.year < old.year else old
+        for old, new in zip(designs, made, strict=True)
+    ]
+
+
+def graduated_spacing(task: SizingTask, design: Design) -> tuple[float, ...]:
+    """Distance of the carry sets of each section: the cheapest that sag and rolls bear at the tensions there [m].
+
+    Notes
+    -----
+    Per metre of section, with a distance a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by
+    the scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. The life of the bearings
+    falls with the third power of the load.
+    """
+    prices, line = task.duty.prices.amounts, design.found.line
+    width, roll = design.choice.trough.width, design.choice.roll
+    one_set = 3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
+    yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
+    worth = line.speed / task.efficiency * task.seconds / 3.6e6 * task.energy_price
+    along = {force.key: force.along for force in design.found.balance.along}
+    found = []
+    for i, (length, _) in enumerate(task.sections):
+        stretch = line.stretches[i]
+        now, indentation, rotation = stretch.spacing, along["indentation"], along["idler_rotation"]
+        assert indentation is not None and rotation is not None
+        lowest = min(_lowest(one, i) for one in design.pair)
+        weight = (stretch.belt_mass + stretch.bulk_mass) * line.gravity
+        loosest = 8.0 * task.sags[0] * lowest / weight
+        heaviest = now * (design.roll_life / task.roll_life) ** (1.0 / 3.0)
+        bears = [a for a in task.spacings[0] if a <= min(loosest, heaviest, design.choice.back)] or [now]
+
+        def per_metre(a: float, i: int = i, length: float = length, now: float = now) -> float:
+            friction = indentation[i] * (a / now) ** (1.0 / 3.0) + rotation[i] * now / a
+            return worth * friction / length + yearly / a
+
+        found.append(min(bears, key=per_metre))
+    return tuple(found)
+
+
+def _lowest(one: CalculatedConveyor, section: int) -> float:
+    """Lowest tension of the carry strand in a section in steady running [N]."""
+    steady, at = one.balance.settled.steady, one.line.count + section
+    return float(min(steady.starts[at], steady.ends[at]))
