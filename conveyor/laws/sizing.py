@@ -9,6 +9,9 @@ from __future__ import annotations
 import math
 from typing import Final, Literal
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 Severity = Literal["low", "medium", "high"]
@@ -16,6 +19,13 @@ SEVERITIES: Final[tuple[Severity, ...]] = ("low", "medium", "high")
 
 # CEMA, belt width over the largest lump at 20 and 30 deg surcharge [-]: few lumps among fines, or all lumps
 LUMP_RATIOS: Final = {"mixed": (3.0, 6.0), "sized": (5.0, 10.0)}
+# CEMA, recommended maximum speeds: belt widths up to [m], speed [ft/min]
+FASTEST: Final = {
+    "low": ((0.5, 500), (0.8, 700), (1.1, 800), (math.inf, 1000)),
+    "medium": ((0.5, 400), (0.95, 600), (1.6, 800), (math.inf, 1000)),
+    "high": ((0.5, 350), (0.95, 500), (math.inf, 600)),
+}
+FOOT_PER_MINUTE: Final = 0.3048 / 60.0  # [m/s]
 EDGE_SHARE: Final = 0.055  # [-], CEMA: standard edge distance 0.055 B + 0.9 in
 EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 # DIN 22101, sum of points up to -> addition to the least cover [m]; general knowledge, middle of each range
@@ -67,6 +77,42 @@ def least_width_for_lumps(lump: float, *, surcharge_angle: float, share: Literal
     flat, steep = LUMP_RATIOS[share]
     along = min(1.0, max(0.0, (math.degrees(surcharge_angle) - 20.0) / 10.0))
     return lump * (flat + along * (steep - flat))
+
+
+def recommended_speed(belt_width: float, *, abrasiveness: Severity) -> float:
+    """Highest speed recommended for a belt (CEMA).
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    abrasiveness : {"low", "medium", "high"}
+        Low: grain and the like; medium: coal, soft ores, overburden, fine crushed stone; high: hard, sharp-edged ore,
+        coarse crushed stone.
+
+    Returns
+    -------
+    float
+        v [m/s].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    The table is in inches; a metric width counts to the nearest of its columns (derived). Overland conveyors run
+    faster.
+
+    Examples
+    --------
+    >>> round(recommended_speed(1.2, abrasiveness="medium"), 2)
+    4.06
+    """
+    require_positive(belt_width=belt_width)
+    require(abrasiveness in FASTEST, "abrasiveness", abrasiveness, f"one of {', '.join(FASTEST)} is needed")
+    return next(FOOT_PER_MINUTE * fpm for widest, fpm in FASTEST[abrasiveness] if belt_width <= widest)
 
 
 def standard_edge_distance(belt_width: float) -> float:
@@ -223,19 +269,19 @@ def roll_shell_mass(diameter: float, *, wall: float, length: float) -> float:
     return math.pi * (diameter - wall) * wall * length * STEEL
 
 
-def annuity(years: float, *, interest: float) -> float:
+def annuity(years: ArrayLike, *, interest: float) -> NDArray[np.float64]:
     """Share of a sum to be paid each year of its life, i/(1 - (1 + i)^-n).
 
     Parameters
     ----------
-    years : float
+    years : array_like, shape (n,)
         n [a], positive.
     interest : float
         i a year [-], at least 0; 1/n at 0.
 
     Returns
     -------
-    float
+    ndarray, shape (n,)
         [1/a].
 
     Raises
@@ -245,11 +291,12 @@ def annuity(years: float, *, interest: float) -> float:
 
     Examples
     --------
-    >>> round(annuity(15.0, interest=0.08), 6), annuity(10.0, interest=0.0)
+    >>> float(annuity(15.0, interest=0.08).round(6)), float(annuity(10.0, interest=0.0))
     (0.11683, 0.1)
     """
-    require_positive(years=years)
+    lives = np.asarray(years, dtype=np.float64)
+    require_positive(years=float(lives.min()))
     require_not_negative(interest=interest)
     if interest == 0.0:
-        return 1.0 / years
-    return -interest / math.expm1(-years * math.log1p(interest))
+        return np.asarray(1.0 / lives)
+    return np.asarray(-interest / np.expm1(-lives * math.log1p(interest)))

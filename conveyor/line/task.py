@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
+from conveyor.files import libraries
 from conveyor.laws.belt import PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.sizing import (
     PULLEY_MASS,
     carcass_mass,
     least_width_for_lumps,
+    recommended_speed,
     roll_shell_mass,
     standard_edge_distance,
     wear_addition,
@@ -22,12 +24,13 @@ from conveyor.laws.tension import least_pulley_diameter
 from conveyor.line.usual import SHAFT
 from conveyor.models import Conveyor
 from conveyor.models.sizing import DriveLayout, SiteRules, SizingDuty, sizes
-from conveyor.units import from_si, si
+from conveyor.units import from_si, in_si, si
 
 _LEAST_OVER_CORD: Final = 0.7  # [-], DIN 22131: least cover over the diameter of the cords; general knowledge
 _LEAST_STEEL: Final = 4e-3  # [m], DIN 22131: least cover of steel-cord belts; general knowledge
 _LEAST_TEXTILE: Final = 2e-3  # [m], general knowledge
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
+_OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
 _STEP: Final = 0.5e-3  # [m], of cover thicknesses
 _V_ANGLE: Final = math.radians(10.0)
 _V_FROM: Final = 1.2  # [m], belt width from which return sets are Vs of two rolls; general knowledge
@@ -240,6 +243,16 @@ class SizingTask:
         return si(self.rules.largest_motor)
 
     @property
+    def take_up_travel(self) -> float:
+        """Longest of a take-up [m]."""
+        return si(self.rules.take_up_travel)
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Of carcasses to choose from."""
+        return self.rules.carcasses
+
+    @property
     def cold(self) -> bool:
         """Whether motors and strength are for colder covers than the energy."""
         coldest = self.duty.coldest
@@ -248,24 +261,37 @@ class SizingTask:
     @cached_property
     def speeds(self) -> tuple[float, ...]:
         """To choose from [m/s]."""
-        fastest = si(self.rules.fastest)
-        return tuple(v for v in map(si, self.rules.speeds or sizes().speeds) if v <= fastest)
+        return tuple(map(si, self.rules.speeds or sizes().speeds))
 
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """To choose from, of carry and return sets [m]."""
-        rules = self.rules
-        return (
-            tuple(map(si, rules.carry_spacings or sizes().carry_spacings)),
-            tuple(map(si, rules.return_spacings or sizes().return_spacings)),
-        )
+        rules, wide = self.rules, ", overland" if self.length >= _OVERLAND else ""
+        found = []
+        for strand, asked, series in (
+            ("carry", rules.carry_spacings, sizes().carry_spacings),
+            ("return", rules.return_spacings, sizes().return_spacings),
+        ):
+            widest = in_si(libraries.entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
+            found.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if a <= widest))
+        return found[0], found[1]
+
+    @property
+    def _fitted(self) -> Iterator[float]:
+        """Widths of skirts, cleaners and ploughs that the duty gives [m]."""
+        route = self.duty.sized_route
+        for fitted in (*route.cleaners, *route.ploughs):
+            yield si(fitted.width)
+        for point in route.feeding_points:
+            yield si(point.skirt_width)
 
     @cached_property
     def troughs(self) -> tuple[Trough, ...]:
         """Widths that take the lumps, with every trough angle."""
         rules, surcharge = self.rules, self.duty.material.surcharge
         asked = {si(width) for width in rules.widths}
-        least = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
+        lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
+        least = max([lumps, *self._fitted])
         found = []
         for row in sizes().widths:
             width = WidthSize(si(row.belt), si(row.one), si(row.two), si(row.three))
@@ -282,7 +308,11 @@ class SizingTask:
         return tuple(found)
 
     def filling(self, trough: Trough, speed: float) -> float | None:
-        """Share of the cross-section under bulk [-]; None where rules of filling or edge distance are not kept."""
+        """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""
+        width, given = trough.width.belt, self.rules.fastest
+        fastest = si(given) if given else recommended_speed(width, abrasiveness=self.duty.abrasiveness)
+        if speed > fastest:
+            return None
         area = self.flow / (self.density * speed)
         filling = area / trough.area
         if not si(self.rules.least_filling) <= filling <= si(self.rules.filling):
@@ -293,8 +323,7 @@ class SizingTask:
             trough_angle=trough.angle,
             surcharge_angle=self.duty.material.surcharge,
         )
-        free = 0.5 * (trough.width.belt - under)
-        return filling if free >= standard_edge_distance(trough.width.belt) else None
+        return filling if 0.5 * (width - under) >= standard_edge_distance(width) else None
 
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:

@@ -105,8 +105,8 @@ class SiteRules(Model):
     """Belt widths to choose from; all of the library without."""
     speeds: tuple[Fast, ...] = ()
     """Belt speeds to choose from; all of the library without."""
-    fastest: Fast = quantity("6.6 m/s")
-    """Highest speed of the belt."""
+    fastest: Fast | None = None
+    """Highest speed of the belt; without it that which CEMA recommends for width and material."""
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("90 %")
     """Most of the cross-section of ISO 5048 that the bulk may take."""
     least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
@@ -118,9 +118,9 @@ class SiteRules(Model):
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
     carry_spacings: tuple[Apart, ...] = ()
-    """Distances of carry sets to choose from; those of the library without."""
+    """Distances of carry sets to choose from; without it those in common use, from 1 km on those of overland conveyors."""
     return_spacings: tuple[Apart, ...] = ()
-    """Distances of return sets to choose from; those of the library without."""
+    """The same of return sets."""
     graduated: bool = True
     """Whether the distance of carry sets may differ from section to section."""
     carry_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
@@ -148,6 +148,8 @@ class SiteRules(Model):
     """From motor shaft to belt."""
     start_factor: Annotated[Number, Field(ge=1, le=5)] = 1.3
     """Force of a start over the steady one."""
+    take_up_travel: Annotated[Length, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
+    """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,6 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.sizing import annuity
 
 Value: TypeAlias = "float | NDArray[np.float64]"
-YEAR: Final = 365.25 * 86400.0  # [s]
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,19 +99,14 @@ def costs(
         "pulleys": p["pulley_mass"] * parts.pulley_mass,
         "take-up": p["take_up"] + p["take_up_force"] * parts.take_up,
     }
-    interest, years = p["interest"], p["years"]
-    over = {name: annuity(years, interest=interest) for name in capital}
-    belts = [annuity(p[f"{kind}_life"], interest=interest) for kind in ("textile", "steel_cord")]
-    yearly: dict[str, Value] = {name: over[name] * value for name, value in capital.items()}
-    yearly["belt"] = (belts[0] + steel * (belts[1] - belts[0])) * capital["belt"]
+    interest = p["interest"]
+    over = annuity(p["years"], interest=interest)
+    yearly: dict[str, Value] = {name: over * value for name, value in capital.items()}
+    textile, steel_cord = annuity([p["textile_life"], p["steel_cord_life"]], interest=interest)
+    yearly["belt"] = (textile + steel * (steel_cord - textile)) * capital["belt"]
     worn = np.minimum(parts.roll_life, p["roll_life"]) / seconds
-    yearly["rolls"] = _annuity(np.minimum(worn, 4.0 * years), interest) * capital["rolls"]
+    yearly["rolls"] = annuity(worn, interest=interest) * capital["rolls"]
     yearly["upkeep"] = p["upkeep"] * sum(capital.values(), 0.0)
     yearly["energy"] = energy * energy_price / JOULE_PER_KWH
     return Costs(capital, yearly)
 
-
-def _annuity(years: Value, interest: float) -> Value:
-    """Of lives that differ."""
-    found: Value = np.vectorize(lambda life: annuity(life, interest=interest))(years)
-    return found

@@ -23,9 +23,9 @@ from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many, take_up_of
 from conveyor.sizing.costs import Costs, Parts, costs
-from conveyor.sizing.screen import Levels, Screened, candidates, first_levels, screen
+from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
 
 RTOL: Final = 1e-4
 """Of the contacts, as in studies."""
@@ -139,8 +139,8 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
         No candidate keeps the rules; the message says which rule leaves none.
     """
     task = SizingTask(duty)
-    choices = candidates(task)
-    if not choices:
+    choices = Candidates.of(task)
+    if not len(choices):
         raise NoSolutionError(
             "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
             "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
@@ -154,7 +154,9 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
             "no candidate has a belt, motors and bearings strong enough among the series: allow further carcasses or "
             "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
         )
-    levels = _levels(choices, estimate, probes, _first(task, choices, estimate, probes), levels)
+    first = _first(task, choices, estimate, probes)
+    anchored = next((one for one in first if one is not None), None)
+    levels = _levels(choices, estimate, probes, first, levels)
     for k in range(_SCREENINGS):
         estimate = screen(task, choices, levels)
         new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in known]
@@ -162,7 +164,7 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
             progress(len(known), len(known) + len(new))
         if not new:
             break
-        known |= zip(new, _designs(task, choices, estimate, new), strict=True)
+        known |= zip(new, _designs(task, choices, estimate, new, anchored), strict=True)
         designs = {i: one for i, one in known.items() if isinstance(one, Design)}
         if k == 0 and designs:
             levels = _levels(choices, estimate, list(designs), [one.found for one in designs.values()], levels)
@@ -180,7 +182,7 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
 
 
 def _shortlist(
-    task: SizingTask, choices: Sequence[Choice], estimate: Screened, most: int, *, covers: bool = False
+    task: SizingTask, choices: Candidates, estimate: Screened, most: int, *, covers: bool = False
 ) -> list[int]:
     """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
     taken: Counter[object] = Counter()
@@ -189,7 +191,7 @@ def _shortlist(
         if not math.isfinite(estimate.year[i]) or len(found) == most:
             break
         choice = choices[i]
-        key = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
+        key: object = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
         limit = ALIKE if not covers else max(1, most // len(task.duty.covers))
         if taken[key] < limit:
             taken[key] += 1
@@ -198,7 +200,7 @@ def _shortlist(
 
 
 def _first(
-    task: SizingTask, choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int]
+    task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int]
 ) -> list[CalculatedConveyor | None]:
     """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
     specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
@@ -209,7 +211,7 @@ def _first(
 
 
 def _levels(
-    choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int],
+    choices: Candidates, estimate: Screened, chosen: Sequence[int],
     found: Iterable[CalculatedConveyor | None], levels: Levels,
 ) -> Levels:  # fmt: skip
     """Levels at which the estimate meets calculations in the middle."""
@@ -243,14 +245,20 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
 
 
 def _designs(
-    task: SizingTask, choices: Sequence[Choice], estimate: Screened, chosen: Sequence[int]
+    task: SizingTask,
+    choices: Candidates,
+    estimate: Screened,
+    chosen: Sequence[int],
+    known: CalculatedConveyor | None,
 ) -> list[Design | str]:
     """Candidates calculated exactly."""
     begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
-    return _settled(task, begin)
+    return _settled(task, begin, known)
 
 
-def _settled(task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]]) -> list[Design | str]:
+def _settled(
+    task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]], known: CalculatedConveyor | None
+) -> list[Design | str]:
     """Designs whose class, motors and brake suit their own calculated tensions, or why there is none."""
     choices = [choice for choice, _, _ in begin]
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
@@ -262,7 +270,7 @@ def _settled(task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]]) ->
                 specs[i] = task.spec(choices[i], chosen, _name(task, choices[i]))
             except InputError as error:
                 found[i] = str(error)
-        pairs = _calculated(task, specs)
+        pairs = _calculated(task, specs, known)
         again = {}
         for i, pair in pairs.items():
             try:
@@ -283,13 +291,13 @@ def _settled(task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]]) ->
 
 
 def _calculated(
-    task: SizingTask, specs: Mapping[int, Conveyor]
+    task: SizingTask, specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
 ) -> dict[int, tuple[CalculatedConveyor, CalculatedConveyor] | str]:
     """Calculations of specs at the duty's temperature and the lowest."""
     variants = [Variant(spec) for spec in specs.values()]
     if task.cold:
         variants += [Variant(task.colder(spec)) for spec in specs.values()]
-    answers: list[CalculatedConveyor | NoAnswer] = calculate_many(variants, RTOL)
+    answers: list[CalculatedConveyor | NoAnswer] = calculate_many(variants, RTOL, known=known)
     warm, cold = answers[: len(specs)], answers[-len(specs) :]
     return {
         i: (one, other)
@@ -376,15 +384,17 @@ def _design(
     return Design(choice, chosen, found, coldest, _costs(task, choice, chosen, found, life), estimate, life)
 
 
-def _failed(task: SizingTask, pair: Iterable[CalculatedConveyor]) -> Iterator[str]:
+def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
     """Criteria that fail in either; of penetration and rubber data the report warns."""
     for one in pair:
         for check in checks(one, contacts=False):
             if check.failed:
                 yield check.subject.text("SI")
-        life = _roll_life(one)
-        if life < task.roll_life:
+        if _roll_life(one) < task.roll_life:
             yield "L10 life of a roll set (rules.roll_life)"
+    travel = take_up_of(pair).travel
+    if travel is not None and travel.whole > task.take_up_travel:
+        yield "travel of the take-up (rules.take_up_travel)"
 
 
 def _roll_life(one: CalculatedConveyor) -> float:
@@ -428,8 +438,9 @@ def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
     begin = []
     for design in designs:
         apart = graduated_spacing(task, design)
-        begin.append((replace(design.choice, graduated=apart), design.chosen, design.estimate))
-    made = _settled(task, begin)
+        changed = replace(design.choice, graduated=apart) if len(set(apart)) > 1 else design.choice
+        begin.append((changed, design.chosen, design.estimate))
+    made = _settled(task, begin, designs[0].found)
     return [
         new if isinstance(new, Design) and new.year < old.year else old
         for old, new in zip(designs, made, strict=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -20,7 +20,9 @@ from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.loading import middle_share_belt, middle_share_bulk
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
-from conveyor.line.task import Choice, SizingTask, spread
+from conveyor.laws.take_up import PERMANENT_STRETCH_STEEL_CORD, PERMANENT_STRETCH_TEXTILE
+from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
+from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
 from conveyor.sizing.costs import Parts, costs
 
@@ -31,7 +33,6 @@ _WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
 _CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.usual`
 _SKIRTS: Final = 2.0 * 0.7 * 9.81 / 0.625**2  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
 _SET: Final = 0.5  # life of the bearings of a set over that of the heaviest loaded alone
-_ANYWHERE: Final = 1e9  # [N]
 _ROUNDS: Final = 4  # class of the belt, its mass, its tensions
 
 
@@ -53,20 +54,57 @@ def first_levels(covers: int) -> Levels:
     return Levels((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
 
 
-def candidates(task: SizingTask) -> list[Choice]:
-    """Every combination that keeps the rules of width, lumps, filling, edge distance, and rotation."""
-    found = []
-    for trough, speed in itertools.product(task.troughs, task.speeds):
-        filling = task.filling(trough, speed)
-        if filling is None:
-            continue
-        rolls = [roll for roll in task.rolls if task.turns_slowly(roll, speed)]
-        for roll, carry, back, cover, kind, drives in itertools.product(
-            rolls, *task.spacings, range(len(task.duty.covers)), task.carcasses, task.rules.drives
-        ):
-            if carry <= back:
-                found.append(Choice(trough, speed, filling, roll, carry, back, cover, kind, drives))
-    return found
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Every combination that keeps the rules of width, lumps, filling, edge distance, and rotation.
+
+    Attributes
+    ----------
+    running : tuple of (Trough, speed, filling, RollSize)
+        Troughs with a speed and rolls that suit it [m/s, -].
+    numbers : ndarray of int, shape (n, 6)
+        Of each candidate the number of what runs, of the distances of carry and return sets, of cover, kind of carcass
+        and place of the drives.
+    """
+
+    task: SizingTask
+    running: tuple[tuple[Trough, float, float, RollSize], ...]
+    numbers: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, task: SizingTask) -> Candidates:
+        """Combine what a duty leaves open."""
+        running = tuple(
+            (trough, speed, filling, roll)
+            for trough, speed in itertools.product(task.troughs, task.speeds)
+            if (filling := task.filling(trough, speed)) is not None
+            for roll in task.rolls
+            if task.turns_slowly(roll, speed)
+        )
+        carry, back = task.spacings
+        series = (running, carry, back, task.duty.covers, task.kinds, task.rules.drives)
+        numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T
+        apart = np.array(carry)[numbers[:, 1]] <= np.array(back)[numbers[:, 2]]
+        return cls(task, running, numbers[apart])
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, i: int) -> Choice:
+        ran, carry, back, cover, kind, drives = self.numbers[i].tolist()
+        task = self.task
+        return Choice(
+            *self.running[ran], task.spacings[0][carry], task.spacings[1][back], cover, task.kinds[kind],
+            task.rules.drives[drives],
+        )  # fmt: skip
+
+    def runs(self, get: Callable[[Trough, float, float, RollSize], float]) -> Array:
+        """A figure of trough, speed and rolls, of each candidate."""
+        return np.array([get(*one) for one in self.running])[self.numbers[:, 0]]
+
+    def driven(self, get: Callable[[DriveLayout], float]) -> Array:
+        """A figure of the place of the drives, of each candidate."""
+        return np.array([get(one) for one in self.task.rules.drives])[self.numbers[:, 5]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,118 +135,102 @@ class Screened:
     rest: Array
 
 
-def screen(task: SizingTask, choices: Sequence[Choice], levels: Levels) -> Screened:
+def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     """Estimate every candidate."""
-
-    def each(get: object) -> Array:
-        return np.array([get(choice) for choice in choices], dtype=float)  # type: ignore[operator]
-
-    g, length = task.gravity, task.length
-    width, speed = each(lambda c: c.trough.width.belt), each(lambda c: c.speed)
-    carry, back, diameter = each(lambda c: c.carry), each(lambda c: c.back), each(lambda c: c.roll.diameter)
-    three = each(lambda c: c.trough.width.three)
-    count, flat = each(lambda c: c.trough.width.return_rolls[0]), each(lambda c: c.trough.width.return_rolls[1])
-    bulk = task.flow / speed
-    shares = {(c.trough.angle, c.trough.width.belt): (
-        middle_share_bulk(c.trough.angle), middle_share_belt(c.trough.width.three, belt_width=c.trough.width.belt)
-    ) for c in choices}  # fmt: skip
-    of_bulk, of_belt = np.array([shares[c.trough.angle, c.trough.width.belt] for c in choices]).T
-    wear = {v: task.wear(v) for v in set(speed.tolist())}
+    g, length, numbers, sections = task.gravity, task.length, every.numbers, np.array(task.sections)
+    ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
+    width, speed = every.runs(lambda t, v, f, r: t.width.belt), every.runs(lambda t, v, f, r: v)
+    diameter, three = every.runs(lambda t, v, f, r: r.diameter), every.runs(lambda t, v, f, r: t.width.three)
+    carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
+    count, flat = (every.runs(lambda t, v, f, r, k=k: t.width.return_rolls[k]) for k in (0, 1))
+    of_bulk = every.runs(lambda t, v, f, r: middle_share_bulk(t.angle))
+    of_belt = every.runs(lambda t, v, f, r: middle_share_belt(t.width.three, belt_width=t.width.belt))
+    bulk, wear = task.flow / speed, np.array([task.wear(v) for _, v, _, _ in every.running])
     rest = task.flow * speed + _CLEANERS * width + _SKIRTS * bulk**2 / (task.density * width**2) * speed
     rest *= levels.rest
-    rolls = 3.0 * length / carry + count * length / back
-    sections = np.array(task.sections)
-    carcass = np.zeros(len(choices), dtype=np.int64)
-    kinds = {kind: (each(lambda c, kind=kind: c.kind == kind) > 0.0, classes) for kind, classes in task.carcasses.items()}  # fmt: skip
-    possible = np.ones(len(choices), dtype=bool)
+    per_metre = np.array([3.0 / carry, count / back])
+    steel = np.array([one == "steel cord" for one in task.kinds])[kind]
+    series = [task.carcasses[one] for one in task.kinds]
+    most = max(map(len, series))
+    strengths = np.array([[*(one.strength for one in each), *[np.inf] * (most - len(each))] for each in series])
+    masses = np.array([[*(one.mass for one in each), *[0.0] * (most - len(each))] for each in series])
+    covers = np.array([
+        [[series[j][min(k, len(series[j]) - 1)].covers(addition) for addition in wear.tolist()] for k in range(most)]
+        for j in range(len(series))
+    ])  # fmt: skip
+    safety = np.where(steel, CLASSIC_SAFETY["steel cord"], CLASSIC_SAFETY["textile"])
+    carcass = np.zeros(len(every), dtype=np.int64)
+    last = np.array([len(each) - 1 for each in series])[kind]
+    stretched = np.where(steel, PERMANENT_STRETCH_STEEL_CORD.value, PERMANENT_STRETCH_TEXTILE.value) * length
+    possible = stretched <= task.take_up_travel
+    on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
+    k_carry, k_back = np.array(levels.carry)[cover], np.array(levels.back)[cover]
+    sags = np.array(task.sags)[:, None]
     for _ in range(_ROUNDS):
-        strength, belt_mass, top, bottom = (np.empty(len(choices)) for _ in range(4))
-        for mine, classes in kinds.values():
-            covers = {(k, v): one.covers(wear[v]) for k, one in enumerate(classes) for v in wear}
-            chosen = [covers[k, v] for k, v in zip(carcass[mine].tolist(), speed[mine].tolist(), strict=True)]
-            top[mine], bottom[mine] = np.array(chosen).reshape(-1, 2).T
-            strength[mine] = np.array([one.strength for one in classes])[carcass[mine]]
-            belt_mass[mine] = np.array([one.mass for one in classes])[carcass[mine]]
-        belt_mass = width * (belt_mass + 1150.0 * (top + bottom))
-        middle = (of_bulk * bulk + of_belt * belt_mass) * g * carry
-        wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt_mass) * g * carry
-        on_wing = np.minimum(three, 0.5 * (width - three))
-        k_carry = np.array(levels.carry)[[c.cover for c in choices]] * (bottom / diameter**2) ** (1.0 / 3.0)
-        k_back = np.array(levels.back)[[c.cover for c in choices]] * (top / diameter**2) ** (1.0 / 3.0)
+        top, bottom = covers[kind, carcass, ran].T
+        belt = width * (masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
+        middle = (of_bulk * bulk + of_belt * belt) * g * carry
+        wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
         per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
-        wide = np.minimum(width, count * flat)
         indentation = np.array([
-            k_carry * per_set * length / carry,
-            k_back * wide * (belt_mass * g * back / wide) ** _LOAD * length / back,
+            k_carry * (bottom / diameter**2) ** (1.0 / 3.0) * per_set * length / carry,
+            k_back * (top / diameter**2) ** (1.0 / 3.0) * wide * (belt * g * back / wide) ** _LOAD * length / back,
         ])  # fmt: skip
-        bent = FLEXURE_COEFFICIENT.value * g * np.array(task.sags)[:, None] * [belt_mass + bulk, belt_mass] * length
-        turning = levels.drag * np.array([3.0 * length / carry, count * length / back])
-        friction = (indentation + turning + bent) / length
-        up = np.outer(bulk + belt_mass, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
-        down = np.outer(-belt_mass, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
+        bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
+        friction = indentation / length + levels.drag * per_metre + bent
+        up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
+        down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
         up[:, 0] += rest
         force = up.sum(axis=1) + down.sum(axis=1)
-        slack, largest = _tensions(task, choices, force, down[:, ::-1], up, belt_mass, bulk, carry, back)
-        for kind, (mine, classes) in kinds.items():
-            safety = CLASSIC_SAFETY["steel cord" if kind == "steel cord" else "textile"]
-            needed = safety * largest[mine] / width[mine]
-            carcass[mine] = np.searchsorted([one.strength for one in classes], needed)
-            possible[mine] = carcass[mine] < len(classes)
-            carcass[mine] = np.minimum(carcass[mine], len(classes) - 1)
-    power = np.abs(force) * speed / task.efficiency
-    drives = each(lambda c: len(spread(1.0, c.drives)))
-    possible &= power * task.rules.motor_reserve <= drives * task.largest_motor
-    possible &= (each(lambda c: c.drives == "tail") > 0.0) == (force < 0.0)
-    rating = each(lambda c: c.roll.rating)
-    hours = RATED_REVOLUTIONS * (rating / (0.5 * middle)) ** BALL_EXPONENT / (speed / (math.pi * diameter))
-    possible &= _SET * hours >= task.roll_life
-    prices, first = task.duty.prices.amounts, each(lambda c: c.cover == 0)
-    masses = {(c.roll.diameter, c.trough.width.belt): (
-        3.0 * c.roll.mass(c.trough.width.three), c.trough.width.return_rolls[0] * c.roll.mass(c.trough.width.return_rolls[1])
-    ) for c in choices}  # fmt: skip
-    of_set, of_back = np.array([masses[c.roll.diameter, c.trough.width.belt] for c in choices]).T
-    pulleys = {(c.kind, k, c.trough.width.belt): task.pulley_mass(task.carcasses[c.kind][k], c.trough.width.belt)
-               for c, k in zip(choices, carcass.tolist(), strict=True)}  # fmt: skip
+        slack, largest = _tensions(every, force, down[:, ::-1], up, belt * g * back, (belt + bulk) * g * carry)
+        needed = safety * largest / width
+        carcass = (strengths[kind] < needed[:, None]).sum(axis=1)
+        strong = carcass <= last
+        carcass = np.minimum(carcass, last)
+    power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
+    hours = RATED_REVOLUTIONS * (every.runs(lambda t, v, f, r: r.rating) / (0.5 * middle)) ** BALL_EXPONENT
+    life = _SET * hours * math.pi * diameter / speed
+    possible &= strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
+    possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
+    pulleys = np.array([
+        [task.pulley_mass(each[min(k, len(each) - 1)], 1.0) for k in range(most)] for each in series
+    ])  # fmt: skip
+    turning = [
+        every.runs(lambda t, v, f, r: 3.0 * r.mass(t.width.three)),
+        every.runs(lambda t, v, f, r: t.width.return_rolls[0] * r.mass(t.width.return_rolls[1])),
+    ]
+    first = cover == 0
     parts = Parts(
-        width=width, length=length, strength=strength, steel_cord=each(lambda c: c.kind == "steel cord"),
-        cover=top + first * bottom, special_cover=(1.0 - first) * bottom,
-        sets=length / carry + length / back, rolls=rolls,
-        roll_mass=of_set * length / carry + of_back * length / back, roll_life=_SET * hours,
-        drives=drives, power=power * task.rules.motor_reserve,
-        pulley_mass=np.array([pulleys[c.kind, k, c.trough.width.belt] for c, k in zip(choices, carcass.tolist(), strict=True)]),
-        take_up=slack,
+        width=width, length=length, strength=strengths[kind, carcass], steel_cord=steel.astype(float),
+        cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
+        rolls=length * per_metre.sum(axis=0), roll_mass=length * (turning[0] / carry + turning[1] / back),
+        roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
+        pulley_mass=pulleys[kind, carcass] * width, take_up=slack,
     )  # fmt: skip
     energy = np.maximum(0.0, force) * speed / task.efficiency * task.seconds
-    year = costs(parts, prices, seconds=task.seconds, energy=energy, energy_price=task.energy_price).year
-    return Screened(
-        np.where(possible, year, np.inf), carcass, force, indentation.T, rolls, rest
-    )
+    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy, energy_price=task.energy_price)
+    year = np.where(possible, cost.year, np.inf)
+    return Screened(year, carcass, force, indentation.T, length * per_metre.sum(axis=0), rest)
 
 
 def _tensions(
-    task: SizingTask, choices: Sequence[Choice], force: Array, down: Array, up: Array, belt: Array, bulk: Array,
-    carry: Array, back: Array,
-) -> tuple[Array, Array]:  # fmt: skip
-    """Tension right behind the head, and the largest one, by grip and sag [N]."""
-    at_tail = np.array([_at_tail(choice.drives) for choice in choices])
+    every: Candidates, force: Array, down: Array, up: Array, span_back: Array, span_carry: Array
+) -> tuple[Array, Array]:
+    """Tension right behind the head, and the largest one, by grip and sag; spans are loads between two sets [N]."""
+    task, at_tail = every.task, every.driven(_at_tail)
     friction, wrap = task.grip
-    pulleys = np.array([2.0 if choice.drives == "head, two pulleys" else 1.0 for choice in choices])
-    grips = [1.0 / np.expm1(friction * wrap * pulleys), np.full(len(choices), 1.0 / math.expm1(friction * wrap))]
+    grips = 1.0 / np.expm1(friction * wrap * every.driven(lambda one: 2.0 if one == "head, two pulleys" else 1.0))
     start = task.rules.start_factor
     returning = np.cumsum(down, axis=1)
     before_tail = returning[:, -1]
-    carrying = np.cumsum(up, axis=1) + (before_tail - at_tail * force)[:, None]
-    head = (1.0 - at_tail) * force
-    g, (carry_sag, return_sag) = task.gravity, task.sags
-    least_carry = (belt + bulk) * g * carry / (8.0 * carry_sag)
-    least_back = belt * g * back / (8.0 * return_sag)
     after_tail = before_tail - at_tail * force
+    carrying = np.cumsum(up, axis=1) + after_tail[:, None]
+    head, (carry_sag, return_sag) = (1.0 - at_tail) * force, task.sags
     slack = np.max([
-        least_back,
-        least_back - returning.min(axis=1),
-        least_carry - np.minimum(after_tail, carrying.min(axis=1)),
-        start * np.abs(head) * grips[0] - np.minimum(0.0, head),
-        start * np.abs(at_tail * force) * grips[1] - np.minimum(before_tail, after_tail),
+        span_back / (8.0 * return_sag) - np.minimum(0.0, returning.min(axis=1)),
+        span_carry / (8.0 * carry_sag) - np.minimum(after_tail, carrying.min(axis=1)),
+        start * np.abs(head) * grips - np.minimum(0.0, head),
+        start * np.abs(at_tail * force) * grips - np.minimum(before_tail, after_tail),
     ], axis=0)  # fmt: skip
     highest = np.maximum(np.maximum(0.0, returning.max(axis=1)), np.maximum(after_tail, carrying.max(axis=1)))
     return slack, slack + highest
