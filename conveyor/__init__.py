@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         CaseStudy,
         Comparison,
         DutyStudy,
+        Sizing,
         VerificationSheet,
         analyse,
         analyse_cases,
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
         calibrate,
         compare,
         compare_compounds,
+        size,
         verify_sheet,
     )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
@@ -47,6 +49,7 @@ _WHERE = {
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
+    "Sizing": "conveyor.analysis",
     "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
@@ -55,6 +58,7 @@ _WHERE = {
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
+    "size": "conveyor.analysis",
     "verify_sheet": "conveyor.analysis",
 }
 
@@ -70,6 +74,7 @@ __all__ = [
     "NoSolutionError",
     "RangeError",
     "RubberCompound",
+    "Sizing",
     "ValidityWarning",
     "VerificationSheet",
     "__version__",
@@ -80,6 +85,7 @@ __all__ = [
     "compare",
     "compare_compounds",
     "load",
+    "size",
     "verify_sheet",
 ]
 

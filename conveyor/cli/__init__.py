@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from conveyor.cli import anchor, calibrate, compare, dynamics, new, power, rubber, study, tools, verify  # noqa: F401 each registers its commands
+from conveyor.cli import anchor, calibrate, compare, dynamics, new, power, rubber, size, study, tools, verify  # noqa: F401 each registers its commands
 from conveyor.cli.app import app
 from conveyor.cli.run import main
 

@@ -44,7 +44,7 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet",
+    "new", "size", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet",
     "contact", "validate", "schema",
 )  # fmt: skip
 

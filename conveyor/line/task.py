@@ -145,6 +145,8 @@ class Choice:
         Where they stand.
     graduated : tuple of float
         Distance of carry sets of each section [m]; empty where it is `carry`.
+    thicker : float
+        Bottom cover beyond the least one [m].
     """
 
     trough: Trough
@@ -157,17 +159,22 @@ class Choice:
     kind: str
     drives: DriveLayout
     graduated: tuple[float, ...] = ()
+    thicker: float = 0.0
 
 
 @dataclass(frozen=True)
 class Chosen:
-    """What follows from a candidate's tensions: class, covers [m], motor of each drive [W], brakes at the belt [N]."""
+    """What follows from a candidate's tensions: class, covers [m], motor of each drive [W], brakes at the belt [N].
+
+    `settling`: whether it does from exact ones already.
+    """
 
     carcass: CarcassClass
     top: float
     bottom: float
     motors: tuple[float, ...]
     brake: float
+    settling: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -355,6 +362,11 @@ class SizingTask:
             abrasiveness=duty.abrasiveness,
             loading=duty.loading,
         )
+
+    def covers(self, choice: Choice, carcass: CarcassClass) -> tuple[float, float]:
+        """Top and bottom cover of a candidate with a class of belt [m]."""
+        top, bottom = carcass.covers(self.wear(choice.speed))
+        return top, bottom + choice.thicker
 
     def spec(self, choice: Choice, chosen: Chosen, name: str) -> Conveyor:
         """The complete spec of a candidate.

@@ -120,6 +120,11 @@ class CalculatedSizing:
         """The duty in SI."""
         return SizingTask(self.duty)
 
+    @property
+    def best(self) -> Design:
+        """The cheapest one."""
+        return self.designs[0]
+
 
 def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) -> CalculatedSizing:
     """Size a conveyor from its duty.
@@ -241,7 +246,7 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
     motors = tuple(next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives))
-    return Chosen(carcass, *carcass.covers(task.wear(choice.speed)), motors, 0.0)
+    return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
 def _designs(
@@ -253,13 +258,23 @@ def _designs(
 ) -> list[Design | str]:
     """Candidates calculated exactly."""
     begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
-    return _settled(task, begin, known)
+    return settled(task, begin, known)
 
 
-def _settled(
+def settled(
     task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]], known: CalculatedConveyor | None
 ) -> list[Design | str]:
-    """Designs whose class, motors and brake suit their own calculated tensions, or why there is none."""
+    """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
+
+    Parameters
+    ----------
+    task : SizingTask
+        The duty.
+    begin : sequence of (Choice, Chosen, float)
+        Candidates, class and motors to begin with, cost of a year by the estimate.
+    known : CalculatedConveyor, optional
+        Calculated already: the anchors of its compounds are taken over.
+    """
     choices = [choice for choice, _, _ in begin]
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
     found: dict[int, Design | str] = {}
@@ -267,7 +282,7 @@ def _settled(
         specs: dict[int, Conveyor] = {}
         for i, chosen in now.items():
             try:
-                specs[i] = task.spec(choices[i], chosen, _name(task, choices[i]))
+                specs[i] = task.spec(choices[i], chosen, task.duty.name)
             except InputError as error:
                 found[i] = str(error)
         pairs = _calculated(task, specs, known)
@@ -280,7 +295,7 @@ def _settled(
             except (NoSolutionError, RangeError) as error:
                 found[i] = str(error)
                 continue
-            if wanted != now[i]:
+            if replace(wanted, settling=now[i].settling) != now[i]:
                 again[i] = wanted
             else:
                 found[i] = _design(task, choices[i], now[i], pair, begin[i][2])
@@ -307,10 +322,6 @@ def _calculated(
     }
 
 
-def _name(task: SizingTask, choice: Choice) -> str:
-    return f"{task.duty.name}"[:100]
-
-
 def _tension(pair: Iterable[CalculatedConveyor]) -> float:
     """Highest in steady running [N]."""
     return max(one.belt_duty.largest_steady for one in pair)
@@ -319,16 +330,19 @@ def _tension(pair: Iterable[CalculatedConveyor]) -> float:
 def _chosen(
     task: SizingTask, choice: Choice, before: Chosen, pair: tuple[CalculatedConveyor, CalculatedConveyor]
 ) -> Chosen:
-    """What calculated tensions ask for; a class is never taken back, so that sizing ends.
+    """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
 
     Raises
     ------
     NoSolutionError
         No class of the belt is strong enough, or no motor large enough.
     """
-    carcass = _carcass(task, choice, _tension(pair))
-    if carcass.strength < before.carcass.strength and _fits(before.carcass, task, choice, pair):
-        carcass = carcass if len(before.motors) == 0 else before.carcass
+    tension = _tension(pair)
+    carcass = next((one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None)
+    if carcass is None:
+        raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
+    if before.settling and carcass.strength < before.carcass.strength:
+        carcass = before.carcass
     powers = [_powers(one) for one in pair]
     needed = [max(each) for each in zip(*powers, strict=True)]
     most = max(needed)
@@ -339,32 +353,12 @@ def _chosen(
     brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
         brake = before.brake
-    return Chosen(carcass, *carcass.covers(task.wear(choice.speed)), (motor,) * len(needed), brake)
-
-
-def _fits(carcass: CarcassClass, task: SizingTask, choice: Choice, pair: Iterable[CalculatedConveyor]) -> bool:
-    """Whether a stronger class was taken after a weaker one had failed: then it stays."""
-    weaker = [one for one in task.carcasses[choice.kind] if one.strength < carcass.strength]
-    return bool(weaker) and _needed(weaker[-1], choice, _tension(pair)) > 0.98 * weaker[-1].strength
+    return Chosen(carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, settling=True)
 
 
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
     """Strength that a tension asks of a class [N/m]."""
     return CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
-
-
-def _carcass(task: SizingTask, choice: Choice, tension: float) -> CarcassClass:
-    """The weakest class that bears a tension.
-
-    Raises
-    ------
-    NoSolutionError
-        None does.
-    """
-    for one in task.carcasses[choice.kind]:
-        if _needed(one, choice, tension) <= one.strength:
-            return one
-    raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
 
 
 def _powers(one: CalculatedConveyor) -> list[float]:
@@ -440,7 +434,7 @@ def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
         apart = graduated_spacing(task, design)
         changed = replace(design.choice, graduated=apart) if len(set(apart)) > 1 else design.choice
         begin.append((changed, design.chosen, design.estimate))
-    made = _settled(task, begin, designs[0].found)
+    made = settled(task, begin, designs[0].found)
     return [
         new if isinstance(new, Design) and new.year < old.year else old
         for old, new in zip(designs, made, strict=True)
