@@ -225,6 +225,12 @@ class SizingTask:
         return 0.0 if price is None else price.amount
 
     @property
+    def feed_in_price(self) -> float:
+        """Of energy fed back [currency/kWh]; 0 without one."""
+        credit = self.duty.operation.feed_in_price
+        return 0.0 if credit is None else credit.amount
+
+    @property
     def roll_life(self) -> float:
         """L10 asked of a set [s]."""
         return si(self.rules.roll_life)

@@ -77,13 +77,16 @@ def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, 
     yield (
         "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
     )  # fmt: skip
-    yield "belt speed", "speed", base.speed, [(speed, _at_speed(task, base, speed)) for speed in task.speeds]
+    yield "belt speed, each with the narrowest belt", "speed", base.speed, [(speed, _at_speed(task, base, speed)) for speed in task.speeds]
     thicker = [(bottom + more, replace(base, thicker=base.thicker + more)) for more in _THICKER]
     yield "bottom cover", "size", bottom, thicker
 
 
 def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
-    """The choice at another speed; with the least rolls that turn slowly enough where its own do not."""
-    filling = task.filling(base.trough, speed)
+    """The choice at another speed: the narrowest belt that keeps the rules, rolls no smaller that turn slowly enough."""
+    alike = sorted((one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt)
+    fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
     rolls = [roll for roll in task.rolls if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter]
-    return replace(base, speed=speed, filling=filling, roll=rolls[0]) if filling is not None and rolls else None
+    if not fits or not rolls:
+        return None
+    return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])

@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.sizing import annuity
 
 Value: TypeAlias = "float | NDArray[np.float64]"
@@ -58,9 +57,7 @@ class Costs:
         return sum(self.yearly.values(), 0.0)
 
 
-def costs(
-    parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value, energy_price: float
-) -> Costs:
+def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value) -> Costs:
     """Cost a conveyor.
 
     Parameters
@@ -72,9 +69,7 @@ def costs(
     seconds : float
         Of running in a year [s].
     energy : float or ndarray
-        Cost of a year's energy where `energy_price` is 1, else drawn energy of a year [J].
-    energy_price : float
-        [currency/kWh].
+        Cost of a year's energy [currency/a].
 
     Returns
     -------
@@ -107,6 +102,6 @@ def costs(
     worn = np.minimum(parts.roll_life, p["roll_life"]) / seconds
     yearly["rolls"] = annuity(worn, interest=interest) * capital["rolls"]
     yearly["upkeep"] = p["upkeep"] * sum(capital.values(), 0.0)
-    yearly["energy"] = energy * energy_price / JOULE_PER_KWH
+    yearly["energy"] = energy
     return Costs(capital, yearly)
 

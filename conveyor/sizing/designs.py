@@ -18,6 +18,7 @@ from conveyor.checks import Check, checks
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.energy import next_motor
+from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.roll_lives import shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
@@ -26,17 +27,18 @@ from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many, take_up_of
 from conveyor.sizing.costs import Costs, Parts, costs
 from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
+from conveyor.studies.states import at_one_take_up, load_states
 
 RTOL: Final = 1e-4
 """Of the contacts, as in studies."""
-CALCULATED: Final = 24
+CALCULATED: Final = 16
 """Candidates calculated at once, the best of the estimate."""
-ALIKE: Final = 3
+ALIKE: Final = 2
 """Of them of one width, speed and place of drives, so that the list shows what else could be built."""
-BRAKE_RESERVE: Final = 1.5
+BRAKE_RESERVE: Final = 1.3
 """Brake force over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
-_SCREENINGS: Final = 3  # levels of the estimate against calculated candidates
+_SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
 _NO_LIFE: Final = 1e12  # [s], of rolls without load
 
 
@@ -175,15 +177,34 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
             levels = _levels(choices, estimate, list(designs), [one.found for one in designs.values()], levels)
     reasons = Counter(one for one in known.values() if isinstance(one, str))
     if not designs:
-        told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
-        raise NoSolutionError(f"no candidate of {len(known)} calculated keeps every check: {told}")
+        raise NoSolutionError(_none(reasons, len(known)))
     off = max(abs(float(estimate.year[i]) / one.year - 1.0) for i, one in designs.items())
-    ranked = sorted(designs.values(), key=lambda design: design.year)[:best]
+    ranked = sorted(designs.values(), key=_year)
     if duty.rules.graduated and len(task.sections) > 1:
-        ranked = sorted(_graduated(task, ranked), key=lambda design: design.year)
+        ranked = sorted([*_graduated(task, ranked[:best]), *ranked[best:]], key=_year)
+    final: list[Design] = []
+    while ranked and (len(final) < best or ranked[0].year < sorted(map(_year, final))[best - 1]):
+        batch, ranked = ranked[:best], ranked[best:]
+        for one in settled(task, [(d.choice, d.chosen, d.estimate) for d in batch], anchored, every_load=True):
+            if isinstance(one, Design):
+                final.append(one)
+            else:
+                reasons[one] += 1
+    if not final:
+        raise NoSolutionError(_none(reasons, len(known)))
+    possible = int(np.isfinite(estimate.year).sum())
     return CalculatedSizing(
-        duty, tuple(ranked), len(choices), int(np.isfinite(estimate.year).sum()), len(known), reasons, off
+        duty, tuple(sorted(final, key=_year)[:best]), len(choices), possible, len(known), reasons, off
     )
+
+
+def _year(design: Design) -> float:
+    return design.year
+
+
+def _none(reasons: Counter[str], calculated: int) -> str:
+    told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
+    return f"no candidate of {calculated} calculated keeps every check: {told}"
 
 
 def _shortlist(
@@ -262,7 +283,11 @@ def _designs(
 
 
 def settled(
-    task: SizingTask, begin: Sequence[tuple[Choice, Chosen, float]], known: CalculatedConveyor | None
+    task: SizingTask,
+    begin: Sequence[tuple[Choice, Chosen, float]],
+    known: CalculatedConveyor | None,
+    *,
+    every_load: bool = False,
 ) -> list[Design | str]:
     """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
 
@@ -274,52 +299,58 @@ def settled(
         Candidates, class and motors to begin with, cost of a year by the estimate.
     known : CalculatedConveyor, optional
         Calculated already: the anchors of its compounds are taken over.
+    every_load : bool
+        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
     """
-    choices = [choice for choice, _, _ in begin]
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
     found: dict[int, Design | str] = {}
+    sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
     for _ in range(_SIZINGS):
         specs: dict[int, Conveyor] = {}
         for i, chosen in now.items():
             try:
-                specs[i] = task.spec(choices[i], chosen, task.duty.name)
+                specs[i] = task.spec(begin[i][0], chosen, task.duty.name)
             except InputError as error:
                 found[i] = str(error)
-        pairs = _calculated(task, specs, known)
+        coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
         again = {}
-        for i, pair in pairs.items():
+        for i, answer in _calculated(coldest, known).items():
             try:
-                if isinstance(pair, str):
-                    raise NoSolutionError(pair)
-                wanted = _chosen(task, choices[i], now[i], pair)
-            except (NoSolutionError, RangeError) as error:
+                if not isinstance(answer, CalculatedConveyor):
+                    raise answer
+                loads = tuple(_loads(answer)) if every_load else (answer,)
+                wanted = _chosen(task, begin[i][0], now[i], loads)
+            except (NoSolutionError, RangeError, InputError) as error:
                 found[i] = str(error)
                 continue
-            if replace(wanted, settling=now[i].settling) != now[i]:
-                again[i] = wanted
+            if replace(wanted, settling=now[i].settling) == now[i]:
+                sized[i] = now[i], specs[i], loads
             else:
-                found[i] = _design(task, choices[i], now[i], pair, begin[i][2])
+                again[i] = wanted
         now = again
         if not now:
             break
+    warm = _calculated({i: spec for i, (_, spec, _) in sized.items()}, known) if task.cold else {}
+    for i, (chosen, _, loads) in sized.items():
+        answer = warm.get(i, loads[0])
+        found[i] = (
+            _design(task, begin[i], chosen, answer, loads) if isinstance(answer, CalculatedConveyor) else str(answer)
+        )
     return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
 
 
 def _calculated(
-    task: SizingTask, specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
-) -> dict[int, tuple[CalculatedConveyor, CalculatedConveyor] | str]:
-    """Calculations of specs at the duty's temperature and the lowest."""
-    variants = [Variant(spec) for spec in specs.values()]
-    if task.cold:
-        variants += [Variant(task.colder(spec)) for spec in specs.values()]
-    answers: list[CalculatedConveyor | NoAnswer] = calculate_many(variants, RTOL, known=known)
-    warm, cold = answers[: len(specs)], answers[-len(specs) :]
-    return {
-        i: (one, other)
-        if isinstance(one, CalculatedConveyor) and isinstance(other, CalculatedConveyor)
-        else str(other if isinstance(one, CalculatedConveyor) else one)
-        for i, one, other in zip(specs, warm, cold, strict=True)
-    }
+    specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Calculations of specs, side by side."""
+    return dict(zip(specs, calculate_many([Variant(spec) for spec in specs.values()], RTOL, known=known), strict=True))
+
+
+def _loads(one: CalculatedConveyor) -> Iterator[CalculatedConveyor]:
+    """The full belt and every other load at one take-up."""
+    states, _ = at_one_take_up(load_states(one.conveyor, one), None)
+    yield states.own
+    yield from (load for _, load in states.loads)
 
 
 def _tension(pair: Iterable[CalculatedConveyor]) -> float:
@@ -328,7 +359,7 @@ def _tension(pair: Iterable[CalculatedConveyor]) -> float:
 
 
 def _chosen(
-    task: SizingTask, choice: Choice, before: Chosen, pair: tuple[CalculatedConveyor, CalculatedConveyor]
+    task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]
 ) -> Chosen:
     """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
 
@@ -367,15 +398,19 @@ def _powers(one: CalculatedConveyor) -> list[float]:
 
 
 def _design(
-    task: SizingTask, choice: Choice, chosen: Chosen, pair: tuple[CalculatedConveyor, CalculatedConveyor], estimate: float
-) -> Design | str:  # fmt: skip
+    task: SizingTask,
+    begin: tuple[Choice, Chosen, float],
+    chosen: Chosen,
+    found: CalculatedConveyor,
+    loads: Sequence[CalculatedConveyor],
+) -> Design | str:
     """The design, or what fails in it."""
-    failed = list(_failed(task, pair))
-    if failed:
-        return failed[0]
-    found, coldest = pair
+    failed = next(_failed(task, (found, *loads)), None)
+    if failed is not None:
+        return failed
+    choice, _, estimate = begin
     life = _roll_life(found)
-    return Design(choice, chosen, found, coldest, _costs(task, choice, chosen, found, life), estimate, life)
+    return Design(choice, chosen, found, loads[0], _costs(task, choice, chosen, found, life), estimate, life)
 
 
 def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
@@ -423,8 +458,7 @@ def _costs(
         take_up=found.balance.settled.setting,
     )
     cost = 0.0 if year is None or year.cost is None else year.cost
-    made = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=0.0, energy_price=0.0)
-    return Costs(made.capital, {**made.yearly, "energy": cost})
+    return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
 
 
 def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
@@ -454,7 +488,7 @@ def graduated_spacing(task: SizingTask, design: Design) -> tuple[float, ...]:
     width, roll = design.choice.trough.width, design.choice.roll
     one_set = 3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
     yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
-    worth = line.speed / task.efficiency * task.seconds / 3.6e6 * task.energy_price
+    worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
     along = {force.key: force.along for force in design.found.balance.along}
     found = []
     for i, (length, _) in enumerate(task.sections):

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.loading import middle_share_belt, middle_share_bulk
+from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
 from conveyor.laws.take_up import PERMANENT_STRETCH_STEEL_CORD, PERMANENT_STRETCH_TEXTILE
@@ -207,8 +208,9 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
         pulley_mass=pulleys[kind, carcass] * width, take_up=slack,
     )  # fmt: skip
-    energy = np.maximum(0.0, force) * speed / task.efficiency * task.seconds
-    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy, energy_price=task.energy_price)
+    drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
+    worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
+    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
     year = np.where(possible, cost.year, np.inf)
     return Screened(year, carcass, force, indentation.T, length * per_metre.sum(axis=0), rest)
 
