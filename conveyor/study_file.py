@@ -16,7 +16,6 @@ from conveyor.models.base import Model
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan
 
-
 M = TypeVar("M", bound=Model)
 
 

@@ -44,8 +44,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "size", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf", "verify-sheet",
-    "contact", "validate", "schema",
+    "new", "size", "power", "compare", "study", "dynamics", "calibrate", "template", "fit", "anchor", "shelf",
+    "verify-sheet", "contact", "validate", "schema",
 )  # fmt: skip
 
 app = typer.Typer(

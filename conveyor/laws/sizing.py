@@ -1,7 +1,7 @@
 """First choices of a conveyor: width for lumps, edge distance, cover against wear, masses of parts, annuities.
 
-Sources: CEMA, Belt Conveyors for Bulk Materials, 5th ed., as commonly reproduced (lumps, edge distance); DIN 22101 (wear
-of the carrying cover). What is general knowledge of the craft says so.
+Sources: CEMA, Belt Conveyors for Bulk Materials, 5th ed., as commonly reproduced (lumps, edge distance, speeds);
+DIN 22101 (wear of the carrying cover). What is general knowledge of the craft says so.
 """
 
 from __future__ import annotations
@@ -32,10 +32,15 @@ EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 WEAR_ADDITIONS: Final = ((6, 0.5e-3), (8, 2e-3), (11, 4.5e-3), (13, 8e-3), (15, 10e-3))
 _ROUND_TIMES: Final = (60.0, 20.0)  # [s] from which the points of frequency are 1 and 2; general knowledge
 _LUMPS: Final = (0.05, 0.15)  # [m] up to which the points of lumps are 1 and 2; general knowledge
-_DENSITIES: Final = (1000.0, 2000.0)  # [kg/m³] up to which the points of density are 1 and 2; general knowledge
+_DENSITIES: Final = (
+    1000.0,
+    2000.0,
+)  # [kg/m³] up to which the points of density are 1 and 2; general knowledge
 STEEL: Final = 7850.0  # [kg/m³]
 CARCASS_RUBBER: Final = 1150.0  # [kg/m³]
-CORD_STRESS: Final = 1.8e9  # [Pa], breaking strength over metal of the cords; of two listed belts, to 6 % of the carcass
+CORD_STRESS: Final = (
+    1.8e9  # [Pa], breaking strength over metal of the cords; of two listed belts, to 6 % of the carcass
+)
 TEXTILE_DENSITY: Final = 1500.0  # [kg/m³], carcasses of EP630/4 and EP1250/4 as listed
 PULLEY_MASS: Final = 1750.0  # [kg/m³], m = c D² B: pulleys with shaft of 0.5 to 1 m; general knowledge
 
@@ -233,7 +238,9 @@ def carcass_mass(strength: float, *, thickness: float, steel_cord: bool) -> floa
     if not steel_cord:
         return TEXTILE_DENSITY * thickness
     steel = strength / CORD_STRESS
-    require(steel < thickness, "thickness", thickness, f"more than the cords' steel, {steel:.3g} m, is needed")
+    require(
+        steel < thickness, "thickness", thickness, f"more than the cords' steel, {steel:.3g} m, is needed"
+    )
     return STEEL * steel + CARCASS_RUBBER * (thickness - steel)
 
 

@@ -293,8 +293,8 @@ class SizingTask:
     def _fitted(self) -> Iterator[float]:
         """Widths of skirts, cleaners and ploughs that the duty gives [m]."""
         route = self.duty.sized_route
-        for fitted in (*route.cleaners, *route.ploughs):
-            yield si(fitted.width)
+        yield from (si(cleaner.width) for cleaner in route.cleaners)
+        yield from (si(plough.width) for plough in route.ploughs)
         for point in route.feeding_points:
             yield si(point.skirt_width)
 
@@ -342,7 +342,8 @@ class SizingTask:
     def rolls(self) -> tuple[RollSize, ...]:
         """Of the library."""
         return tuple(
-            RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating)) for row in sizes().rolls
+            RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating))
+            for row in sizes().rolls
         )
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
@@ -391,7 +392,11 @@ class SizingTask:
             for name, place, size in (
                 ("head", "head", carcass.drive_diameter),
                 ("take-up", "take-up", carcass.bend_diameter),
-                ("tail", "tail", carcass.drive_diameter if "tail" in choice.drives else carcass.bend_diameter),
+                (
+                    "tail",
+                    "tail",
+                    carcass.drive_diameter if "tail" in choice.drives else carcass.bend_diameter,
+                ),
             )
         ]
         route["take_up"] = {"kind": "gravity"}

@@ -38,8 +38,8 @@ class UnitPrice:
         return f"{self.number:.12g} {self.currency}" + (f"/{per}" if per else "")
 
 
-def _price(unit: str) -> Any:
-    """Type of a price for a unit."""
+def _per(unit: str) -> tuple[Any, ...]:
+    """What reads and writes a price for a unit."""
     example = str(UnitPrice(12.0, "EUR", unit))
 
     def read(value: Any) -> UnitPrice:
@@ -52,11 +52,17 @@ def _price(unit: str) -> Any:
         return UnitPrice(float(match[1]), match[2], unit)
 
     schema = WithJsonSchema({"type": "string", "examples": [example]})
-    return Annotated[UnitPrice, BeforeValidator(read), PlainSerializer(str, when_used="json"), schema]
+    return BeforeValidator(read), PlainSerializer(str, when_used="json"), schema
 
 
-_Once, _PerMass, _PerLength, _PerArea = _price(""), _price("kg"), _price("m"), _price("m^2")
-_PerVolume, _PerPower, _PerForce, _PerStrength = _price("m^3"), _price("kW"), _price("kN"), _price("MN*m")
+_Once = Annotated[UnitPrice, *_per("")]
+_PerMass = Annotated[UnitPrice, *_per("kg")]
+_PerLength = Annotated[UnitPrice, *_per("m")]
+_PerArea = Annotated[UnitPrice, *_per("m^2")]
+_PerVolume = Annotated[UnitPrice, *_per("m^3")]
+_PerPower = Annotated[UnitPrice, *_per("kW")]
+_PerForce = Annotated[UnitPrice, *_per("kN")]
+_PerStrength = Annotated[UnitPrice, *_per("MN*m")]
 Years = Annotated[Number, Field(gt=0, le=100)]
 
 
@@ -131,7 +137,7 @@ class Prices(Model):
     @property
     def currency(self) -> str:
         """Of all prices."""
-        return str(self.drive.currency)
+        return self.drive.currency
 
     @cached_property
     def amounts(self) -> dict[str, float]:
@@ -148,4 +154,6 @@ class Prices(Model):
 
 def library_prices() -> dict[str, Any]:
     """Prices of the library, as specs write them."""
-    return {name: value for entry in libraries.entries("prices").values() for name, value in entry.fields.items()}
+    return {
+        name: value for entry in libraries.entries("prices").values() for name, value in entry.fields.items()
+    }

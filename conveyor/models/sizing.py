@@ -18,6 +18,7 @@ from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.prices import Prices
 from conveyor.models.report import Report
 from conveyor.models.route import Route
+from conveyor.models.wording import Location
 from conveyor.units import (
     Angle,
     Bounds,
@@ -118,7 +119,7 @@ class SiteRules(Model):
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
     carry_spacings: tuple[Apart, ...] = ()
-    """Distances of carry sets to choose from; without it those in common use, from 1 km on those of overland conveyors."""
+    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones."""
     return_spacings: tuple[Apart, ...] = ()
     """The same of return sets."""
     graduated: bool = True
@@ -196,18 +197,35 @@ class SizingDuty(Model):
         if self.lift is not None and self.length is None:
             yield Problem(("lift",), "given without length; give the lifts of the route's sections")
         elif self.lift is not None and self.length is not None and abs(si(self.lift)) >= si(self.length):
-            yield Problem(("lift",), "is not less than length, which is along the belt; correct one of the two")
+            yield Problem(
+                ("lift",), "is not less than length, which is along the belt; correct one of the two"
+            )
         if self.route is not None:
-            sized = {"pulleys": self.route.pulleys, "take_up": self.route.take_up}
-            for field, given in sized.items():
-                if given:
-                    yield Problem(("route", field), "is what the sizing is to find; remove it")
-            for i, section in enumerate(self.route.sections):
-                for field in ("carry_spacing", "return_spacing"):
-                    if getattr(section, field) is not None:
-                        yield Problem(("route", "sections", i, field), "is what the sizing is to find; remove it")
+            yield from self._sized_problems(self.route)
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
+        yield from self._price_problems()
+
+    @staticmethod
+    def _sized_problems(route: Route) -> Iterator[Problem]:
+        """Refuse what the sizing is to find."""
+        given: dict[Location, object] = {
+            ("route", "pulleys"): route.pulleys,
+            ("route", "take_up"): route.take_up,
+        }
+        for i, section in enumerate(route.sections):
+            place = ("route", "sections", i)
+            given |= {
+                (*place, "carry_spacing"): section.carry_spacing,
+                (*place, "return_spacing"): section.return_spacing,
+            }
+        yield from (
+            Problem(place, "is what the sizing is to find; remove it")
+            for place, value in given.items()
+            if value
+        )
+
+    def _price_problems(self) -> Iterator[Problem]:
         price = self.operation.price
         if price is None:
             yield Problem(("operation", "price"), "missing: designs are ranked by what their energy costs")

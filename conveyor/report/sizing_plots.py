@@ -49,7 +49,9 @@ def sweeps(found: CalculatedSizing, varied: tuple[Sweep, ...], *, system: System
     figure, axes = stacked(len(varied), _TALL * len(varied))
     for axis, sweep in zip(axes, varied, strict=True):
         kind = unit(sweep.kind, system)
-        points = [(x, one) for x, one in zip(sweep.values, sweep.designs, strict=True) if isinstance(one, Design)]
+        points = [
+            (x, one) for x, one in zip(sweep.values, sweep.designs, strict=True) if isinstance(one, Design)
+        ]
         at = kind(np.array([x for x, _ in points]))
         parts = {
             "energy": [float(one.costs.yearly["energy"]) for _, one in points],

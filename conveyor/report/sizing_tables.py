@@ -49,7 +49,9 @@ def of_sizing(found: CalculatedSizing, system: System, *, vary: bool = True) -> 
                      partial(sizing_plots.shares, found, system=system), "costs")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
-        drawn.append(Drawing("around", words, partial(sizing_plots.sweeps, found, sweeps, system=system), "around"))
+        drawn.append(
+            Drawing("around", words, partial(sizing_plots.sweeps, found, sweeps, system=system), "around")
+        )
     return Contents(about, tuple(part for part in parts if not part.empty), system, tuple(drawn))
 
 
@@ -94,7 +96,9 @@ def designs(found: CalculatedSizing) -> Table:
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _why(found, row[0] - 1), json="why"),
     )  # fmt: skip
-    caption = "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
+    caption = (
+        "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
+    )
     rows = tuple(enumerate(found.designs, start=1))
     return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
 
@@ -143,7 +147,12 @@ def swept(found: CalculatedSizing, sweeps: tuple[Sweep, ...]) -> Table:
     """One row a value around the best design."""
     money = _money(found)
     rows = [
-        (sweep, value, design if isinstance(design, Design) else None, design if isinstance(design, str) else "")
+        (
+            sweep,
+            value,
+            design if isinstance(design, Design) else None,
+            design if isinstance(design, str) else "",
+        )
         for sweep in sweeps
         for value, design in zip(sweep.values, sweep.designs, strict=True)
     ]
@@ -153,18 +162,24 @@ def swept(found: CalculatedSizing, sweeps: tuple[Sweep, ...]) -> Table:
 
     columns = (
         Column("choice", "text", lambda row: row[0].name, json="choice"),
-        Column("distance", "spacing", lambda row: row[1] if row[0].kind == "spacing" else None, json="distance_m"),
+        Column(
+            "distance", "spacing", lambda row: row[1] if row[0].kind == "spacing" else None, json="distance_m"
+        ),
         Column("size", "size", lambda row: row[1] if row[0].kind == "size" else None, json="size_mm"),
-        Column("speed", "speed", lambda row: row[1] if row[0].kind == "speed" else None, json="speed_m_per_s"),
+        Column(
+            "speed", "speed", lambda row: row[1] if row[0].kind == "speed" else None, json="speed_m_per_s"
+        ),
         Column("motor power", "power", of(attrgetter("found.balance.power.motor")), json="motor_power_kW"),
         Column("belt", "text", of(_belt), json="belt"),
-        Column("energy a year", money, of(lambda one: float(one.costs.yearly["energy"])), json="energy_per_year"),
+        Column(
+            "energy a year", money, of(lambda one: float(one.costs.yearly["energy"])), json="energy_per_year"
+        ),
         Column("idlers a year", money, of(sizing_plots.idlers), json="idlers_per_year"),
         Column("belt a year", money, of(lambda one: float(one.costs.yearly["belt"])), json="belt_per_year"),
         Column("cost a year", money, of(attrgetter("year")), json="cost_per_year"),
         Column("no design because", "text", itemgetter(3), json="why"),
     )
-    caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors and brake sized again"
+    caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors, brake sized again"
     return Table("around", "Around the best", caption, columns, rows, (OnPage("around", caption),))
 
 

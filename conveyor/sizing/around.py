@@ -61,7 +61,10 @@ def around(task: SizingTask, design: Design) -> tuple[Sweep, ...]:
             name,
             kind,
             tuple(value for value, _ in points),
-            tuple("keeps no rule of filling, speed or rolls" if choice is None else next(found) for _, choice in points),
+            tuple(
+                "keeps no rule of filling, speed or rolls" if choice is None else next(found)
+                for _, choice in points
+            ),
             at,
         )
         for name, kind, at, points in axes
@@ -71,22 +74,41 @@ def around(task: SizingTask, design: Design) -> tuple[Sweep, ...]:
 def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:
     """Name, kind and value of what varies, and its values with their choices; None where a rule forbids one."""
     carry, back = task.spacings
-    yield "distance of carry sets", "spacing", base.carry, [(a, replace(base, carry=a)) for a in carry if a <= base.back]
-    yield "distance of return sets", "spacing", base.back, [(a, replace(base, back=a)) for a in back if a >= base.carry]
+    yield (
+        "distance of carry sets",
+        "spacing",
+        base.carry,
+        [(a, replace(base, carry=a)) for a in carry if a <= base.back],
+    )
+    yield (
+        "distance of return sets",
+        "spacing",
+        base.back,
+        [(a, replace(base, back=a)) for a in back if a >= base.carry],
+    )
     rolls = [roll for roll in task.rolls if task.turns_slowly(roll, base.speed)]
     yield (
         "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
     )  # fmt: skip
-    yield "belt speed, each with the narrowest belt", "speed", base.speed, [(speed, _at_speed(task, base, speed)) for speed in task.speeds]
-    thicker = [(bottom + more, replace(base, thicker=base.thicker + more)) for more in _THICKER]
+    yield (
+        "belt speed, each with the narrowest belt",
+        "speed",
+        base.speed,
+        [(speed, _at_speed(task, base, speed)) for speed in task.speeds],
+    )
+    thicker: list[_Point] = [(bottom + more, replace(base, thicker=base.thicker + more)) for more in _THICKER]
     yield "bottom cover", "size", bottom, thicker
 
 
 def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
-    """The choice at another speed: the narrowest belt that keeps the rules, rolls no smaller that turn slowly enough."""
-    alike = sorted((one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt)
+    """The choice at another speed, with the narrowest belt that keeps the rules and the least rolls."""
+    alike = sorted(
+        (one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt
+    )
     fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
-    rolls = [roll for roll in task.rolls if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter]
+    rolls = [
+        roll for roll in task.rolls if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter
+    ]
     if not fits or not rolls:
         return None
     return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])

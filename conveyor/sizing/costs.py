@@ -104,4 +104,3 @@ def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: 
     yearly["upkeep"] = p["upkeep"] * sum(capital.values(), 0.0)
     yearly["energy"] = energy
     return Costs(capital, yearly)
-

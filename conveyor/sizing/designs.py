@@ -14,7 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from conveyor.checks import Check, checks
+from conveyor.checks import checks
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.energy import next_motor
@@ -153,7 +153,6 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
             "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
         )
     levels = first_levels(len(duty.covers))
-    known: dict[int, Design | str] = {}
     estimate = screen(task, choices, levels)
     probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
     if not probes:
@@ -162,49 +161,58 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
             "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
         )
     first = _first(task, choices, estimate, probes)
-    anchored = next((one for one in first if one is not None), None)
+    known = next((one for one in first if one is not None), None)
     levels = _levels(choices, estimate, probes, first, levels)
-    for k in range(_SCREENINGS):
+    found: dict[int, Design | str] = {}
+    for _ in range(_SCREENINGS):
         estimate = screen(task, choices, levels)
-        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in known]
+        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in found]
         if progress is not None:
-            progress(len(known), len(known) + len(new))
-        if not new:
-            break
-        known |= zip(new, _designs(task, choices, estimate, new, anchored), strict=True)
-        designs = {i: one for i, one in known.items() if isinstance(one, Design)}
-        if k == 0 and designs:
-            levels = _levels(choices, estimate, list(designs), [one.found for one in designs.values()], levels)
-    reasons = Counter(one for one in known.values() if isinstance(one, str))
-    if not designs:
-        raise NoSolutionError(_none(reasons, len(known)))
-    off = max(abs(float(estimate.year[i]) / one.year - 1.0) for i, one in designs.items())
-    ranked = sorted(designs.values(), key=_year)
-    if duty.rules.graduated and len(task.sections) > 1:
+            progress(len(found), len(found) + len(new))
+        found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
+        made = {i: one for i, one in found.items() if isinstance(one, Design)}
+        levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
+    reasons = Counter(one for one in found.values() if isinstance(one, str))
+    final = _final(task, made.values(), best, known, reasons)
+    if not final:
+        told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
+        raise NoSolutionError(f"no candidate of {len(found)} calculated keeps every check: {told}")
+    return CalculatedSizing(
+        duty,
+        tuple(final[:best]),
+        len(choices),
+        int(np.isfinite(estimate.year).sum()),
+        len(found),
+        reasons,
+        max(abs(one.estimate / one.year - 1.0) for one in [*made.values(), *final]),
+    )
+
+
+def _final(
+    task: SizingTask,
+    designs: Iterable[Design],
+    best: int,
+    known: CalculatedConveyor | None,
+    reasons: Counter[str],
+) -> list[Design]:
+    """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
+    ranked = sorted(designs, key=_year)
+    if task.rules.graduated and len(task.sections) > 1:
         ranked = sorted([*_graduated(task, ranked[:best]), *ranked[best:]], key=_year)
     final: list[Design] = []
-    while ranked and (len(final) < best or ranked[0].year < sorted(map(_year, final))[best - 1]):
+    while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[:best], ranked[best:]
-        for one in settled(task, [(d.choice, d.chosen, d.estimate) for d in batch], anchored, every_load=True):
+        for one in settled(task, [(d.choice, d.chosen, d.estimate) for d in batch], known, every_load=True):
             if isinstance(one, Design):
                 final.append(one)
             else:
                 reasons[one] += 1
-    if not final:
-        raise NoSolutionError(_none(reasons, len(known)))
-    possible = int(np.isfinite(estimate.year).sum())
-    return CalculatedSizing(
-        duty, tuple(sorted(final, key=_year)[:best]), len(choices), possible, len(known), reasons, off
-    )
+        final.sort(key=_year)
+    return final
 
 
 def _year(design: Design) -> float:
     return design.year
-
-
-def _none(reasons: Counter[str], calculated: int) -> str:
-    told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
-    return f"no candidate of {calculated} calculated keeps every check: {told}"
 
 
 def _shortlist(
@@ -212,7 +220,7 @@ def _shortlist(
 ) -> list[int]:
     """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
     taken: Counter[object] = Counter()
-    found = []
+    found: list[int] = []
     for i in np.argsort(estimate.year, kind="stable").tolist():
         if not math.isfinite(estimate.year[i]) or len(found) == most:
             break
@@ -266,7 +274,9 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives))
+    motors = tuple(
+        next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives)
+    )
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
@@ -334,7 +344,9 @@ def settled(
     for i, (chosen, _, loads) in sized.items():
         answer = warm.get(i, loads[0])
         found[i] = (
-            _design(task, begin[i], chosen, answer, loads) if isinstance(answer, CalculatedConveyor) else str(answer)
+            _design(task, begin[i], chosen, answer, loads)
+            if isinstance(answer, CalculatedConveyor)
+            else str(answer)
         )
     return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
 
@@ -343,7 +355,9 @@ def _calculated(
     specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
     """Calculations of specs, side by side."""
-    return dict(zip(specs, calculate_many([Variant(spec) for spec in specs.values()], RTOL, known=known), strict=True))
+    return dict(
+        zip(specs, calculate_many([Variant(spec) for spec in specs.values()], RTOL, known=known), strict=True)
+    )
 
 
 def _loads(one: CalculatedConveyor) -> Iterator[CalculatedConveyor]:
@@ -358,9 +372,7 @@ def _tension(pair: Iterable[CalculatedConveyor]) -> float:
     return max(one.belt_duty.largest_steady for one in pair)
 
 
-def _chosen(
-    task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]
-) -> Chosen:
+def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:
     """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
 
     Raises
@@ -369,7 +381,9 @@ def _chosen(
         No class of the belt is strong enough, or no motor large enough.
     """
     tension = _tension(pair)
-    carcass = next((one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None)
+    carcass = next(
+        (one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None
+    )
     if carcass is None:
         raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
     if before.settling and carcass.strength < before.carcass.strength:
@@ -389,7 +403,9 @@ def _chosen(
 
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
     """Strength that a tension asks of a class [N/m]."""
-    return CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
+    return (
+        CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
+    )
 
 
 def _powers(one: CalculatedConveyor) -> list[float]:
@@ -486,23 +502,26 @@ def graduated_spacing(task: SizingTask, design: Design) -> tuple[float, ...]:
     """
     prices, line = task.duty.prices.amounts, design.found.line
     width, roll = design.choice.trough.width, design.choice.roll
-    one_set = 3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
+    one_set = (
+        3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
+    )
     yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
     worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
-    along = {force.key: force.along for force in design.found.balance.along}
     found = []
     for i, (length, _) in enumerate(task.sections):
         stretch = line.stretches[i]
-        now, indentation, rotation = stretch.spacing, along["indentation"], along["idler_rotation"]
-        assert indentation is not None and rotation is not None
+        now, forces = stretch.spacing, design.found.stretches[i].forces
         lowest = min(_lowest(one, i) for one in design.pair)
         weight = (stretch.belt_mass + stretch.bulk_mass) * line.gravity
         loosest = 8.0 * task.sags[0] * lowest / weight
         heaviest = now * (design.roll_life / task.roll_life) ** (1.0 / 3.0)
         bears = [a for a in task.spacings[0] if a <= min(loosest, heaviest, design.choice.back)] or [now]
 
-        def per_metre(a: float, i: int = i, length: float = length, now: float = now) -> float:
-            friction = indentation[i] * (a / now) ** (1.0 / 3.0) + rotation[i] * now / a
+        def per_metre(
+            a: float, forces: Mapping[str, float] = forces, length: float = length, now: float = now
+        ) -> float:
+            wider = a / now
+            friction = forces["indentation"] * math.cbrt(wider) + forces["idler_rotation"] / wider
             return worth * friction / length + yearly / a
 
         found.append(min(bears, key=per_metre))

@@ -11,7 +11,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,15 +32,25 @@ Array = NDArray[np.float64]
 _LOAD: Final = 4.0 / 3.0  # exponent of the line load
 _WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
 _CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.usual`
-_SKIRTS: Final = 2.0 * 0.7 * 9.81 / 0.625**2  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
+_SKIRTS: Final = (
+    2.0 * 0.7 * 9.81 / 0.625**2
+)  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
 _SET: Final = 0.5  # life of the bearings of a set over that of the heaviest loaded alone
 _ROUNDS: Final = 4  # class of the belt, its mass, its tensions
 
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels of the estimate: indentation under carry and return rolls [Pa^(-1/3)], of each cover; drag of a roll [N];
-    secondary and special resistances over the estimated ones [-].
+    """Levels of the estimate.
+
+    Attributes
+    ----------
+    carry, back : tuple of float
+        Indentation under carry and return rolls, of each cover [Pa^(-1/3)].
+    drag : float
+        Of a roll [N].
+    rest : float
+        Secondary and special resistances over the estimated ones [-].
     """
 
     carry: tuple[float, ...]
@@ -55,28 +65,37 @@ def first_levels(covers: int) -> Levels:
     return Levels((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
 
 
+class Running(NamedTuple):
+    """A trough with a speed [m/s], how it fills it [-], and rolls that turn slowly enough."""
+
+    trough: Trough
+    speed: float
+    filling: float
+    roll: RollSize
+
+
 @dataclass(frozen=True, eq=False)
 class Candidates:
     """Every combination that keeps the rules of width, lumps, filling, edge distance, and rotation.
 
     Attributes
     ----------
-    running : tuple of (Trough, speed, filling, RollSize)
-        Troughs with a speed and rolls that suit it [m/s, -].
+    running : tuple of Running
+        Troughs with a speed and rolls that suit it.
     numbers : ndarray of int, shape (n, 6)
         Of each candidate the number of what runs, of the distances of carry and return sets, of cover, kind of carcass
         and place of the drives.
     """
 
     task: SizingTask
-    running: tuple[tuple[Trough, float, float, RollSize], ...]
+    running: tuple[Running, ...]
     numbers: NDArray[np.int64]
 
     @classmethod
     def of(cls, task: SizingTask) -> Candidates:
         """Combine what a duty leaves open."""
         running = tuple(
-            (trough, speed, filling, roll)
+            Running(trough, speed, filling, roll)
             for trough, speed in itertools.product(task.troughs, task.speeds)
             if (filling := task.filling(trough, speed)) is not None
             for roll in task.rolls
@@ -94,14 +113,15 @@ class Candidates:
     def __getitem__(self, i: int) -> Choice:
         ran, carry, back, cover, kind, drives = self.numbers[i].tolist()
         task = self.task
+        trough, speed, filling, roll = self.running[ran]
+        apart = task.spacings[0][carry], task.spacings[1][back]
         return Choice(
-            *self.running[ran], task.spacings[0][carry], task.spacings[1][back], cover, task.kinds[kind],
-            task.rules.drives[drives],
-        )  # fmt: skip
+            trough, speed, filling, roll, *apart, cover, task.kinds[kind], task.rules.drives[drives]
+        )
 
-    def runs(self, get: Callable[[Trough, float, float, RollSize], float]) -> Array:
+    def runs(self, get: Callable[[Running], float]) -> Array:
         """A figure of trough, speed and rolls, of each candidate."""
-        return np.array([get(*one) for one in self.running])[self.numbers[:, 0]]
+        return np.array([get(one) for one in self.running])[self.numbers[:, 0]]
 
     def driven(self, get: Callable[[DriveLayout], float]) -> Array:
         """A figure of the place of the drives, of each candidate."""
@@ -140,12 +160,15 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     """Estimate every candidate."""
     g, length, numbers, sections = task.gravity, task.length, every.numbers, np.array(task.sections)
     ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
-    width, speed = every.runs(lambda t, v, f, r: t.width.belt), every.runs(lambda t, v, f, r: v)
-    diameter, three = every.runs(lambda t, v, f, r: r.diameter), every.runs(lambda t, v, f, r: t.width.three)
+    width, speed = every.runs(lambda on: on.trough.width.belt), every.runs(lambda on: on.speed)
+    diameter, three = every.runs(lambda on: on.roll.diameter), every.runs(lambda on: on.trough.width.three)
     carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
-    count, flat = (every.runs(lambda t, v, f, r, k=k: t.width.return_rolls[k]) for k in (0, 1))
-    of_bulk = every.runs(lambda t, v, f, r: middle_share_bulk(t.angle))
-    of_belt = every.runs(lambda t, v, f, r: middle_share_belt(t.width.three, belt_width=t.width.belt))
+    count, flat = (
+        every.runs(lambda on: on.trough.width.return_rolls[0]),
+        every.runs(lambda on: on.trough.width.return_rolls[1]),
+    )
+    of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
+    of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
     bulk, wear = task.flow / speed, np.array([task.wear(v) for _, v, _, _ in every.running])
     rest = task.flow * speed + _CLEANERS * width + _SKIRTS * bulk**2 / (task.density * width**2) * speed
     rest *= levels.rest
@@ -153,7 +176,9 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     steel = np.array([one == "steel cord" for one in task.kinds])[kind]
     series = [task.carcasses[one] for one in task.kinds]
     most = max(map(len, series))
-    strengths = np.array([[*(one.strength for one in each), *[np.inf] * (most - len(each))] for each in series])
+    strengths = np.array(
+        [[*(one.strength for one in each), *[np.inf] * (most - len(each))] for each in series]
+    )
     masses = np.array([[*(one.mass for one in each), *[0.0] * (most - len(each))] for each in series])
     covers = np.array([
         [[series[j][min(k, len(series[j]) - 1)].covers(addition) for addition in wear.tolist()] for k in range(most)]
@@ -183,28 +208,26 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
         up[:, 0] += rest
         force = up.sum(axis=1) + down.sum(axis=1)
-        slack, largest = _tensions(every, force, down[:, ::-1], up, belt * g * back, (belt + bulk) * g * carry)
+        spans = belt * g * back, (belt + bulk) * g * carry
+        slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
         needed = safety * largest / width
         carcass = (strengths[kind] < needed[:, None]).sum(axis=1)
         strong = carcass <= last
         carcass = np.minimum(carcass, last)
     power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
-    hours = RATED_REVOLUTIONS * (every.runs(lambda t, v, f, r: r.rating) / (0.5 * middle)) ** BALL_EXPONENT
-    life = _SET * hours * math.pi * diameter / speed
-    possible &= strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
+    life = _roll_life(every, middle)
+    possible &= (
+        strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
+    )
     possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
     pulleys = np.array([
         [task.pulley_mass(each[min(k, len(each) - 1)], 1.0) for k in range(most)] for each in series
     ])  # fmt: skip
-    turning = [
-        every.runs(lambda t, v, f, r: 3.0 * r.mass(t.width.three)),
-        every.runs(lambda t, v, f, r: t.width.return_rolls[0] * r.mass(t.width.return_rolls[1])),
-    ]
     first = cover == 0
     parts = Parts(
         width=width, length=length, strength=strengths[kind, carcass], steel_cord=steel.astype(float),
         cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
-        rolls=length * per_metre.sum(axis=0), roll_mass=length * (turning[0] / carry + turning[1] / back),
+        rolls=length * per_metre.sum(axis=0), roll_mass=length * _turning(every, carry, back),
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
         pulley_mass=pulleys[kind, carcass] * width, take_up=slack,
     )  # fmt: skip
@@ -215,13 +238,37 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     return Screened(year, carcass, force, indentation.T, length * per_metre.sum(axis=0), rest)
 
 
+def _roll_life(every: Candidates, middle: Array) -> Array:
+    """L10 of the bearings of a carry set with so much on its middle roll [s]."""
+    turns = RATED_REVOLUTIONS * (every.runs(lambda on: on.roll.rating) / (0.5 * middle)) ** BALL_EXPONENT
+    return np.asarray(_SET * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
+
+
+def _turning(every: Candidates, carry: Array, back: Array) -> Array:
+    """What turns of the rolls of both strands, per length of conveyor [kg/m]."""
+
+    def return_set(on: Running) -> float:
+        count, length, _ = on.trough.width.return_rolls
+        return count * on.roll.mass(length)
+
+    carry_set = every.runs(lambda on: 3.0 * on.roll.mass(on.trough.width.three))
+    return np.asarray(carry_set / carry + every.runs(return_set) / back)
+
+
 def _tensions(
-    every: Candidates, force: Array, down: Array, up: Array, span_back: Array, span_carry: Array
+    every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
 ) -> tuple[Array, Array]:
-    """Tension right behind the head, and the largest one, by grip and sag; spans are loads between two sets [N]."""
+    """Tension right behind the head, and the largest one, by grip and sag [N].
+
+    `along` are the forces on return sections from the head and carry sections from the tail, `spans` loads of return
+    and carry strand between two sets [N].
+    """
+    (down, up), (span_back, span_carry) = along, spans
     task, at_tail = every.task, every.driven(_at_tail)
     friction, wrap = task.grip
-    grips = 1.0 / np.expm1(friction * wrap * every.driven(lambda one: 2.0 if one == "head, two pulleys" else 1.0))
+    grips = 1.0 / np.expm1(
+        friction * wrap * every.driven(lambda one: 2.0 if one == "head, two pulleys" else 1.0)
+    )
     start = task.rules.start_factor
     returning = np.cumsum(down, axis=1)
     before_tail = returning[:, -1]
