@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
@@ -156,6 +156,36 @@ class Screened:
     rest: Array
 
 
+class _Series(NamedTuple):
+    """Classes of belts, by kind and number; beyond the last of a kind as its last, but infinitely strong.
+
+    Strength [N/m], mass of the carcass [kg/m²], pulleys per width of belt [kg/m]; `covers` also by what runs: top and
+    bottom [m]; `last` number of each kind.
+    """
+
+    strengths: Array
+    masses: Array
+    pulleys: Array
+    covers: Array
+    last: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, task: SizingTask, wear: Sequence[float]) -> _Series:
+        """Tables of a duty; `wear` additions to the covers [m]."""
+        kinds = [task.carcasses[kind] for kind in task.kinds]
+        most = max(map(len, kinds))
+        filled = [[each[min(k, len(each) - 1)] for k in range(most)] for each in kinds]
+        strengths = [[one.strength if k < len(each) else np.inf for k, one in enumerate(row)]
+                     for each, row in zip(kinds, filled, strict=True)]  # fmt: skip
+        return cls(
+            np.array(strengths),
+            np.array([[one.mass for one in row] for row in filled]),
+            np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
+            np.array([[[one.covers(addition) for addition in wear] for one in row] for row in filled]),
+            np.array([len(each) - 1 for each in kinds]),
+        )
+
+
 def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     """Estimate every candidate."""
     g, length, numbers, sections = task.gravity, task.length, every.numbers, np.array(task.sections)
@@ -170,31 +200,21 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
     of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
     bulk, wear = task.flow / speed, np.array([task.wear(v) for _, v, _, _ in every.running])
-    rest = task.flow * speed + _CLEANERS * width + _SKIRTS * bulk**2 / (task.density * width**2) * speed
-    rest *= levels.rest
+    skirts = _SKIRTS * bulk**2 / (task.density * width**2) * speed
+    rest = levels.rest * (task.flow * speed + _CLEANERS * width + skirts)
     per_metre = np.array([3.0 / carry, count / back])
     steel = np.array([one == "steel cord" for one in task.kinds])[kind]
-    series = [task.carcasses[one] for one in task.kinds]
-    most = max(map(len, series))
-    strengths = np.array(
-        [[*(one.strength for one in each), *[np.inf] * (most - len(each))] for each in series]
-    )
-    masses = np.array([[*(one.mass for one in each), *[0.0] * (most - len(each))] for each in series])
-    covers = np.array([
-        [[series[j][min(k, len(series[j]) - 1)].covers(addition) for addition in wear.tolist()] for k in range(most)]
-        for j in range(len(series))
-    ])  # fmt: skip
+    series = _Series.of(task, wear.tolist())
     safety = np.where(steel, CLASSIC_SAFETY["steel cord"], CLASSIC_SAFETY["textile"])
     carcass = np.zeros(len(every), dtype=np.int64)
-    last = np.array([len(each) - 1 for each in series])[kind]
     stretched = np.where(steel, PERMANENT_STRETCH_STEEL_CORD.value, PERMANENT_STRETCH_TEXTILE.value) * length
     possible = stretched <= task.take_up_travel
     on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
     k_carry, k_back = np.array(levels.carry)[cover], np.array(levels.back)[cover]
     sags = np.array(task.sags)[:, None]
     for _ in range(_ROUNDS):
-        top, bottom = covers[kind, carcass, ran].T
-        belt = width * (masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
+        top, bottom = series.covers[kind, carcass, ran].T
+        belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
         middle = (of_bulk * bulk + of_belt * belt) * g * carry
         wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
         per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
@@ -211,25 +231,22 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         spans = belt * g * back, (belt + bulk) * g * carry
         slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
         needed = safety * largest / width
-        carcass = (strengths[kind] < needed[:, None]).sum(axis=1)
-        strong = carcass <= last
-        carcass = np.minimum(carcass, last)
+        carcass = (series.strengths[kind] < needed[:, None]).sum(axis=1)
+        strong = carcass <= series.last[kind]
+        carcass = np.minimum(carcass, series.last[kind])
     power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
     life = _roll_life(every, middle)
     possible &= (
         strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
     )
     possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
-    pulleys = np.array([
-        [task.pulley_mass(each[min(k, len(each) - 1)], 1.0) for k in range(most)] for each in series
-    ])  # fmt: skip
     first = cover == 0
     parts = Parts(
-        width=width, length=length, strength=strengths[kind, carcass], steel_cord=steel.astype(float),
+        width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
         cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
         rolls=length * per_metre.sum(axis=0), roll_mass=length * _turning(every, carry, back),
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
-        pulley_mass=pulleys[kind, carcass] * width, take_up=slack,
+        pulley_mass=series.pulleys[kind, carcass] * width, take_up=slack,
     )  # fmt: skip
     drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
     worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
