@@ -14,7 +14,7 @@ from conveyor.units.presentation import MONEY, unit
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.sizing.around import Sweep
+    from conveyor.sizing.around import VariedChoice
     from conveyor.sizing.designs import CalculatedSizing
 
 _HEIGHT, _TALL = 3.0, 2.7
@@ -43,7 +43,7 @@ def shares(found: CalculatedSizing, *, system: System = "SI") -> Figure:
     return figure
 
 
-def sweeps(found: CalculatedSizing, varied: tuple[Sweep, ...], *, system: System = "SI") -> Figure:
+def sweeps(found: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Figure:
     """Energy against idlers, belt and the rest, one choice varied around the best design."""
     money = unit(f"{MONEY}{found.duty.prices.currency}", system, large=True)
     figure, axes = stacked(len(varied), _TALL * len(varied))

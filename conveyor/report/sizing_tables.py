@@ -13,7 +13,7 @@ from conveyor.report import sizing_plots
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, checked, document, provenance
-from conveyor.sizing.around import Sweep, around
+from conveyor.sizing.around import VariedChoice, around
 from conveyor.sizing.designs import CalculatedSizing, Design
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -143,7 +143,7 @@ def costs(found: CalculatedSizing) -> Table:
     return Table("costs", "Costs", caption, columns, rows, (OnPage("costs", caption, printed=False),), note)
 
 
-def swept(found: CalculatedSizing, sweeps: tuple[Sweep, ...]) -> Table:
+def swept(found: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     """One row a value around the best design."""
     money = _money(found)
     rows = [

@@ -14,7 +14,7 @@ _THICKER: Final = (0.0, 1e-3, 2e-3, 4e-3)  # [m], of the bottom cover
 
 
 @dataclass(frozen=True, eq=False)
-class Sweep:
+class VariedChoice:
     """A choice varied around a design.
 
     Attributes
@@ -36,7 +36,7 @@ class Sweep:
     at: float
 
 
-def around(task: SizingTask, design: Design) -> tuple[Sweep, ...]:
+def around(task: SizingTask, design: Design) -> tuple[VariedChoice, ...]:
     """Vary the distances of the sets, roll diameter, speed and bottom cover of a design, each alone.
 
     Parameters
@@ -48,7 +48,7 @@ def around(task: SizingTask, design: Design) -> tuple[Sweep, ...]:
 
     Returns
     -------
-    tuple of Sweep
+    tuple of VariedChoice
         Belt class, motors and brake of every point are its own; what keeps no rule or check has no design there.
     """
     base = replace(design.choice, graduated=())
@@ -57,7 +57,7 @@ def around(task: SizingTask, design: Design) -> tuple[Sweep, ...]:
     begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
     found = iter(settled(task, begin, design.found))
     return tuple(
-        Sweep(
+        VariedChoice(
             name,
             kind,
             tuple(value for value, _ in points),
