@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         CaseStudy,
         Comparison,
         DutyStudy,
+        Sizing,
         VerificationSheet,
         analyse,
         analyse_cases,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
         calibrate,
         compare,
         compare_compounds,
+        size,
         verify_sheet,
     )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
@@ -49,6 +51,7 @@ _WHERE = {
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
+    "Sizing": "conveyor.analysis",
     "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
@@ -57,6 +60,7 @@ _WHERE = {
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
+    "size": "conveyor.analysis",
     "verify_sheet": "conveyor.analysis",
 }
 
@@ -72,6 +76,7 @@ __all__ = [
     "NoSolutionError",
     "RangeError",
     "RubberCompound",
+    "Sizing",
     "ValidityWarning",
     "VerificationSheet",
     "__version__",
@@ -82,6 +87,7 @@ __all__ = [
     "compare",
     "compare_compounds",
     "load",
+    "size",
     "verify_sheet",
 ]
 

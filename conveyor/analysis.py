@@ -12,11 +12,13 @@ from functools import cached_property, partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
+from conveyor import sizing as designing
 from conveyor import studies as study
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks
 from conveyor.measured.runs import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
+from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.remarks import assumptions, warnings
 from conveyor.studies import calibration as calibration_study
@@ -26,6 +28,7 @@ from conveyor.studies import duty as duty_study
 from conveyor.studies import states as state_study
 from conveyor.studies import uncertainty as range_study
 from conveyor.studies import verification as verification_study
+from conveyor.study_file import read_duty
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -457,6 +460,32 @@ class VerificationSheet(verification_study.CalculatedVerification):
         return plain(self)
 
 
+class Sizing(designing.CalculatedSizing):
+    """Ranked designs of a duty, with their tables and reports; `.best.conveyor` is the spec of the cheapest."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a design; units in the names."""
+        return self.contents(vary=False)["designs"].frame()
+
+    @cached_property
+    def around(self) -> pd.DataFrame:
+        """One row a value of what varies around the best design; units in the names."""
+        return self.contents()["around"].frame()
+
+    def contents(self, system: System | None = None, *, vary: bool = True) -> Contents:
+        """Everything a report holds, in a system of units; what varies around the best design takes seconds."""
+        from conveyor.report.sizing_tables import of_sizing
+
+        return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
+
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the workbook; as `Analysis.to_excel`."""
+        from conveyor.report.excel import write
+
+        return write(self.contents(system), Path(path))
+
+
 def _faced(plain: Any, face: Callable[..., Face]) -> Face:
     """Results with their face."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
@@ -478,6 +507,18 @@ analyse_duty = _facing(duty_study.analyse_duty, DutyStudy)
 study_ranges = _facing(range_study.study, UncertaintyStudy)
 load_states = _facing(state_study.load_states, StateStudy)
 compare_compounds = _facing(compound_study.compare_compounds, Comparison)
+
+
+def size(duty: str | Path | SizingDuty, **options: Any) -> Sizing:
+    """Ranked designs of a duty, of a file or as data; as `conveyor.sizing.size`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.size("examples/duties/overland.yaml", best=3).table  # doctest: +SKIP
+    """
+    given = duty if isinstance(duty, SizingDuty) else read_duty(duty)
+    return _faced(designing.size(given, **options), Sizing)
 
 
 verify_sheet = _facing(verification_study.verification, VerificationSheet)

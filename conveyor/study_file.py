@@ -1,25 +1,30 @@
-"""Study files: what varies of which spec; every error with file, line and column."""
+"""Files of studies and of duties to size; every error with file, line and column."""
 
 from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Any, Final, TypeVar
 
 from pydantic import ValidationError
 
+from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.explain import findings
 from conveyor.files.content import file_content
 from conveyor.files.document import listing, read_document
 from conveyor.laboratory.encoding import decoded
+from conveyor.models.base import Model
+from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import DUTY, HOURS, Plan, SearchPlan, StudyPlan, Value, hours_of
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
 _HEAD: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
 Given = TypeVar("Given", bound=Plan)
+Read = TypeVar("Read", bound=Model)
 
 
 def read_plan(path: str | Path) -> StudyPlan:
@@ -30,32 +35,50 @@ def read_plan(path: str | Path) -> StudyPlan:
     InputError
         A file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
     """
-    return _read(StudyPlan, Path(path))
+    return _with_states(_read(StudyPlan, Path(path)), Path(path))
 
 
 def read_search(path: str | Path) -> SearchPlan:
     """Read what `conveyor optimise` searches; as `read_plan`."""
-    return _read(SearchPlan, Path(path))
+    return _with_states(_read(SearchPlan, Path(path)), Path(path))
 
 
-def _read(kind: type[Given], path: Path) -> Given:
+def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> SizingDuty:
+    """Read the duty of a conveyor that is to be sized; as `read_plan`, compounds by name or path.
+
+    Raises
+    ------
+    InputError
+        As `read_plan`.
+    """
+    where = Path(path)
+    return _read(SizingDuty, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
+
+
+def _read(model: type[Read], path: Path, context: dict[str, Any] | None = None) -> Read:
+    """A model from a file."""
     document = read_document(path)
     found = list(document.findings)
-    plan = None
+    read = None
     try:
-        plan = kind.model_validate(document.data)
+        read = model.model_validate(document.data, context=context)
     except ValidationError as error:
-        found = findings(error, kind, document)
-    if plan is None or found:
+        found = findings(error, model, document)
+    if read is None or found:
         raise InputError(listing(document.path, found))
-    if isinstance(plan.states, str) and plan.states != DUTY:
-        table = path.parent / plan.states
-        try:
-            return plan.replace(states=read_states(table))
-        except InputError as error:
-            named = str(error).startswith(str(table))
-            raise InputError(str(error) if named else f"{table}: {error}") from None
-    return plan
+    return read
+
+
+def _with_states(plan: Given, path: Path) -> Given:
+    """A plan with the table of its states, where it names one."""
+    if not isinstance(plan.states, str) or plan.states == DUTY:
+        return plan
+    table = path.parent / plan.states
+    try:
+        return plan.replace(states=read_states(table))
+    except InputError as error:
+        named = str(error).startswith(str(table))
+        raise InputError(str(error) if named else f"{table}: {error}") from None
 
 
 def read_states(path: Path) -> tuple[dict[str, Value], ...]:

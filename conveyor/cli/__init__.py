@@ -14,6 +14,7 @@ from conveyor.cli import (  # noqa: F401 each registers its commands
     optimise,
     power,
     rubber,
+    size,
     study,
     tools,
     verify,

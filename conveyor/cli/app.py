@@ -44,7 +44,8 @@ class _InOrder(typer.core.TyperGroup):
 
 
 ORDER = (
-    "new", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit", "anchor", "shelf",
+    "new", "size", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit", "anchor",
+    "shelf",
     "verify-sheet", "contact", "validate", "schema",
 )  # fmt: skip
 

@@ -1,0 +1,159 @@
+"""Prices and lives of what conveyors are built of."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any, Final, Self
+
+from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
+from pydantic_core import PydanticCustomError
+
+from conveyor.files import libraries
+from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.listed import merged
+from conveyor.units import Bounds, Duration, Fraction, Length, si
+
+_WRITTEN: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})(?:\s*/\s*(\S+))?\s*")
+_SCALES: Final = {"kW": 1e-3, "kN": 1e-3, "MN*m": 1e-6}
+"""Of a price per unit to that per SI unit."""
+
+
+@dataclass(frozen=True)
+class UnitPrice:
+    """An amount of money in a currency named by its three-letter code, for a unit of something."""
+
+    number: float
+    currency: str
+    unit: str
+
+    @property
+    def amount(self) -> float:
+        """For an SI unit: of mass, length, area, volume, power, force, strength times area [currency/…]."""
+        return self.number * _SCALES.get(self.unit, 1.0)
+
+    def __str__(self) -> str:
+        per = f"({self.unit})" if "*" in self.unit else self.unit
+        return f"{self.number:.12g} {self.currency}" + (f"/{per}" if per else "")
+
+
+def _per(unit: str) -> tuple[Any, ...]:
+    """What reads and writes a price for a unit."""
+    example = str(UnitPrice(12.0, "EUR", unit))
+
+    def read(value: Any) -> UnitPrice:
+        if isinstance(value, UnitPrice):
+            return value
+        match = _WRITTEN.fullmatch(value) if isinstance(value, str) and len(value) <= 80 else None
+        if match is None or (match[3] or "").strip("()") != unit:
+            message = f'got "{str(value)[:80]}", expected a price such as "{example}"'
+            raise PydanticCustomError("price", "{message}", {"message": message})
+        return UnitPrice(float(match[1]), match[2], unit)
+
+    schema = WithJsonSchema({"type": "string", "examples": [example]})
+    return BeforeValidator(read), PlainSerializer(str, when_used="json"), schema
+
+
+_Once = Annotated[UnitPrice, *_per("")]
+_PerMass = Annotated[UnitPrice, *_per("kg")]
+_PerLength = Annotated[UnitPrice, *_per("m")]
+_PerArea = Annotated[UnitPrice, *_per("m^2")]
+_PerVolume = Annotated[UnitPrice, *_per("m^3")]
+_PerPower = Annotated[UnitPrice, *_per("kW")]
+_PerForce = Annotated[UnitPrice, *_per("kN")]
+_PerStrength = Annotated[UnitPrice, *_per("MN*m")]
+Years = Annotated[Number, Field(gt=0, le=100)]
+
+
+class Prices(Model):
+    """Prices, lives and rates; what is not given is that of the library of prices."""
+
+    textile: _PerArea
+    """Textile belt, without its strength and covers."""
+    textile_strength: _PerStrength
+    """Beside it, for strength per width times area."""
+    steel_cord: _PerArea
+    """Steel-cord belt, without its strength and covers."""
+    steel_cord_strength: _PerStrength
+    """Beside it, for strength per width times area."""
+    cover: _PerVolume
+    """Cover rubber."""
+    special_cover: _PerVolume
+    """Cover rubber of every compound but the first of the duty's."""
+    splice: _PerLength
+    """A splice, per width of belt."""
+    roll_of_belt: Annotated[Length, Bounds(gt="10 m", le="10 km")]
+    """Belt between splices."""
+    textile_life: Years
+    """Of a textile belt, years."""
+    steel_cord_life: Years
+    """Of a steel-cord belt, years."""
+    roll: _Once
+    """Bearings, seals and assembly of a roll."""
+    roll_mass: _PerMass
+    """What turns of a roll."""
+    set: _PerLength
+    """Frame and erection of an idler set, per width of belt."""
+    roll_life: Annotated[Duration, Bounds(gt="100 h", le="1000000 h")]
+    """Of a roll's seals in running; its bearings may end it sooner."""
+    structure: _PerLength
+    """Stringers, walkway, cables, per length of conveyor."""
+    structure_width: _PerArea
+    """Beside it, per length and width of belt."""
+    drive: _Once
+    """Every drive: base, coupling, cables."""
+    drive_power: _PerPower
+    """Motor, gear and inverter."""
+    pulley_mass: _PerMass
+    """Pulleys with shafts and bearings."""
+    take_up: _Once
+    """Take-up."""
+    take_up_force: _PerForce
+    """Beside it, for the belt tension it is set to."""
+    interest: Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
+    """A year."""
+    years: Years
+    """Life of structure, drives and pulleys, years."""
+    upkeep: Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
+    """A year, over all capital."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_library(cls, data: Any) -> Any:
+        return merged(library_prices(), data) if isinstance(data, dict) else data
+
+    @model_validator(mode="after")
+    def _one_currency(self) -> Self:
+        given = {name: value for name, value in self if isinstance(value, UnitPrice)}
+        known = {value.currency for value in given.values()}
+        if len(known) > 1:
+            own = {name for name in self.model_fields_set if name in given}
+            own = {name for name in own if str(given[name]) != library_prices()[name]} or set(given)
+            message = f"got {', '.join(sorted(known))}; give every price in one currency: {', '.join(sorted(given))}"
+            refuse("Prices", [Problem((min(own),), message)])
+        return self
+
+    @property
+    def currency(self) -> str:
+        """Of all prices."""
+        return self.drive.currency
+
+    @cached_property
+    def amounts(self) -> dict[str, float]:
+        """Every figure by its field: prices for SI units, lives in years, seconds or metres."""
+        return {
+            name: value.amount
+            if isinstance(value, UnitPrice)
+            else value
+            if isinstance(value, float)
+            else si(value)
+            for name, value in self
+        }
+
+
+def library_prices() -> dict[str, Any]:
+    """Prices of the library, as specs write them."""
+    return {
+        name: value for entry in libraries.entries("prices").values() for name, value in entry.fields.items()
+    }

@@ -1,0 +1,244 @@
+"""What a conveyor is sized from: its duty, rules of the site, series of parts, prices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, model_validator
+
+from conveyor.files import libraries
+from conveyor.laws.sizing import Severity
+from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.models.compound import CompoundReference
+from conveyor.models.material import BulkMaterial
+from conveyor.models.operation import EarthTemperature, Operation
+from conveyor.models.parts import Ambient, Calculation
+from conveyor.models.prices import Prices
+from conveyor.models.report import Report
+from conveyor.models.route import Route
+from conveyor.models.wording import Location
+from conveyor.units import (
+    Angle,
+    Bounds,
+    Duration,
+    Force,
+    Fraction,
+    Length,
+    LineForce,
+    Mass,
+    Power,
+    Rotation,
+    Speed,
+    Thickness,
+    quantity,
+    si,
+)
+
+Carcasses = Literal["EP", "steel cord"]
+DriveLayout = Literal["head", "head, two pulleys", "head and tail", "tail"]
+Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
+Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
+
+
+class WidthRow(Model):
+    """A belt width and the lengths of its rolls."""
+
+    belt: Wide
+    """Width."""
+    one: Wide
+    """Roll of a flat set."""
+    two: Wide
+    """Rolls of a set of two."""
+    three: Wide
+    """Rolls of a set of three."""
+
+
+class RollRow(Model):
+    """Rolls of a diameter."""
+
+    diameter: Annotated[Thickness, Bounds(ge="20 mm", le="1 m")]
+    """Outside."""
+    wall: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
+    """Of the tube."""
+    ends: Annotated[Mass, Bounds(ge="0 kg", le="100 kg")]
+    """What turns beside the tube."""
+    bearing: Name
+    """Its bearings."""
+    dynamic_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")]
+    """Rating C of one."""
+
+
+class CarcassRow(Model):
+    """A class of belts."""
+
+    strength: Annotated[LineForce, Bounds(gt="0 N/mm", le="20000 N/mm")]
+    """Nominal."""
+    thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
+    """Of the carcass."""
+
+
+class Sizes(Model):
+    """The series that parts are chosen from."""
+
+    speeds: tuple[Fast, ...]
+    carry_spacings: tuple[Apart, ...]
+    return_spacings: tuple[Apart, ...]
+    widths: tuple[WidthRow, ...]
+    rolls: tuple[RollRow, ...]
+    textile: tuple[CarcassRow, ...]
+    steel_cord: tuple[CarcassRow, ...]
+
+
+@cache
+def sizes() -> Sizes:
+    """The series of the library."""
+    entries = libraries.entries("sizes").values()
+    return Sizes.from_data({name: value for entry in entries for name, value in entry.fields.items()})
+
+
+class SiteRules(Model):
+    """What a design has to keep; everything has a default, those without a source are general knowledge."""
+
+    widths: tuple[Wide, ...] = ()
+    """Belt widths to choose from; all of the library without."""
+    speeds: tuple[Fast, ...] = ()
+    """Belt speeds to choose from; all of the library without."""
+    fastest: Fast | None = None
+    """Highest speed of the belt; without it that which CEMA recommends for width and material."""
+    filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("90 %")
+    """Most of the cross-section of ISO 5048 that the bulk may take."""
+    least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
+    """Least of it: emptier belts are not looked at."""
+    trough_angles: Annotated[
+        tuple[Annotated[Angle, Bounds(ge="0 deg", le="60 deg")], ...], Field(min_length=1)
+    ] = (quantity("35 deg"), quantity("45 deg"))
+    """Of sets of three rolls."""
+    carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
+    """Kinds of belt."""
+    carry_spacings: tuple[Apart, ...] = ()
+    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones."""
+    return_spacings: tuple[Apart, ...] = ()
+    """The same of return sets."""
+    graduated: bool = True
+    """Whether the distance of carry sets may differ from section to section."""
+    carry_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
+    """Largest sag of the belt between carry sets, over their distance."""
+    return_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("2 %")
+    """The same of return sets."""
+    roll_rotation: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] = quantity("650 rpm")
+    """Highest speed of the rolls."""
+    roll_life: Annotated[Duration, Bounds(gt="0 h", le="1000000 h")] = quantity("30000 h")
+    """Least L10 of the bearings of a set."""
+    drives: Annotated[tuple[DriveLayout, ...], Field(min_length=1)] = (
+        "head",
+        "head, two pulleys",
+        "head and tail",
+        "tail",
+    )
+    """Places of the drives to choose from."""
+    largest_motor: Annotated[Power, Bounds(gt="0 kW", le="1 MW")] = quantity("1000 kW")
+    """Largest motor of a pulley; the series ends at 1 MW."""
+    wrap_angle: Annotated[Angle, Bounds(gt="90 deg", le="270 deg")] = quantity("210 deg")
+    """Of a drive pulley."""
+    friction: Annotated[Number, Field(ge=0.01, le=1)] = 0.35
+    """Of belt on drive pulley."""
+    efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("94 %")
+    """From motor shaft to belt."""
+    start_factor: Annotated[Number, Field(ge=1, le=5)] = 1.3
+    """Force of a start over the steady one."""
+    take_up_travel: Annotated[Length, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
+    """Longest travel of the take-up, which keeps textile belts to short conveyors."""
+    motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
+    """Rated power of motors over the highest needed."""
+
+
+class SizingDuty(Model):
+    """What is to be conveyed, from where to where, and by which rules."""
+
+    name: Name
+    """What the conveyor is called in reports."""
+    material: BulkMaterial
+    lump: Annotated[Length, Bounds(ge="0 mm", le="2 m")]
+    """Largest size of the bulk."""
+    lumps: Literal["mixed", "sized"] = "mixed"
+    """Whether a few lumps are among fines, or all is lumps."""
+    abrasiveness: Severity = "medium"
+    """Of the bulk."""
+    loading: Severity = "medium"
+    """How hard the bulk lands on the belt."""
+    length: Annotated[Length, Bounds(gt="2 m", le="100 km")] | None = None
+    """Along the belt, of a conveyor of one slope; instead of route."""
+    lift: Annotated[Length, Bounds(ge="-5 km", le="5 km")] | None = None
+    """From tail to head, with length."""
+    route: Route | None = None
+    """Sections as in a spec; pulleys, take-up and distances of idlers are sized."""
+    ambient: Ambient
+    coldest: EarthTemperature | None = None
+    """Of the covers, for motors and strength; that of ambient without it."""
+    operation: Operation
+    covers: Annotated[tuple[CompoundReference, ...], Field(min_length=1, max_length=10)]
+    """Compounds of the bottom cover to choose from; the first one is that of the top cover, too."""
+    rules: SiteRules = SiteRules()
+    prices: Prices = Field(default_factory=lambda: Prices.from_data({}))
+    calculation: Calculation = Calculation()
+    report: Report = Report()
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        refuse("SizingDuty", self._problems())
+        return self
+
+    def _problems(self) -> Iterator[Problem]:
+        if (self.route is None) == (self.length is None):
+            yield Problem(("route",), "give either route, or length and lift of one slope")
+        if self.lift is not None and self.length is None:
+            yield Problem(("lift",), "given without length; give the lifts of the route's sections")
+        elif self.lift is not None and self.length is not None and abs(si(self.lift)) >= si(self.length):
+            yield Problem(
+                ("lift",), "is not less than length, which is along the belt; correct one of the two"
+            )
+        if self.route is not None:
+            yield from self._sized_problems(self.route)
+        if si(self.material.flow) == 0.0:
+            yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
+        yield from self._price_problems()
+
+    @staticmethod
+    def _sized_problems(route: Route) -> Iterator[Problem]:
+        """Refuse what the sizing is to find."""
+        given: dict[Location, object] = {
+            ("route", "pulleys"): route.pulleys,
+            ("route", "take_up"): route.take_up,
+        }
+        for i, section in enumerate(route.sections):
+            place = ("route", "sections", i)
+            given |= {
+                (*place, "carry_spacing"): section.carry_spacing,
+                (*place, "return_spacing"): section.return_spacing,
+            }
+        yield from (
+            Problem(place, "is what the sizing is to find; remove it")
+            for place, value in given.items()
+            if value
+        )
+
+    def _price_problems(self) -> Iterator[Problem]:
+        price = self.operation.price
+        if price is None:
+            yield Problem(("operation", "price"), "missing: designs are ranked by what their energy costs")
+        elif price.currency != self.prices.currency:
+            message = f"got {price.currency}, but the prices are in {self.prices.currency}; give both in one currency"
+            yield Problem(("operation", "price"), message)
+        if self.operation.duty:
+            yield Problem(("operation", "duty"), "designs are ranked at their full load; give hours_per_year")
+
+    @property
+    def sized_route(self) -> Route:
+        """Its sections, be they given or one slope."""
+        if self.route is not None:
+            return self.route
+        section: dict[str, Any] = {"name": "conveyor", "length": self.length, "lift": self.lift}
+        return Route.from_data({"sections": [{k: v for k, v in section.items() if v is not None}]})

@@ -1,0 +1,234 @@
+"""Every table of a sizing, declared once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from operator import attrgetter, itemgetter
+from typing import Any, Final
+
+from conveyor.checks import checks
+from conveyor.remarks import assumptions
+from conveyor.report import sizing_plots
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report.result_schema import SCHEMA_VERSION
+from conveyor.report.tables import Remark, checked, document, provenance
+from conveyor.sizing.around import VariedChoice, around
+from conveyor.sizing.designs import CalculatedSizing, Design
+from conveyor.spec import fingerprint
+from conveyor.units import System
+from conveyor.units.presentation import MONEY
+
+PARTS: Final = (
+    ("designs", "Designs"),
+    ("costs", "Costs"),
+    ("around", "Around the best design"),
+    ("spacing", "Distances of the carry sets"),
+    ("checks", "Checks of the best design"),
+    ("remarks", "What it rests on"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page."""
+_TABLES: Final = ("designs", "costs", "around", "spacing")
+_WHY: Final = (
+    "of {calculated} candidates calculated exactly, chosen by a closed estimate out of {possible} that the series can "
+    "build"
+)
+
+
+def of_sizing(found: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
+    """Every table of a sizing in a unit system; with `vary` also what varies around the best design."""
+    sweeps = around(found.task, found.best) if vary else ()
+    best = found.best
+    parts = (
+        designs(found), costs(found), *([swept(found, sweeps)] if sweeps else []), spacing(found),
+        checked(checks(best.found), system), _remarks(found), provenance(fingerprint(best.conveyor)),
+    )  # fmt: skip
+    about = document(best.conveyor, "Sizing", system, (("candidates", f"{found.candidates}"),))
+    drawn = [Drawing("shares", "What a year costs, by part, of every design.",
+                     partial(sizing_plots.shares, found, system=system), "costs")]  # fmt: skip
+    if sweeps:
+        words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
+        drawn.append(
+            Drawing("around", words, partial(sizing_plots.sweeps, found, sweeps, system=system), "around")
+        )
+    return Contents(about, tuple(part for part in parts if not part.empty), system, tuple(drawn))
+
+
+def _money(found: CalculatedSizing) -> str:
+    return f"{MONEY}{found.duty.prices.currency}"
+
+
+def _of(get: str) -> Callable[[Any], Any]:
+    """Of the design in a row of rank and design."""
+    return lambda row: attrgetter(get)(row[1])
+
+
+def designs(found: CalculatedSizing) -> Table:
+    """One row a design, the cheapest in a year first."""
+    money, saved = _money(found), found.best.year
+
+    def col(label: str, kind: str, get: Callable[[Any], Any], json: str) -> Column:
+        return Column(label, kind, get, json=json)
+
+    columns = (
+        col("rank", "count", itemgetter(0), "rank"),
+        col("belt width", "size", _of("choice.trough.width.belt"), "width_mm"),
+        col("trough", "angle", _of("choice.trough.angle"), "trough_deg"),
+        col("speed", "speed", _of("choice.speed"), "speed_m_per_s"),
+        col("filling", "share", _of("choice.filling"), "filling"),
+        col("belt", "text", lambda row: _belt(row[1]), "belt"),
+        col("top cover", "size", _of("chosen.top"), "top_cover_mm"),
+        col("bottom cover", "size", _of("chosen.bottom"), "bottom_cover_mm"),
+        Column("compound", "text", lambda row: row[1].conveyor.carry_compound.name, json="compound"),
+        col("rolls", "size", _of("choice.roll.diameter"), "roll_diameter_mm"),
+        col("carry sets", "spacing", lambda row: _widest(row[1]), "carry_spacing_m"),
+        col("return sets", "spacing", _of("choice.back"), "return_spacing_m"),
+        col("drives", "text", _of("choice.drives"), "drives"),
+        col("motors", "power", lambda row: sum(row[1].chosen.motors), "motors_kW"),
+        col("motor power", "power", _of("found.balance.power.motor"), "motor_power_kW"),
+        col("belt safety", "ratio", _of("safety"), "belt_safety"),
+        Column("take-up", "force", _of("found.balance.settled.setting"), json="take_up_N"),
+        Column("L10 of a roll set", "life", lambda row: row[1].roll_life / 3600.0, json="roll_life_h"),
+        col("capital", money, lambda row: float(row[1].costs.whole_capital), "capital"),
+        col("energy a year", money, lambda row: float(row[1].costs.yearly["energy"]), "energy_per_year"),
+        col("cost a year", money, _of("year"), "cost_per_year"),
+        Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
+        Column("why", "text", lambda row: _why(found, row[0] - 1), json="why"),
+    )  # fmt: skip
+    caption = (
+        "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
+    )
+    rows = tuple(enumerate(found.designs, start=1))
+    return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
+
+
+def _belt(design: Design) -> str:
+    carcass = design.chosen.carcass
+    return f"{'ST' if carcass.steel_cord else 'EP'}{carcass.strength / 1e3:.0f}"
+
+
+def _widest(design: Design) -> float:
+    return max(design.choice.graduated or (design.choice.carry,))
+
+
+def _why(found: CalculatedSizing, rank: int) -> str:
+    """What it costs more for than the best, and less."""
+    if rank == 0:
+        shares = {name: value / found.best.year for name, value in found.best.costs.yearly.items()}
+        most = sorted(shares, key=lambda name: -float(shares[name]))[:3]
+        return "cheapest: " + ", ".join(f"{name} {float(shares[name]):.0%}" for name in most)
+    best, own = found.best.costs.yearly, found.designs[rank].costs.yearly
+    change = {name: float(own[name] - best[name]) for name in own}
+    order = sorted(change, key=lambda name: -abs(change[name]))[:2]
+    return ", ".join(f"{name} {change[name]:+,.0f}" for name in order if round(change[name]) != 0) + " a year"
+
+
+def costs(found: CalculatedSizing) -> Table:
+    """Capital and yearly cost of every design by part."""
+    money = _money(found)
+    rows = [
+        (rank, name, design.costs.capital.get(name), float(value))
+        for rank, design in enumerate(found.designs, start=1)
+        for name, value in design.costs.yearly.items()
+    ]
+    columns = (
+        Column("rank", "count", itemgetter(0), json="rank"),
+        Column("part", "text", itemgetter(1), json="part"),
+        Column("capital", money, lambda row: None if row[2] is None else float(row[2]), json="capital"),
+        Column("a year", money, itemgetter(3), json="per_year"),
+    )
+    caption = "Capital and cost of a year by part: annuity over its life, upkeep, energy"
+    note = "prices are general knowledge, known to a factor of two, unless the duty gives them"
+    return Table("costs", "Costs", caption, columns, rows, (OnPage("costs", caption, printed=False),), note)
+
+
+def swept(found: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
+    """One row a value around the best design."""
+    money = _money(found)
+    rows = [
+        (
+            sweep,
+            value,
+            design if isinstance(design, Design) else None,
+            design if isinstance(design, str) else "",
+        )
+        for sweep in sweeps
+        for value, design in zip(sweep.values, sweep.designs, strict=True)
+    ]
+
+    def of(get: Callable[[Design], Any]) -> Callable[[Any], Any]:
+        return lambda row: None if row[2] is None else get(row[2])
+
+    columns = (
+        Column("choice", "text", lambda row: row[0].name, json="choice"),
+        Column(
+            "distance", "spacing", lambda row: row[1] if row[0].kind == "spacing" else None, json="distance_m"
+        ),
+        Column("size", "size", lambda row: row[1] if row[0].kind == "size" else None, json="size_mm"),
+        Column(
+            "speed", "speed", lambda row: row[1] if row[0].kind == "speed" else None, json="speed_m_per_s"
+        ),
+        Column("motor power", "power", of(attrgetter("found.balance.power.motor")), json="motor_power_kW"),
+        Column("belt", "text", of(_belt), json="belt"),
+        Column(
+            "energy a year", money, of(lambda one: float(one.costs.yearly["energy"])), json="energy_per_year"
+        ),
+        Column("idlers a year", money, of(sizing_plots.idlers), json="idlers_per_year"),
+        Column("belt a year", money, of(lambda one: float(one.costs.yearly["belt"])), json="belt_per_year"),
+        Column("cost a year", money, of(attrgetter("year")), json="cost_per_year"),
+        Column("no design because", "text", itemgetter(3), json="why"),
+    )
+    caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors, brake sized again"
+    return Table("around", "Around the best", caption, columns, rows, (OnPage("around", caption),))
+
+
+def spacing(found: CalculatedSizing) -> Table:
+    """Distances of the carry sets of every section, of the designs that have them graduated."""
+    rows = [
+        (rank, section.name, section.length, apart)
+        for rank, design in enumerate(found.designs, start=1)
+        for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
+    ]
+    columns = (
+        Column("rank", "count", itemgetter(0), json="rank"),
+        Column("section", "text", itemgetter(1), json="section"),
+        Column("length", "length", itemgetter(2), json="length_m"),
+        Column("carry sets", "spacing", itemgetter(3), json="carry_spacing_m"),
+    )
+    caption = "Carry sets as far apart in each section as is cheapest where sag and rolls bear it"
+    return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),))
+
+
+def _remarks(found: CalculatedSizing) -> Table:
+    best = found.best
+    told = _WHY.format(calculated=found.calculated, possible=f"{found.possible:,}")
+    lines = [
+        f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
+        f"the estimate's cost of a year was off by at most {found.estimate_error:.1%} where it was calculated",
+        f"{found.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
+        "prices, series and rules without a source are general knowledge, orders of magnitude: give your own in the "
+        "duty (prices, rules)",
+        "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
+        *(f"{count} calculated candidates are no designs: {why}" for why, count in found.refused.items()),
+        *assumptions(best.conveyor),
+    ]
+    rows = tuple(Remark(("assumption", line)) for line in lines)
+    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
+    return Table("remarks", "Checks and notes", "Remarks", columns, rows, (OnPage("remarks", "Remarks"),))
+
+
+def plain(contents: Contents, found: CalculatedSizing) -> dict[str, Any]:
+    """Plain numbers for JSON; units in the keys, money in `currency`."""
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "duty": found.duty.name,
+        "currency": found.duty.prices.currency,
+        "candidates": found.candidates,
+        "possible": found.possible,
+        "calculated": found.calculated,
+        "estimate_error": found.estimate_error,
+        "refused": dict(found.refused),
+        **{key: contents[key].plain() for key in _TABLES if key in contents},
+        "assumptions": list(contents.lines("assumption")),
+    }

@@ -1,0 +1,114 @@
+"""What else could be chosen around a design: one choice varied, all that follows from it sized and calculated again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+from conveyor.line.task import Choice, SizingTask
+from conveyor.sizing.designs import Design, settled
+
+_Point: TypeAlias = tuple[float, "Choice | None"]
+_THICKER: Final = (0.0, 1e-3, 2e-3, 4e-3)  # [m], of the bottom cover
+
+
+@dataclass(frozen=True, eq=False)
+class VariedChoice:
+    """A choice varied around a design.
+
+    Attributes
+    ----------
+    name, kind : str
+        Of what varies.
+    values : tuple of float
+        SI.
+    designs : tuple of Design or str
+        At each, or why there is none.
+    at : float
+        That of the design.
+    """
+
+    name: str
+    kind: str
+    values: tuple[float, ...]
+    designs: tuple[Design | str, ...]
+    at: float
+
+
+def around(task: SizingTask, design: Design) -> tuple[VariedChoice, ...]:
+    """Vary the distances of the sets, roll diameter, speed and bottom cover of a design, each alone.
+
+    Parameters
+    ----------
+    task : SizingTask
+        The duty.
+    design : Design
+        Around which; its carry sets evenly apart.
+
+    Returns
+    -------
+    tuple of VariedChoice
+        Belt class, motors and brake of every point are its own; what keeps no rule or check has no design there.
+    """
+    base = replace(design.choice, graduated=())
+    axes = list(_axes(task, base, design.chosen.bottom))
+    varied = [choice for _, _, _, points in axes for _, choice in points if choice is not None]
+    begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
+    found = iter(settled(task, begin, design.found))
+    return tuple(
+        VariedChoice(
+            name,
+            kind,
+            tuple(value for value, _ in points),
+            tuple(
+                "keeps no rule of filling, speed or rolls" if choice is None else next(found)
+                for _, choice in points
+            ),
+            at,
+        )
+        for name, kind, at, points in axes
+    )
+
+
+def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:
+    """Name, kind and value of what varies, and its values with their choices; None where a rule forbids one."""
+    carry, back = task.spacings
+    yield (
+        "distance of carry sets",
+        "spacing",
+        base.carry,
+        [(a, replace(base, carry=a)) for a in carry if a <= base.back],
+    )
+    yield (
+        "distance of return sets",
+        "spacing",
+        base.back,
+        [(a, replace(base, back=a)) for a in back if a >= base.carry],
+    )
+    rolls = [roll for roll in task.rolls if task.turns_slowly(roll, base.speed)]
+    yield (
+        "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
+    )  # fmt: skip
+    yield (
+        "belt speed, each with the narrowest belt",
+        "speed",
+        base.speed,
+        [(speed, _at_speed(task, base, speed)) for speed in task.speeds],
+    )
+    thicker: list[_Point] = [(bottom + more, replace(base, thicker=base.thicker + more)) for more in _THICKER]
+    yield "bottom cover", "size", bottom, thicker
+
+
+def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
+    """The choice at another speed, with the narrowest belt that keeps the rules and the least rolls."""
+    alike = sorted(
+        (one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt
+    )
+    fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
+    rolls = [
+        roll for roll in task.rolls if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter
+    ]
+    if not fits or not rolls:
+        return None
+    return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])

@@ -1,0 +1,534 @@
+"""From a duty to ranked designs: candidates screened by a closed estimate, the best calculated exactly.
+
+Belt class, motors and brake of each follow from its own calculated tensions; those whose checks fail are no designs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from conveyor.checks import checks
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.laws.belt import CLASSIC_SAFETY
+from conveyor.laws.energy import next_motor
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.line.roll_lives import shortest_life
+from conveyor.line.stretches import STRANDS
+from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
+from conveyor.models import Conveyor
+from conveyor.models.sizing import SizingDuty
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many, take_up_of
+from conveyor.sizing.costs import Costs, Parts, costs
+from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
+from conveyor.studies.states import at_one_take_up, load_states
+
+RTOL: Final = 1e-4
+"""Of the contacts, as in studies."""
+CALCULATED: Final = 16
+"""Candidates calculated at once, the best of the estimate."""
+ALIKE: Final = 2
+"""Of them of one width, speed and place of drives, so that the list shows what else could be built."""
+BRAKE_RESERVE: Final = 1.3
+"""Brake force over that which holds the loaded belt; general knowledge."""
+_SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
+_SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
+_NO_LIFE: Final = 1e12  # [s], of rolls without load
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """A design that keeps every rule.
+
+    Attributes
+    ----------
+    choice, chosen : Choice, Chosen
+        What it is made of.
+    found : CalculatedConveyor
+        At the temperature of the duty; its spec is `found.conveyor`.
+    coldest : CalculatedConveyor
+        At the lowest temperature: motors and strength; `found` where the duty has none lower.
+    costs : Costs
+        Capital and a year.
+    estimate : float
+        Cost of a year by the closed estimate that chose it [currency/a].
+    roll_life : float
+        Of the set that lives shortest, L10 of its bearings [s].
+    """
+
+    choice: Choice
+    chosen: Chosen
+    found: CalculatedConveyor
+    coldest: CalculatedConveyor
+    costs: Costs
+    estimate: float
+    roll_life: float
+
+    @property
+    def conveyor(self) -> Conveyor:
+        """Its spec."""
+        return self.found.conveyor
+
+    @property
+    def year(self) -> float:
+        """Cost of a year [currency/a]."""
+        return float(self.costs.year)
+
+    @property
+    def safety(self) -> float:
+        """Of the belt in steady running, at the lowest temperature [-]."""
+        return self.chosen.carcass.strength * self.found.line.belt.width / _tension(self.pair)
+
+    @property
+    def pair(self) -> tuple[CalculatedConveyor, CalculatedConveyor]:
+        """Both calculations."""
+        return self.found, self.coldest
+
+
+@dataclass(frozen=True, eq=False)
+class CalculatedSizing:
+    """Ranked designs of a duty.
+
+    Attributes
+    ----------
+    duty : SizingDuty
+        What was sized.
+    designs : tuple of Design
+        The cheapest in a year first; every one calculated exactly.
+    candidates, possible, calculated : int
+        Combinations within the rules; those for which the series have parts; those calculated exactly.
+    refused : Mapping
+        Why calculated candidates are no designs, and how many.
+    estimate_error : float
+        Largest difference of the estimated cost of a year from the exact one, over it [-].
+    """
+
+    duty: SizingDuty
+    designs: tuple[Design, ...]
+    candidates: int
+    possible: int
+    calculated: int
+    refused: Mapping[str, int]
+    estimate_error: float
+
+    @cached_property
+    def task(self) -> SizingTask:
+        """The duty in SI."""
+        return SizingTask(self.duty)
+
+    @property
+    def best(self) -> Design:
+        """The cheapest one."""
+        return self.designs[0]
+
+
+def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) -> CalculatedSizing:
+    """Size a conveyor from its duty.
+
+    Parameters
+    ----------
+    duty : SizingDuty
+        What is conveyed, and the rules.
+    best : int
+        Designs wanted.
+    progress : callable, optional
+        Called with what is done of all.
+
+    Raises
+    ------
+    NoSolutionError
+        No candidate keeps the rules; the message says which rule leaves none.
+    """
+    task = SizingTask(duty)
+    choices = Candidates.of(task)
+    if not len(choices):
+        raise NoSolutionError(
+            "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
+            "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
+        )
+    levels = first_levels(len(duty.covers))
+    estimate = screen(task, choices, levels)
+    probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
+    if not probes:
+        raise NoSolutionError(
+            "no candidate has a belt, motors and bearings strong enough among the series: allow further carcasses or "
+            "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
+        )
+    first = _first(task, choices, estimate, probes)
+    known = next((one for one in first if one is not None), None)
+    levels = _levels(choices, estimate, probes, first, levels)
+    found: dict[int, Design | str] = {}
+    for _ in range(_SCREENINGS):
+        estimate = screen(task, choices, levels)
+        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in found]
+        if progress is not None:
+            progress(len(found), len(found) + len(new))
+        found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
+        made = {i: one for i, one in found.items() if isinstance(one, Design)}
+        levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
+    reasons = Counter(one for one in found.values() if isinstance(one, str))
+    final = _final(task, made.values(), best, known, reasons)
+    if not final:
+        told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
+        raise NoSolutionError(f"no candidate of {len(found)} calculated keeps every check: {told}")
+    return CalculatedSizing(
+        duty,
+        tuple(final[:best]),
+        len(choices),
+        int(np.isfinite(estimate.year).sum()),
+        len(found),
+        reasons,
+        max(abs(one.estimate / one.year - 1.0) for one in [*made.values(), *final]),
+    )
+
+
+def _final(
+    task: SizingTask,
+    designs: Iterable[Design],
+    best: int,
+    known: CalculatedConveyor | None,
+    reasons: Counter[str],
+) -> list[Design]:
+    """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
+    ranked = sorted(designs, key=_year)
+    if task.rules.graduated and len(task.sections) > 1:
+        ranked = sorted([*_graduated(task, ranked[:best]), *ranked[best:]], key=_year)
+    final: list[Design] = []
+    while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
+        batch, ranked = ranked[:best], ranked[best:]
+        for one in settled(task, [(d.choice, d.chosen, d.estimate) for d in batch], known, every_load=True):
+            if isinstance(one, Design):
+                final.append(one)
+            else:
+                reasons[one] += 1
+        final.sort(key=_year)
+    return final
+
+
+def _year(design: Design) -> float:
+    return design.year
+
+
+def _shortlist(
+    task: SizingTask, choices: Candidates, estimate: Screened, most: int, *, covers: bool = False
+) -> list[int]:
+    """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
+    taken: Counter[object] = Counter()
+    found: list[int] = []
+    for i in np.argsort(estimate.year, kind="stable").tolist():
+        if not math.isfinite(estimate.year[i]) or len(found) == most:
+            break
+        choice = choices[i]
+        key: object = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
+        limit = ALIKE if not covers else max(1, most // len(task.duty.covers))
+        if taken[key] < limit:
+            taken[key] += 1
+            found.append(i)
+    return found
+
+
+def _first(
+    task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int]
+) -> list[CalculatedConveyor | None]:
+    """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
+    specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
+    return [
+        one if isinstance(one, CalculatedConveyor) else None
+        for one in calculate_many([Variant(spec) for spec in specs], RTOL)
+    ]
+
+
+def _levels(
+    choices: Candidates, estimate: Screened, chosen: Sequence[int],
+    found: Iterable[CalculatedConveyor | None], levels: Levels,
+) -> Levels:  # fmt: skip
+    """Levels at which the estimate meets calculations in the middle."""
+    over: dict[object, list[float]] = {}
+    for i, one in zip(chosen, found, strict=True):
+        if one is None:
+            continue
+        main = {force.key: force for force in one.balance.along}
+        cover, forces = choices[i].cover, one.balance.forces
+        for k, strand in enumerate(STRANDS):
+            exact = main["indentation"].by_strand()[strand]
+            over.setdefault((strand, cover), []).append(exact / estimate.indentation[i, k])
+        over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
+        over.setdefault("rest", []).append((forces.secondary + forces.special) / estimate.rest[i])
+
+    def middle(key: object) -> float:
+        return float(np.median(over[key])) if key in over else 1.0
+
+    carry, back = ([k * middle((strand, i)) for i, k in enumerate(of)] for strand, of in
+                   zip(STRANDS, (levels.carry, levels.back), strict=True))  # fmt: skip
+    drag = middle("drag") if "drag" in over else levels.drag
+    return Levels(tuple(carry), tuple(back), drag, levels.rest * middle("rest"))
+
+
+def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> Chosen:
+    """Class and motors as the estimate has them."""
+    carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
+    power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
+    motors = tuple(
+        next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives)
+    )
+    return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
+
+
+def _designs(
+    task: SizingTask,
+    choices: Candidates,
+    estimate: Screened,
+    chosen: Sequence[int],
+    known: CalculatedConveyor | None,
+) -> list[Design | str]:
+    """Candidates calculated exactly."""
+    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
+    return settled(task, begin, known)
+
+
+def settled(
+    task: SizingTask,
+    begin: Sequence[tuple[Choice, Chosen, float]],
+    known: CalculatedConveyor | None,
+    *,
+    every_load: bool = False,
+) -> list[Design | str]:
+    """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
+
+    Parameters
+    ----------
+    task : SizingTask
+        The duty.
+    begin : sequence of (Choice, Chosen, float)
+        Candidates, class and motors to begin with, cost of a year by the estimate.
+    known : CalculatedConveyor, optional
+        Calculated already: the anchors of its compounds are taken over.
+    every_load : bool
+        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
+    """
+    now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
+    found: dict[int, Design | str] = {}
+    sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
+    for _ in range(_SIZINGS):
+        specs: dict[int, Conveyor] = {}
+        for i, chosen in now.items():
+            try:
+                specs[i] = task.spec(begin[i][0], chosen, task.duty.name)
+            except InputError as error:
+                found[i] = str(error)
+        coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
+        again = {}
+        for i, answer in _calculated(coldest, known).items():
+            try:
+                if not isinstance(answer, CalculatedConveyor):
+                    raise answer
+                loads = tuple(_loads(answer)) if every_load else (answer,)
+                wanted = _chosen(task, begin[i][0], now[i], loads)
+            except (NoSolutionError, RangeError, InputError) as error:
+                found[i] = str(error)
+                continue
+            if replace(wanted, settling=now[i].settling) == now[i]:
+                sized[i] = now[i], specs[i], loads
+            else:
+                again[i] = wanted
+        now = again
+        if not now:
+            break
+    warm = _calculated({i: spec for i, (_, spec, _) in sized.items()}, known) if task.cold else {}
+    for i, (chosen, _, loads) in sized.items():
+        answer = warm.get(i, loads[0])
+        found[i] = (
+            _design(task, begin[i], chosen, answer, loads)
+            if isinstance(answer, CalculatedConveyor)
+            else str(answer)
+        )
+    return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
+
+
+def _calculated(
+    specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Calculations of specs, side by side."""
+    return dict(
+        zip(specs, calculate_many([Variant(spec) for spec in specs.values()], RTOL, known=known), strict=True)
+    )
+
+
+def _loads(one: CalculatedConveyor) -> Iterator[CalculatedConveyor]:
+    """The full belt and every other load at one take-up."""
+    states, _ = at_one_take_up(load_states(one.conveyor, one), None)
+    yield states.own
+    yield from (load for _, load in states.loads)
+
+
+def _tension(pair: Iterable[CalculatedConveyor]) -> float:
+    """Highest in steady running [N]."""
+    return max(one.belt_duty.largest_steady for one in pair)
+
+
+def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:
+    """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
+
+    Raises
+    ------
+    NoSolutionError
+        No class of the belt is strong enough, or no motor large enough.
+    """
+    tension = _tension(pair)
+    carcass = next(
+        (one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None
+    )
+    if carcass is None:
+        raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
+    if before.settling and carcass.strength < before.carcass.strength:
+        carcass = before.carcass
+    powers = [_powers(one) for one in pair]
+    needed = [max(each) for each in zip(*powers, strict=True)]
+    most = max(needed)
+    if most * task.rules.motor_reserve > task.largest_motor:
+        raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor)")
+    motor = next_motor(most, reserve=task.rules.motor_reserve)
+    brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
+    brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
+    if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
+        brake = before.brake
+    return Chosen(carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, settling=True)
+
+
+def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
+    """Strength that a tension asks of a class [N/m]."""
+    return (
+        CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
+    )
+
+
+def _powers(one: CalculatedConveyor) -> list[float]:
+    """Highest power of every drive, with the friction at both ends of its band [W]."""
+    return [check.calculated or 0.0 for check in checks(one, contacts=False) if check.key == "motor_power"]
+
+
+def _design(
+    task: SizingTask,
+    begin: tuple[Choice, Chosen, float],
+    chosen: Chosen,
+    found: CalculatedConveyor,
+    loads: Sequence[CalculatedConveyor],
+) -> Design | str:
+    """The design, or what fails in it."""
+    failed = next(_failed(task, (found, *loads)), None)
+    if failed is not None:
+        return failed
+    choice, _, estimate = begin
+    life = _roll_life(found)
+    return Design(choice, chosen, found, loads[0], _costs(task, choice, chosen, found, life), estimate, life)
+
+
+def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
+    """Criteria that fail in either; of penetration and rubber data the report warns."""
+    for one in pair:
+        for check in checks(one, contacts=False):
+            if check.failed:
+                yield check.subject.text("SI")
+        if _roll_life(one) < task.roll_life:
+            yield "L10 life of a roll set (rules.roll_life)"
+    travel = take_up_of(pair).travel
+    if travel is not None and travel.whole > task.take_up_travel:
+        yield "travel of the take-up (rules.take_up_travel)"
+
+
+def _roll_life(one: CalculatedConveyor) -> float:
+    """L10 of the set that lives shortest [s]."""
+    lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
+    return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
+
+
+def _costs(
+    task: SizingTask, choice: Choice, chosen: Chosen, found: CalculatedConveyor, life: float
+) -> Costs:  # fmt: skip
+    """Of a calculated design."""
+    width, (count, length, _) = choice.trough.width, choice.trough.width.return_rolls
+    spacings = choice.graduated or (choice.carry,) * len(task.sections)
+    carry = math.fsum(along / apart for (along, _), apart in zip(task.sections, spacings, strict=True))
+    back, first = task.length / choice.back, choice.cover == 0
+    year = found.year
+    parts = Parts(
+        width=width.belt,
+        length=task.length,
+        strength=chosen.carcass.strength,
+        steel_cord=float(chosen.carcass.steel_cord),
+        cover=chosen.top + first * chosen.bottom,
+        special_cover=(not first) * chosen.bottom,
+        sets=carry + back,
+        rolls=3.0 * carry + count * back,
+        roll_mass=3.0 * choice.roll.mass(width.three) * carry + count * choice.roll.mass(length) * back,
+        roll_life=life,
+        drives=float(len(chosen.motors)),
+        power=math.fsum(chosen.motors),
+        pulley_mass=math.fsum(pulley.mass for pulley in found.line.pulleys),
+        take_up=found.balance.settled.setting,
+    )
+    cost = 0.0 if year is None or year.cost is None else year.cost
+    return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
+
+
+def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
+    """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
+    begin = []
+    for design in designs:
+        apart = graduated_spacing(task, design)
+        changed = replace(design.choice, graduated=apart) if len(set(apart)) > 1 else design.choice
+        begin.append((changed, design.chosen, design.estimate))
+    made = settled(task, begin, designs[0].found)
+    return [
+        new if isinstance(new, Design) and new.year < old.year else old
+        for old, new in zip(designs, made, strict=True)
+    ]
+
+
+def graduated_spacing(task: SizingTask, design: Design) -> tuple[float, ...]:
+    """Distance of the carry sets of each section: the cheapest that sag and rolls bear at the tensions there [m].
+
+    Notes
+    -----
+    Per metre of section, with a distance a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by
+    the scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. The life of the bearings
+    falls with the third power of the load.
+    """
+    prices, line = task.duty.prices.amounts, design.found.line
+    width, roll = design.choice.trough.width, design.choice.roll
+    one_set = (
+        3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
+    )
+    yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
+    worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
+    found = []
+    for i, (length, _) in enumerate(task.sections):
+        stretch = line.stretches[i]
+        now, forces = stretch.spacing, design.found.stretches[i].forces
+        lowest = min(_lowest(one, i) for one in design.pair)
+        weight = (stretch.belt_mass + stretch.bulk_mass) * line.gravity
+        loosest = 8.0 * task.sags[0] * lowest / weight
+        heaviest = now * (design.roll_life / task.roll_life) ** (1.0 / 3.0)
+        bears = [a for a in task.spacings[0] if a <= min(loosest, heaviest, design.choice.back)] or [now]
+
+        def per_metre(
+            a: float, forces: Mapping[str, float] = forces, length: float = length, now: float = now
+        ) -> float:
+            wider = a / now
+            friction = forces["indentation"] * math.cbrt(wider) + forces["idler_rotation"] / wider
+            return worth * friction / length + yearly / a
+
+        found.append(min(bears, key=per_metre))
+    return tuple(found)
+
+
+def _lowest(one: CalculatedConveyor, section: int) -> float:
+    """Lowest tension of the carry strand in a section in steady running [N]."""
+    steady, at = one.balance.settled.steady, one.line.count + section
+    return float(min(steady.starts[at], steady.ends[at]))

@@ -1,0 +1,307 @@
+"""Candidates, and a closed estimate of each: friction by scaling laws, tensions round the loop, cost of a year.
+
+Indentation goes with (W⁴ h/D²)^(1/3), the scaling of Winkler's foundation (Jonkers 1980); its level, that of roll drag
+and of the secondary resistances are set by exact calculations of some candidates. It chooses what is worth calculating,
+nothing else: no figure of a design comes from here.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.laws.belt import CLASSIC_SAFETY
+from conveyor.laws.loading import middle_share_belt, middle_share_bulk
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
+from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
+from conveyor.laws.take_up import PERMANENT_STRETCH_STEEL_CORD, PERMANENT_STRETCH_TEXTILE
+from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
+from conveyor.models.belt import RUBBER_DENSITY
+from conveyor.models.sizing import DriveLayout
+from conveyor.sizing.costs import Parts, costs
+
+Array = NDArray[np.float64]
+
+_LOAD: Final = 4.0 / 3.0  # exponent of the line load
+_WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
+_CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.usual`
+_SKIRTS: Final = (
+    2.0 * 0.7 * 9.81 / 0.625**2
+)  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
+_SET: Final = 0.5  # life of the bearings of a set over that of the heaviest loaded alone
+_ROUNDS: Final = 4  # class of the belt, its mass, its tensions
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Levels of the estimate.
+
+    Attributes
+    ----------
+    carry, back : tuple of float
+        Indentation under carry and return rolls, of each cover [Pa^(-1/3)].
+    drag : float
+        Of a roll [N].
+    rest : float
+        Secondary and special resistances over the estimated ones [-].
+    """
+
+    carry: tuple[float, ...]
+    back: tuple[float, ...]
+    drag: float
+    rest: float
+
+
+def first_levels(covers: int) -> Levels:
+    """Levels to begin with: Jonkers at E' 10 MPa and tan δ 0.12; they choose what is calculated first."""
+    jonkers = 1.138 * 0.12 / 1e7 ** (1.0 / 3.0)
+    return Levels((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
+
+
+class Running(NamedTuple):
+    """A trough with a speed [m/s], how it fills it [-], and rolls that turn slowly enough."""
+
+    trough: Trough
+    speed: float
+    filling: float
+    roll: RollSize
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Every combination that keeps the rules of width, lumps, filling, edge distance, and rotation.
+
+    Attributes
+    ----------
+    running : tuple of Running
+        Troughs with a speed and rolls that suit it.
+    numbers : ndarray of int, shape (n, 6)
+        Of each candidate the number of what runs, of the distances of carry and return sets, of cover, kind of carcass
+        and place of the drives.
+    """
+
+    task: SizingTask
+    running: tuple[Running, ...]
+    numbers: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, task: SizingTask) -> Candidates:
+        """Combine what a duty leaves open."""
+        running = tuple(
+            Running(trough, speed, filling, roll)
+            for trough, speed in itertools.product(task.troughs, task.speeds)
+            if (filling := task.filling(trough, speed)) is not None
+            for roll in task.rolls
+            if task.turns_slowly(roll, speed)
+        )
+        carry, back = task.spacings
+        series = (running, carry, back, task.duty.covers, task.kinds, task.rules.drives)
+        numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T
+        apart = np.array(carry)[numbers[:, 1]] <= np.array(back)[numbers[:, 2]]
+        return cls(task, running, numbers[apart])
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, i: int) -> Choice:
+        ran, carry, back, cover, kind, drives = self.numbers[i].tolist()
+        task = self.task
+        trough, speed, filling, roll = self.running[ran]
+        apart = task.spacings[0][carry], task.spacings[1][back]
+        return Choice(
+            trough, speed, filling, roll, *apart, cover, task.kinds[kind], task.rules.drives[drives]
+        )
+
+    def runs(self, get: Callable[[Running], float]) -> Array:
+        """A figure of trough, speed and rolls, of each candidate."""
+        return np.array([get(one) for one in self.running])[self.numbers[:, 0]]
+
+    def driven(self, get: Callable[[DriveLayout], float]) -> Array:
+        """A figure of the place of the drives, of each candidate."""
+        return np.array([get(one) for one in self.task.rules.drives])[self.numbers[:, 5]]
+
+
+@dataclass(frozen=True, eq=False)
+class Screened:
+    """The estimate of every candidate, shape (n,).
+
+    Attributes
+    ----------
+    year : ndarray
+        Cost of a year [currency/a]; infinite where no belt, motor or bearing of the series does.
+    carcass : ndarray of int
+        Number of the class of the belt.
+    force : ndarray
+        On all drives [N].
+    indentation : ndarray, shape (n, 2)
+        Of carry and return strand [N].
+    rolls : ndarray
+        In all sets.
+    rest : ndarray
+        Secondary and special resistances [N].
+    """
+
+    year: Array
+    carcass: NDArray[np.int64]
+    force: Array
+    indentation: Array
+    rolls: Array
+    rest: Array
+
+
+class _Series(NamedTuple):
+    """Classes of belts, by kind and number; beyond the last of a kind as its last, but infinitely strong.
+
+    Strength [N/m], mass of the carcass [kg/m²], pulleys per width of belt [kg/m]; `covers` also by what runs: top and
+    bottom [m]; `last` number of each kind.
+    """
+
+    strengths: Array
+    masses: Array
+    pulleys: Array
+    covers: Array
+    last: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, task: SizingTask, wear: Sequence[float]) -> _Series:
+        """Tables of a duty; `wear` additions to the covers [m]."""
+        kinds = [task.carcasses[kind] for kind in task.kinds]
+        most = max(map(len, kinds))
+        filled = [[each[min(k, len(each) - 1)] for k in range(most)] for each in kinds]
+        strengths = [[one.strength if k < len(each) else np.inf for k, one in enumerate(row)]
+                     for each, row in zip(kinds, filled, strict=True)]  # fmt: skip
+        return cls(
+            np.array(strengths),
+            np.array([[one.mass for one in row] for row in filled]),
+            np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
+            np.array([[[one.covers(addition) for addition in wear] for one in row] for row in filled]),
+            np.array([len(each) - 1 for each in kinds]),
+        )
+
+
+def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
+    """Estimate every candidate."""
+    g, length, numbers, sections = task.gravity, task.length, every.numbers, np.array(task.sections)
+    ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
+    width, speed = every.runs(lambda on: on.trough.width.belt), every.runs(lambda on: on.speed)
+    diameter, three = every.runs(lambda on: on.roll.diameter), every.runs(lambda on: on.trough.width.three)
+    carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
+    count, flat = (
+        every.runs(lambda on: on.trough.width.return_rolls[0]),
+        every.runs(lambda on: on.trough.width.return_rolls[1]),
+    )
+    of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
+    of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
+    bulk, wear = task.flow / speed, np.array([task.wear(v) for _, v, _, _ in every.running])
+    skirts = _SKIRTS * bulk**2 / (task.density * width**2) * speed
+    rest = levels.rest * (task.flow * speed + _CLEANERS * width + skirts)
+    per_metre = np.array([3.0 / carry, count / back])
+    steel = np.array([one == "steel cord" for one in task.kinds])[kind]
+    series = _Series.of(task, wear.tolist())
+    safety = np.where(steel, CLASSIC_SAFETY["steel cord"], CLASSIC_SAFETY["textile"])
+    carcass = np.zeros(len(every), dtype=np.int64)
+    stretched = np.where(steel, PERMANENT_STRETCH_STEEL_CORD.value, PERMANENT_STRETCH_TEXTILE.value) * length
+    possible = stretched <= task.take_up_travel
+    on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
+    k_carry, k_back = np.array(levels.carry)[cover], np.array(levels.back)[cover]
+    sags = np.array(task.sags)[:, None]
+    for _ in range(_ROUNDS):
+        top, bottom = series.covers[kind, carcass, ran].T
+        belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
+        middle = (of_bulk * bulk + of_belt * belt) * g * carry
+        wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
+        per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
+        indentation = np.array([
+            k_carry * (bottom / diameter**2) ** (1.0 / 3.0) * per_set * length / carry,
+            k_back * (top / diameter**2) ** (1.0 / 3.0) * wide * (belt * g * back / wide) ** _LOAD * length / back,
+        ])  # fmt: skip
+        bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
+        friction = indentation / length + levels.drag * per_metre + bent
+        up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
+        down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
+        up[:, 0] += rest
+        force = up.sum(axis=1) + down.sum(axis=1)
+        spans = belt * g * back, (belt + bulk) * g * carry
+        slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
+        needed = safety * largest / width
+        carcass = (series.strengths[kind] < needed[:, None]).sum(axis=1)
+        strong = carcass <= series.last[kind]
+        carcass = np.minimum(carcass, series.last[kind])
+    power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
+    life = _roll_life(every, middle)
+    possible &= (
+        strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
+    )
+    possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
+    first = cover == 0
+    parts = Parts(
+        width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
+        cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
+        rolls=length * per_metre.sum(axis=0), roll_mass=length * _turning(every, carry, back),
+        roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
+        pulley_mass=series.pulleys[kind, carcass] * width, take_up=slack,
+    )  # fmt: skip
+    drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
+    worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
+    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
+    year = np.where(possible, cost.year, np.inf)
+    return Screened(year, carcass, force, indentation.T, length * per_metre.sum(axis=0), rest)
+
+
+def _roll_life(every: Candidates, middle: Array) -> Array:
+    """L10 of the bearings of a carry set with so much on its middle roll [s]."""
+    turns = RATED_REVOLUTIONS * (every.runs(lambda on: on.roll.rating) / (0.5 * middle)) ** BALL_EXPONENT
+    return np.asarray(_SET * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
+
+
+def _turning(every: Candidates, carry: Array, back: Array) -> Array:
+    """What turns of the rolls of both strands, per length of conveyor [kg/m]."""
+
+    def return_set(on: Running) -> float:
+        count, length, _ = on.trough.width.return_rolls
+        return count * on.roll.mass(length)
+
+    carry_set = every.runs(lambda on: 3.0 * on.roll.mass(on.trough.width.three))
+    return np.asarray(carry_set / carry + every.runs(return_set) / back)
+
+
+def _tensions(
+    every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
+) -> tuple[Array, Array]:
+    """Tension right behind the head, and the largest one, by grip and sag [N].
+
+    `along` are the forces on return sections from the head and carry sections from the tail, `spans` loads of return
+    and carry strand between two sets [N].
+    """
+    (down, up), (span_back, span_carry) = along, spans
+    task, at_tail = every.task, every.driven(_at_tail)
+    friction, wrap = task.grip
+    grips = 1.0 / np.expm1(
+        friction * wrap * every.driven(lambda one: 2.0 if one == "head, two pulleys" else 1.0)
+    )
+    start = task.rules.start_factor
+    returning = np.cumsum(down, axis=1)
+    before_tail = returning[:, -1]
+    after_tail = before_tail - at_tail * force
+    carrying = np.cumsum(up, axis=1) + after_tail[:, None]
+    head, (carry_sag, return_sag) = (1.0 - at_tail) * force, task.sags
+    slack = np.max([
+        span_back / (8.0 * return_sag) - np.minimum(0.0, returning.min(axis=1)),
+        span_carry / (8.0 * carry_sag) - np.minimum(after_tail, carrying.min(axis=1)),
+        start * np.abs(head) * grips - np.minimum(0.0, head),
+        start * np.abs(at_tail * force) * grips - np.minimum(before_tail, after_tail),
+    ], axis=0)  # fmt: skip
+    highest = np.maximum(np.maximum(0.0, returning.max(axis=1)), np.maximum(after_tail, carrying.max(axis=1)))
+    return slack, slack + highest
+
+
+def _at_tail(drives: DriveLayout) -> float:
+    """Share of the drive force at the tail."""
+    return {"head": 0.0, "head, two pulleys": 0.0, "head and tail": 0.5, "tail": 1.0}[drives]

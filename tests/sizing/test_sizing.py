@@ -1,0 +1,215 @@
+"""Sizing: the best of few candidates is that of trying all, parts suit their tensions, files and refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor import shelf
+from conveyor.checks import checks
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.line.task import SizingTask
+from conveyor.models.prices import Prices
+from conveyor.models.sizing import SizingDuty
+from conveyor.sizing import size
+from conveyor.sizing.around import around
+from conveyor.sizing.designs import settled
+from conveyor.sizing.screen import Candidates, first_levels, screen
+from tests.command_line import run
+
+DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
+DUTY = """\
+name: Small
+material: {name: coal, density: 850 kg/m^3, flow: 400 t/h, surcharge_angle: 20 deg}
+lump: 100 mm
+lumps: mixed
+route:
+  sections:
+    - {name: low, length: 60 m}
+    - {name: high, length: 120 m, lift: 12 m}
+ambient: {temperature: 20 degC}
+coldest: 5 degC
+operation: {hours_per_year: 4000 h, price: 0.12 EUR/kWh}
+covers: [standard-cover]
+calculation: {strain: "off"}
+rules:
+  widths: [650 mm, 800 mm]
+  speeds: [2 m/s, 2.5 m/s]
+  trough_angles: [35 deg]
+  carcasses: [EP]
+  carry_spacings: [1.2 m, 1.5 m]
+  return_spacings: [3 m]
+  drives: [head]
+"""
+
+
+def duty(text: str = DUTY) -> SizingDuty:
+    from ruamel.yaml import YAML
+
+    return SizingDuty.from_data(
+        {**(data := YAML(typ="safe").load(text)), "covers": [shelf.compound(name) for name in data["covers"]]}
+    )
+
+
+@pytest.fixture(scope="module")
+def small():
+    return duty()
+
+
+@pytest.fixture(scope="module")
+def sized(small):
+    return size(small, best=3)
+
+
+def test_the_best_is_that_of_trying_every_candidate(small, sized):
+    """Nothing is left out by the estimate: every candidate with the best one's rolls, sized for every load."""
+    task = SizingTask(small.replace(rules=small.rules.replace(graduated=False)))
+    every = Candidates.of(task)
+    estimate = screen(task, every, first_levels(1))
+    best = size(task.duty, best=1).best
+    some = [i for i in range(len(every)) if every[i].roll.diameter == best.choice.roll.diameter]
+    begin = [(every[i], replace(best.chosen, settling=False), float(estimate.year[i])) for i in some]
+    found = [
+        one.year for one in settled(task, begin, best.found, every_load=True) if not isinstance(one, str)
+    ]
+    assert best.year == pytest.approx(min(found), rel=1e-9)
+    assert sized.best.year <= best.year * (1.0 + 1e-9)  # graduated distances are taken where they save
+
+
+def test_every_design_passes_its_checks_and_is_ranked_by_its_year(sized):
+    years = [design.year for design in sized.designs]
+    assert years == sorted(years)
+    for design in sized.designs:
+        assert not [check.subject for one in design.pair for check in checks(one) if check.failed]
+        assert design.year == pytest.approx(math.fsum(float(x) for x in design.costs.yearly.values()))
+
+
+def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
+    """The chosen class holds the highest tension of all loads, the class below it does not."""
+    task = SizingTask(small)
+    for design in sized.designs:
+        weaker = [one for one in task.carcasses["EP"] if one.strength < design.chosen.carcass.strength]
+        assert design.safety >= 8.0
+        (motor,) = design.chosen.motors
+        needed = small.rules.motor_reserve * abs(design.coldest.balance.power.motor)
+        assert (
+            needed <= motor <= 1.35 * needed
+        )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones
+        if weaker:
+            changed = replace(design.chosen, carcass=weaker[-1], settling=False)
+            (again,) = settled(task, [(design.choice, changed, 0.0)], design.found, every_load=True)
+            assert again.chosen.carcass == design.chosen.carcass
+
+
+def test_the_estimate_is_close_where_it_chose(sized):
+    assert sized.estimate_error < 0.1
+    assert 0 < sized.calculated <= sized.possible <= sized.candidates
+
+
+def test_dearer_energy_never_makes_a_design_that_draws_more(small):
+    """Of two optima the one at the higher price cannot draw more energy: both are best at their own price."""
+    cheap, dear = (
+        size(small.replace(operation=small.operation.replace(price=f"{price} EUR/kWh")), best=1).best
+        for price in (0.01, 1.0)
+    )
+    assert dear.found.balance.power.mains <= cheap.found.balance.power.mains * (1.0 + 1e-9)
+
+
+def test_what_varies_around_the_best_passes_through_it(small, sized):
+    sweeps = around(SizingTask(small), sized.best)
+    assert [sweep.name.split(",")[0] for sweep in sweeps] == [
+        "distance of carry sets", "distance of return sets", "roll diameter", "belt speed", "bottom cover",
+    ]  # fmt: skip
+    covers = [design for design in sweeps[-1].designs if not isinstance(design, str)]
+    thinner, thicker = covers[0], covers[-1]
+    assert thicker.found.balance.forces.indentation > thinner.found.balance.forces.indentation
+
+
+def test_sets_stand_no_farther_apart_than_sag_allows(sized):
+    for design in sized.designs:
+        for one in design.pair:
+            steady = one.balance.settled.steady
+            for i, stretch in enumerate(one.line.stretches[: one.line.count], start=one.line.count):
+                lowest = min(steady.starts[i], steady.ends[i])
+                load = (stretch.belt_mass + stretch.bulk_mass) * one.line.gravity
+                assert load * stretch.spacing / (8.0 * lowest) <= 0.01 * (1.0 + 1e-6)
+
+
+def test_the_command_writes_specs_that_run(tmp_path):
+    (tmp_path / "duty.yaml").write_text(DUTY, encoding="utf-8")
+    done = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "cheapest: " in done.stdout
+    for name in ("best-1.yaml", "best-2.yaml"):
+        found = conveyor.analyse(conveyor.load(tmp_path / name))
+        assert found.conveyor.name == "Small"
+    again = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
+    assert (again.returncode, "--force" in again.stderr) == (2, True)
+
+
+def test_the_command_tells_programs_and_writes_reports(tmp_path):
+    (tmp_path / "duty.yaml").write_text(DUTY, encoding="utf-8")
+    done = run(
+        "size", "duty.yaml", "-n", "1", "--json", "-o", "a.xlsx", "-o", "a.html", "-o", "a.svg", cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    (design,) = told["designs"]
+    assert design["cost_per_year"] == pytest.approx(sum(row["per_year"] for row in told["costs"]))
+    assert {row["choice"] for row in told["around"]} >= {"roll diameter", "bottom cover"}
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("a.xlsx", "a.html", "a.svg"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("price: 0.12 EUR/kWh", "price: 0.12 USD/kWh", r"duty.yaml:\d+:\d+ operation.price: got USD, but the prices"),
+        ("{name: low, length: 60 m}", "{name: low, length: 60 m, carry_spacing: 1 m}", r"carry_spacing: is what the"),
+        ("lump: 100 mm", "lump: 100", r"duty.yaml:3:\d+ lump: .*unit"),
+        ("flow: 400 t/h", "flow: 0 t/h", r"material.flow: got 0"),
+        ("lump: 100 mm", "lump: 100 mm\nlength: 5 m", r"route: give either route, or length"),
+        ("lumps: mixed", "prices: {drive: 10 EUR/kg}", r'prices.drive: got "10 EUR/kg"'),
+        ("  drives: [head]", "  drives: [middle]", r"rules.drives\[0\]: "),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
+    assert old in DUTY
+    (tmp_path / "duty.yaml").write_text(DUTY.replace(old, new), encoding="utf-8")
+    done = run("size", "duty.yaml", cwd=tmp_path)
+    assert done.returncode == 2
+    assert re.search(message, done.stderr), done.stderr
+
+
+@pytest.mark.parametrize(
+    ("rules", "message"),
+    [
+        ({"speeds": ["0.1 m/s"]}, "no belt width and speed keep the rules"),
+        ({"largest_motor": "1 kW"}, "belt, motors and bearings strong enough"),
+    ],
+)
+def test_rules_that_leave_nothing_say_so(small, rules, message):
+    with pytest.raises(NoSolutionError, match=message):
+        size(small.replace(rules=small.rules.replace(**rules)))
+
+
+def test_prices_are_those_of_the_library_but_for_what_is_given():
+    own = Prices.from_data({"roll": "20 EUR", "interest": "5 %"})
+    usual = Prices.from_data({})
+    changed = {name for name, value in own.amounts.items() if value != usual.amounts[name]}
+    assert changed == {"roll", "interest"}
+    with pytest.raises(InputError, match="one currency"):
+        Prices.from_data({"roll": "20 USD"})
+
+
+@pytest.mark.parametrize("name", ["overland", "in_plant", "downhill"])
+def test_duties_of_the_examples_are_read(name):
+    from conveyor.study_file import read_duty
+
+    task = SizingTask(read_duty(DUTIES / f"{name}.yaml"))
+    assert len(Candidates.of(task)) >= 2000
