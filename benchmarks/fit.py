@@ -114,8 +114,8 @@ def coverage(seeds: int, replicas: int) -> None:
                 band = bootstrap(fit, replicas=replicas)
                 spent.append((time.perf_counter() - start) / replicas)
                 pairs = (
-                    (band.storage(OMEGA), series.storage(OMEGA)),
-                    (band.loss(OMEGA), series.loss(OMEGA)),
+                    (band.between(lambda s: s.storage(OMEGA)), series.storage(OMEGA)),
+                    (band.between(lambda s: s.loss(OMEGA)), series.loss(OMEGA)),
                 )
                 inside.append([(low < true) & (true < high) for (low, high), true in pairs])
             share = np.mean(inside, axis=0)

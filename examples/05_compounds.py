@@ -28,7 +28,7 @@ def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Pat
     plots.save(figure, folder / "tan_delta.png")
     s120 = fit_file(
         ROOT / "materials" / "s120.dma.csv",
-        Request("S120", shift=ROOT / "materials" / "s120.shift.csv"),
+        Request("S120", shift=ROOT / "materials" / "s120.shift.csv", vertical=True),
     )
     plots.save(told.figure(s120), folder / "rubber_s120.png")
 

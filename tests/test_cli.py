@@ -316,7 +316,7 @@ def test_fit_asks_for_what_is_doubtful() -> None:
         ((master, "--strain", sweep), "--reference-strain"),
         ((sweep, "--at", "20 degC"), "holds a strain sweep; a master curve or isotherms"),
         ((master, "--shift", sweep), "holds strain sweep, shift factors are needed here"),
-        ((master, "--vertical"), "--vertical shifts isotherms"),
+        ((master, "--vertical"), "give them with --shift"),
         ((master, "--at", "-300 degC"), "absolute zero"),
     ):
         done = run("fit", *arguments)

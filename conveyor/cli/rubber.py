@@ -81,7 +81,13 @@ def fit(
     terms_per_decade: Annotated[
         float | None, typer.Option(help="Relaxation times per decade; else chosen by AICc.")
     ] = None,
-    vertical: Annotated[bool, typer.Option("--vertical", help="Shift isotherms vertically, too.")] = False,
+    vertical: Annotated[
+        bool,
+        typer.Option(
+            "--vertical",
+            help="Shift isotherms vertically, too; a master curve with --shift as b_T = T/T_ref.",
+        ),
+    ] = False,
     by: Annotated[str, typer.Option(help="Modulus that places the isotherms: both, storage, loss.")] = "both",
     law: Annotated[str, typer.Option(help="Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
     exclude: Annotated[

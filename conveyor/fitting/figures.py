@@ -142,11 +142,12 @@ def frequency_free(found: Fitted) -> Figure:
     """Phase angle over |E*| above, E'' over E' below: without frequency, so without shift."""
     rows = found.rows
     made, (above, below) = stacked(2, _HEIGHT)
-    angle, modulus = np.degrees(np.arctan2(rows.loss, rows.storage)), np.hypot(rows.storage, rows.loss) / 1e6
+    _, stored, lost = rows.curve
+    angle, modulus = np.degrees(np.arctan2(lost, stored)), np.hypot(stored, lost) / 1e6
 
     def draw(here: np.ndarray, shade: Any, label: str | None) -> None:
         _marked(above, modulus[here], angle[here], shade, label)
-        _marked(below, rows.storage[here] / 1e6, rows.loss[here] / 1e6, shade, None)
+        _marked(below, stored[here] / 1e6, lost[here] / 1e6, shade, None)
 
     _by_temperature(rows, draw)
     low, high = found.fit.window
@@ -157,9 +158,9 @@ def frequency_free(found: Fitted) -> Figure:
         np.hypot(storage, loss) / 1e6, np.degrees(np.arctan2(loss, storage)), color="0.1", label="series"
     )
     below.plot(storage / 1e6, loss / 1e6, color="0.1")
-    above.set(xscale="log", xlabel="|E*| [MPa]", ylabel="δ [°]")
+    above.set(xscale="log", xlabel="|E*|/b_T [MPa]", ylabel="δ [°]")
     above.set_ylim(bottom=0.0)
-    below.set(xscale="log", yscale="log", xlabel="E' [MPa]", ylabel="E'' [MPa]")
+    below.set(xscale="log", yscale="log", xlabel="E'/b_T [MPa]", ylabel="E''/b_T [MPa]")
     _beside(above)
     return made
 

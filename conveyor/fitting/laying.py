@@ -41,6 +41,9 @@ _REFERENCE_NAMES = frozenset(
         "bezugstemperatur",
     }
 )
+_ENTROPIC = (
+    "vertical shift of an entropic network, b_T = T/T_ref, each row at the temperature of its shift factor"
+)
 _NUMBER = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
 _SMALLEST_ERROR = (
     1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
@@ -88,6 +91,7 @@ def laid_out(
     if whole is not None:
         b = 0.0 if not request.vertical else entropic(whole, shifts, kelvin)
         curve = (read.index(whole), kelvin, whole, b)
+        said += (_ENTROPIC,) if request.vertical else ()
     rows, told = laid(parts, ramps, law, superposition, curve)
     return rows, superposition, (*said, *told)
 

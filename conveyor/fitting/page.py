@@ -37,8 +37,8 @@ def build(
     paper : {"A4", "Letter"}
         To print on.
     """
-    stated = {key.lower(): value for key, value in found.metadata.items()}
-    said = [(name, document.get(name) or stated.get(name) or Html("&nbsp;")) for name in tables.DOCUMENT]
+    known = tables.said(found, document)
+    said = [(name, known.get(name, Html("&nbsp;"))) for name in tables.DOCUMENT]
     compound = found.compound
     drawn = [figure(inline(made, f"fit-{name}", caption), caption) for name, caption, made in figures(found)]
     parts = (

@@ -34,7 +34,7 @@ class Request:
     terms_per_decade : float, optional
         Density of the times; chosen by AICc without it [1/decade].
     vertical : bool
-        Whether isotherms may be shifted vertically, too.
+        Whether isotherms may be shifted vertically, too; a master curve gets b_T = T/T_ref, by its shift factors.
     by : {"both", "storage", "loss"}
         Modulus whose overlap places the isotherms.
     law : {"table", "wlf", "arrhenius"}

@@ -35,21 +35,26 @@ def of_fit(
     paper : {"A4", "Letter"}
         To print on.
     """
-    stated = {key.lower(): value for key, value in found.metadata.items()}
-    said = {name: words for name in DOCUMENT if (words := document.get(name) or stated.get(name))}
+    about = said(found, document)
     pairs = (("what", itemgetter(0)), ("words", itemgetter(1)))
     plain = tuple(Column(label, "text", get) for label, get in pairs)
     parts = (
         judged(criteria),
-        Table("about", "Verdict", "The master curve", plain, (*said.items(), *facts(found))),
+        Table("about", "Verdict", "The master curve", plain, (*about.items(), *facts(found))),
         shifts(found), laws(found), files(found), master_curve(found), series(found),
         Table("read", "Read and done", "What was read and done", plain[1:], tuple(("", w) for w in found.understood)),
         Table("unknown", "Read and done", "Not known", plain[1:], tuple(("", w) for w in found.compound.missing)),
         Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
         Table("provenance", "Read and done", "Made by", plain[1:], (("", marks.maker()),)),
     )  # fmt: skip
-    head = ReportHead(found.compound.name, "Master curve of a rubber", said, "", paper)
+    head = ReportHead(found.compound.name, "Master curve of a rubber", about, "", paper)
     return Contents(head, tuple(part for part in parts if not part.empty), "SI")
+
+
+def said(found: Fitted, document: Mapping[str, str]) -> dict[str, str]:
+    """What is said of the document, given or stated by the files."""
+    stated = {key.lower(): value for key, value in found.metadata.items()}
+    return {name: words for name in DOCUMENT if (words := document.get(name) or stated.get(name))}
 
 
 def judged(criteria: Sequence[Criterion]) -> Table:

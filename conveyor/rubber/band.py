@@ -12,7 +12,6 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
-from conveyor.rubber.rows import kernel
 from conveyor.rubber.shift import ShiftLaw
 from conveyor.rubber.superposition import Superposition
 from conveyor.rubber.term_count import Penalised
@@ -107,72 +106,32 @@ class ReplicaBand:
             for e, m in zip(self.equilibrium, self.moduli, strict=True)
         )
 
-    def storage(self, omega: ArrayLike, *, level: float = 0.9) -> tuple[FloatArray, FloatArray]:
-        """Band of E'.
+    def between(
+        self, of: Callable[[PronySeries], FloatArray], *, level: float = 0.9
+    ) -> tuple[FloatArray, FloatArray]:
+        """Band of any curve of a series.
 
         Parameters
         ----------
-        omega : array_like
-            Angular frequency 2 pi f, > 0, shape `(m,)` [rad/s].
+        of : callable
+            What a series gives, ``lambda series: series.loss(omega)``, shape `(m,)`.
         level : float
             Share of the replicas inside, equal tails cut, 0 to 1 [-].
 
         Returns
         -------
         tuple of numpy.ndarray
-            Lower and upper end, shape `(m,)` [Pa].
+            Lower and upper end, shape `(m,)`, in its unit.
 
         Raises
         ------
         InputError
-            If a frequency is not finite and > 0, or `level` is not between 0 and 1.
+            If `level` is not between 0 and 1.
         """
-        return self._between(self._curves(omega)[0], level)
-
-    def loss(self, omega: ArrayLike, *, level: float = 0.9) -> tuple[FloatArray, FloatArray]:
-        """Band of E''; arguments as for `storage`.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequency 2 pi f, > 0, shape `(m,)` [rad/s].
-        level : float
-            Share of the replicas inside [-].
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            Lower and upper end, shape `(m,)` [Pa].
-        """
-        return self._between(self._curves(omega)[1], level)
-
-    def tan_delta(self, omega: ArrayLike, *, level: float = 0.9) -> tuple[FloatArray, FloatArray]:
-        """Band of tan delta; arguments as for `storage`.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequency 2 pi f, > 0, shape `(m,)` [rad/s].
-        level : float
-            Share of the replicas inside [-].
-
-        Returns
-        -------
-        tuple of numpy.ndarray
-            Lower and upper end, shape `(m,)` [-].
-        """
-        storage, loss = self._curves(omega)
-        return self._between(loss / storage, level)
-
-    def _curves(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        w = positive_vector("omega", omega, "rad/s")
-        both = np.column_stack([self.equilibrium, self.moduli]) @ kernel(w, self.times).T
-        return both[:, : w.size], both[:, w.size :]
-
-    def _between(self, curves: FloatArray, level: float) -> tuple[FloatArray, FloatArray]:
         if not 0.0 < level < 1.0:
             raise InputError(f"level = {level:g} must be > 0 and < 1")
         tail = 0.5 * (1.0 - level)
+        curves = [of(one) for one in self.series()]
         low, high = np.quantile(curves, (tail, 1.0 - tail), axis=0, method="weibull")
         return low, high
 
@@ -261,7 +220,7 @@ def bootstrap(
     >>> noise = 1 + 0.02 * np.random.default_rng(1).standard_normal((2, 30))
     >>> w = 2 * np.pi * f
     >>> fit = fit_prony(f, truth.storage(w) * noise[0], truth.loss(w) * noise[1], times=[1e-4, 1e-2])
-    >>> low, high = bootstrap(fit, replicas=100).loss([1e3])
+    >>> low, high = bootstrap(fit, replicas=100).between(lambda series: series.loss([1e3]))
     >>> bool(low[0] < truth.loss(1e3) < high[0])
     True
     """
@@ -370,7 +329,7 @@ def _drawn(
             yield None if np.any(np.diff(shifts[0]) >= 0.0) else _Shifted(shifts, moved, law)
 
 
-def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float) -> tuple[FloatArray, int]:
+def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float = CALIBRATION) -> tuple[FloatArray, int]:
     """Ratios to draw from, E' and E'' shape `(2, n)` with mean 1 each [-], and the length of a block [rows]."""
     error = (ratio - 1.0).reshape(2, -1)
     size = error.shape[1]

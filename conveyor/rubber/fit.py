@@ -276,11 +276,7 @@ def _relative(relative_to: str | None, *, chosen: bool) -> str:
 
 
 def _judged(
-    rows: Rows,
-    tau: FloatArray,
-    strength: float,
-    held: float | None,
-    candidates: tuple[Candidate, ...],
+    rows: Rows, tau: FloatArray, strength: float, held: float | None, candidates: tuple[Candidate, ...]
 ) -> PronyFit:
     """Fit on the times decided, and collect the statistics."""
     problem = Penalised(rows, tau, held)
