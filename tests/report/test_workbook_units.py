@@ -323,5 +323,5 @@ def test_comparison_in_us_units(tmp_path):
         assert us_row[0] == pytest.approx(1.8 * row[0] + 32.0, rel=ROUNDED)
         assert us_row[1:] == pytest.approx([v * FACTORS["kW", "hp"] for v in row[1:]], rel=ROUNDED)
     assert books[1]["Ranking"].page_setup.fitToHeight == 1
-    covered = [row[2] for row in books[1]["Coverage"]["A3:G6"]]
+    covered = [row[6] for row in books[1]["Coverage"]["A3:G6"]]
     assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in covered)
