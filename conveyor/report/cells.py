@@ -226,7 +226,9 @@ def _worded(value: Any, infinite: str = INFINITE) -> Any:
 
 def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
     put(cell, name, _HEADER)
-    cell.fill, cell.border = _FILL, _GAP
+    cell.fill = _FILL
+    if name:
+        cell.border = _GAP
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
 

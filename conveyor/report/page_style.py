@@ -56,6 +56,7 @@ a { color: var(--accent); }
 .note { font-size: .9rem; }
 nav { margin: 1.2rem 0; padding: .7rem 1rem; background: var(--pale); }
 nav details { margin: 0; }
+.checks td[data-label="margin"] { white-space: nowrap; }
 nav ol { margin: .6rem 0 0; padding-left: 1.4rem; columns: 15rem; }
 nav li { padding: .1rem 0; }
 .facts, .tiles { display: grid; gap: .6rem; margin: 1rem 0; }
@@ -137,7 +138,8 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .tiles dd { font-size: 11pt; }
   .beside { flex-wrap: nowrap; }
   details, .unprinted { display: none; }
-  li { margin: 0; }
+  li, .warnings li { margin: 0; }
+  ul { margin: .3rem 0; }
   body { max-width: none; padding: 0; }
   nav { display: none; }
   a { text-decoration: none; }

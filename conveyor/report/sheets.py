@@ -19,7 +19,7 @@ from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
-_CASES_WIDE = 34  # characters of a name
+_CASES_WIDE = 40  # characters of a name
 _INPUTS_WIDE = 110  # characters of what is given of a part
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper

@@ -32,6 +32,9 @@ FACTORS = {  # NIST SP 811, appendix B.8; exact but for the horsepower (550 ft l
     ("kW", "hp"): 1e3 / (550.0 * 0.3048 * 4.4482216152605),
     ("N m", "lbf ft"): 1.0 / (0.3048 * 4.4482216152605),
     ("t/h", "stph"): 1000.0 / 907.18474,
+    ("t", "short ton"): 1000.0 / 907.18474,
+    ("t", "metric ton"): 1.0,
+    ("kWh/(t km)", "kWh/(short ton mile)"): 0.90718474 * 1.609344,
 }
 UNIT = re.compile(r" \[([^\]]*)\]$")
 SYMBOL = re.compile(r" (Te|T1|T2|Tmax)$")
@@ -43,12 +46,10 @@ SAME = {
     "°",
     "rpm",
     "h",
-    "t",
     "MWh",
     "a",
     "EUR",
     "USD",
-    "kWh/(t km)",
     "kg/kWh",
     "EUR/kWh",
     "USD/kWh",
@@ -322,5 +323,5 @@ def test_comparison_in_us_units(tmp_path):
         assert us_row[0] == pytest.approx(1.8 * row[0] + 32.0, rel=ROUNDED)
         assert us_row[1:] == pytest.approx([v * FACTORS["kW", "hp"] for v in row[1:]], rel=ROUNDED)
     assert books[1]["Ranking"].page_setup.fitToHeight == 1
-    covered = [row[2] for row in books[1]["Coverage"]["A3:G6"]]
+    covered = [row[6] for row in books[1]["Coverage"]["A3:G6"]]
     assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in covered)
