@@ -50,6 +50,8 @@ T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
+Anchors: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]]
+"""Levels of compounds, with the very compounds they are of and whether their rubber softens; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,6 +253,7 @@ def calculate_many(
     *,
     one_take_up: bool = False,
     known: CalculatedConveyor | None = None,
+    anchors: Anchors | None = None,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -267,6 +270,8 @@ def calculate_many(
         of each. A setting that the spec gives stands.
     known : CalculatedConveyor, optional
         A variant that is calculated already: the anchors of its compounds are taken over.
+    anchors : list, optional
+        Those of calls before with the same compounds; what is new is added.
 
     Returns
     -------
@@ -278,7 +283,7 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared, told = _Shared(known), _Told(len(variants), progress)
+    shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -383,10 +388,10 @@ class _Shared:
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None) -> None:
+    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[Strand, PronySeries]]] = []
-        self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
+        self._anchors = anchors
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         if known is not None:

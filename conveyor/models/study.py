@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -90,8 +91,16 @@ class SampledRange(Model):
         """
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low + share * (self.high - self.low)
-        ends = [quantity(end if isinstance(end, str) else f"{end:g}") for end in (self.low, self.high)]
-        return text(between(ends[0], ends[1], share))
+        low, high = (end if isinstance(end, str) else f"{end:g}" for end in (self.low, self.high))
+        ends = _ends(low, high)
+        return f"{ends[0] + share * (ends[1] - ends[0]):.9g} {ends[2]}".strip()
+
+
+@cache
+def _ends(low: str, high: str) -> tuple[float, float, str]:
+    """Both ends in the unit of the lower, and that unit."""
+    one, other = quantity(low), between(quantity(low), quantity(high), 1.0)
+    return float(one.magnitude), float(other.magnitude), text(one).partition(" ")[2]
 
 
 class Samples(Model):

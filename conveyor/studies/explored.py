@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import math
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from conveyor.studies.designs import Design, DesignFigure, front
 from conveyor.units import quantity
 
 Array: TypeAlias = NDArray[np.float64]
+_NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 BEST: Final = 10
 """Designs that are listed, and written as specs."""
 BINS: Final = 8
@@ -267,6 +269,9 @@ def _read(value: Value, unit: str) -> float:
     """A number, or that of a quantity in a unit."""
     if not isinstance(value, str):
         return float(value)
+    number, _, sign = value.partition(" ")
+    if sign == unit and _NUMBER.fullmatch(number):
+        return float(number)
     given, like = quantity(value), quantity(f"0 {unit}".strip())
     if given.dimensionality != like.dimensionality:
         raise InputError(f"got {value}, expected a value in {unit}")
