@@ -47,9 +47,8 @@ def run(count: int) -> None:
         wrote = process_time() - begun - ran
         plain = peak()
         explored(study, running.designs(study, known))
-    print(
-        f"{count:,} points: peak {plain:.0f} MB, with designs {peak():.0f} MB; run {ran:.1f} s, table {wrote:.1f} s of the processor"
-    )
+    memory = f"peak {plain:.0f} MB, with designs {peak():.0f} MB"
+    print(f"{count:,} points: {memory}; run {ran:.1f} s, table {wrote:.1f} s of the processor", flush=True)
 
 
 def peak() -> float:
