@@ -127,8 +127,8 @@ class Samples(Model):
             shares = drawn.random_base2(math.ceil(math.log2(self.count)))[: self.count]
         else:
             shares = drawn.random(self.count)
-        for row in shares.tolist():
-            yield {path: span.at(share) for (path, span), share in zip(ranges, row, strict=True)}
+        for row in shares:
+            yield {path: span.at(share) for (path, span), share in zip(ranges, row.tolist(), strict=True)}
 
 
 Direction: TypeAlias = Literal["least", "most"]
