@@ -174,7 +174,7 @@ def _limit(end: str | float | None, name: str, kind: str) -> float | None:
     raise InputError(f'limits: {name}: got "{end}", expected {like}')
 
 
-class Plan(Model):
+class VariedSpec(Model):
     """A spec, what of it varies, what every design meets, and what is sought."""
 
     name: Name
@@ -267,10 +267,10 @@ class Plan(Model):
             yield {**design, **{path: value for path, value in row.items() if path != HOURS}}
 
 
-Given = TypeVar("Given", bound=Plan)
+Given = TypeVar("Given", bound=VariedSpec)
 
 
-class StudyPlan(Plan):
+class StudyPlan(VariedSpec):
     """A spec and what of it varies: every value of every axis with every other, with every row and every sample."""
 
     samples: Samples | None = None
@@ -307,7 +307,7 @@ class StudyPlan(Plan):
         return "axes, together or samples"
 
 
-class SearchPlan(Plan):
+class SearchPlan(VariedSpec):
     """What is varied to find the best: fields between two ends, and listed ones."""
 
     ranges: Annotated[dict[str, SampledRange], Field(default_factory=dict)]

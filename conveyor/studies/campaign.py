@@ -23,7 +23,7 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
-from conveyor.models.study import Changes, Plan, StudyPlan, Value, with_states
+from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
 from conveyor.studies.points import OUTPUTS, Answer, Job, answers, outputs_of
@@ -62,13 +62,13 @@ class Campaign:
         Keys of the figures asked for.
     """
 
-    plan: Plan
+    plan: VariedSpec
     base: Conveyor
     compounds: Mapping[str, RubberCompound]
     outputs: tuple[str, ...]
 
     @classmethod
-    def of(cls, plan: Plan, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
+    def of(cls, plan: VariedSpec, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
         """Read what a plan names.
 
         Raises

@@ -175,10 +175,13 @@ def signs(sought: dict[str, Direction]) -> Array:
     return np.array([1.0 if direction == "least" else -1.0 for direction in sought.values()])
 
 
-def sought_of(plan: StudyPlan, figures: Iterable[str]) -> dict[str, Direction]:
+def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
     """What is sought: as the plan says, else cost and energy of a year if designs have them, else the first figure."""
-    known = tuple(figures)
-    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if name in known)
+    known, operation = tuple(figures), base.operation
+    priced = (
+        operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
+    )
+    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if priced and name in known)
     return dict(plan.best) or dict.fromkeys(usual or known[:1], "least")
 
 
@@ -194,7 +197,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     """
     plan = campaign.listed
     fields = varied(plan)
-    sought = sought_of(plan, campaign.figures)
+    sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
     values, found, keeps, numbers = [], [], [], []
     refused: Counter[str] = Counter()
