@@ -77,7 +77,7 @@ def page():
 
 
 def _of_a_rare_spec():
-    """Lives of bearings, a pulley's shaft, a transition, CEMA's estimate, loads without an answer, draws: in no example."""
+    """Bearing lives, a pulley's shaft, a transition, CEMA's estimate, loads without an answer, draws: in no spec."""
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     idlers = line.idlers
     roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
