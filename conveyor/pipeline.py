@@ -55,6 +55,8 @@ T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
+Anchors: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]]
+"""Levels of compounds, with the very compounds they are of and whether their rubber softens; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,6 +258,7 @@ def calculate_many(
     *,
     one_take_up: bool = False,
     known: CalculatedConveyor | None = None,
+    anchors: Anchors | None = None,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -272,6 +275,8 @@ def calculate_many(
         of each. A setting that the spec gives stands.
     known : CalculatedConveyor, optional
         A variant that is calculated already: the anchors of its compounds are taken over.
+    anchors : list, optional
+        Those of calls before with the same compounds; what is new is added.
 
     Returns
     -------
@@ -283,7 +288,7 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared, told = _Shared(known), _Told(len(variants), progress)
+    shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -416,11 +421,11 @@ class _Shared:
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None) -> None:
+    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
         self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
         self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
         self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[CoverName, PronySeries]]] = []
-        self._anchors: list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]] = []
+        self._anchors = anchors
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self.tensioned: Tensioned = {}

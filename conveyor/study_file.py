@@ -18,12 +18,12 @@ from conveyor.files.document import listing, read_document
 from conveyor.laboratory.encoding import decoded
 from conveyor.models.base import Model
 from conveyor.models.sizing import SizingDuty
-from conveyor.models.study import DUTY, HOURS, Plan, SearchPlan, StudyPlan, Value, hours_of
+from conveyor.models.study import DUTY, HOURS, SearchPlan, StudyPlan, Value, VariedSpec, hours_of
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
 _HEAD: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
-Given = TypeVar("Given", bound=Plan)
+Given = TypeVar("Given", bound=VariedSpec)
 Read = TypeVar("Read", bound=Model)
 
 

@@ -142,10 +142,11 @@ def test_fragment_of_a_spec(page: Path, number: int) -> None:
     studies(line, found)
 
 
-def test_the_study_on_its_page_is_the_example() -> None:
+def test_the_studies_on_their_page_are_the_examples() -> None:
     page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    file = (ROOT / "examples" / "studies" / "spacing.yaml").read_text(encoding="utf-8")
-    assert page.split("```yaml study\n")[1].split("```")[0] == file.partition("\n")[2]
+    shown = [part.split("```")[0] for part in page.split("```yaml study\n")[1:]]
+    files = [ROOT / "examples" / "studies" / f"{name}.yaml" for name in ("spacing", "year", "search")]
+    assert shown == [file.read_text(encoding="utf-8").partition("\n")[2] for file in files]
 
 
 def test_defaults_on_the_designers_page_do_what_it_says() -> None:

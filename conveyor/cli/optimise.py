@@ -76,7 +76,7 @@ def optimise(
         known = stack.enter_context(Answers(output.with_name(f"{output.name}.answers")))
         before = len(known)
         told = stack.enter_context(progress(silent=quiet or as_json))
-        executor = stack.enter_context(executor_of(scheduler, workers)) if scheduler or workers > 1 else None
+        executor = stack.enter_context(executor_of(scheduler, workers))
 
         def tell(done: int, most: int, best: Design) -> None:
             if told is not None:

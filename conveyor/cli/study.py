@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
@@ -28,7 +28,7 @@ from conveyor.cli.app import (
     say,
 )
 from conveyor.cli.outputs import Outputs
-from conveyor.errors import InputError
+from conveyor.errors import ConveyorError, InputError
 from conveyor.files import marks
 from conveyor.printable import printable
 
@@ -119,7 +119,7 @@ def study(
         known = stack.enter_context(running.Answers(answers))
         before = len(known)
         told = stack.enter_context(progress(silent=quiet or as_json))
-        executor = stack.enter_context(executor_of(scheduler, workers)) if scheduler or workers > 1 else None
+        executor = stack.enter_context(executor_of(scheduler, workers))
         running.run(campaign, known, executor=executor, workers=workers, progress=telling(told))
         new, spent = len(known) - before, perf_counter() - begun
         reasons: Counter[str] = Counter()
@@ -251,21 +251,37 @@ def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:
         yield point
 
 
-def executor_of(scheduler: str | None, workers: int) -> Executor:
-    """Processes of this machine, or a cluster."""
+@contextmanager
+def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
+    """Processes of this machine, or a cluster; this process alone where one is enough.
+
+    Raises
+    ------
+    InputError
+        No cluster answers, or the package for it is missing.
+    ConveyorError
+        A worker of the cluster was lost again and again with the same points.
+    """
     if scheduler is None:
         from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context
 
-        return ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
+        if workers == 1:
+            yield None
+            return
+        with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+            yield pool
+        return
     try:
-        from distributed import Client
+        from distributed import Client, KilledWorker
     except ImportError:
-        raise InputError(
-            '--scheduler: needs the package distributed (pip install "conveyor[cluster]")'
-        ) from None
+        raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
     try:
-        executor: Executor = Client(scheduler, timeout="10s").get_executor()
+        client = Client(scheduler, timeout="10s")
     except (OSError, ValueError) as error:
         raise InputError(f"--scheduler: {scheduler}: no cluster answers ({error})") from None
-    return executor
+    with client:
+        try:
+            yield client.get_executor()
+        except KilledWorker as error:
+            raise ConveyorError(f"{error}; what is done is kept: run it again to go on") from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -90,8 +91,16 @@ class SampledRange(Model):
         """
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low + share * (self.high - self.low)
-        ends = [quantity(end if isinstance(end, str) else f"{end:g}") for end in (self.low, self.high)]
-        return text(between(ends[0], ends[1], share))
+        low, high = (end if isinstance(end, str) else f"{end:g}" for end in (self.low, self.high))
+        ends = _ends(low, high)
+        return f"{ends[0] + share * (ends[1] - ends[0]):.9g} {ends[2]}".strip()
+
+
+@cache
+def _ends(low: str, high: str) -> tuple[float, float, str]:
+    """Both ends in the unit of the lower, and that unit."""
+    one, other = quantity(low), between(quantity(low), quantity(high), 1.0)
+    return float(one.magnitude), float(other.magnitude), text(one).partition(" ")[2]
 
 
 class Samples(Model):
@@ -118,8 +127,8 @@ class Samples(Model):
             shares = drawn.random_base2(math.ceil(math.log2(self.count)))[: self.count]
         else:
             shares = drawn.random(self.count)
-        for row in shares.tolist():
-            yield {path: span.at(share) for (path, span), share in zip(ranges, row, strict=True)}
+        for row in shares:
+            yield {path: span.at(share) for (path, span), share in zip(ranges, row.tolist(), strict=True)}
 
 
 Direction: TypeAlias = Literal["least", "most"]
@@ -165,7 +174,7 @@ def _limit(end: str | float | None, name: str, kind: str) -> float | None:
     raise InputError(f'limits: {name}: got "{end}", expected {like}')
 
 
-class Plan(Model):
+class VariedSpec(Model):
     """A spec, what of it varies, what every design meets, and what is sought."""
 
     name: Name
@@ -258,10 +267,10 @@ class Plan(Model):
             yield {**design, **{path: value for path, value in row.items() if path != HOURS}}
 
 
-Given = TypeVar("Given", bound=Plan)
+Given = TypeVar("Given", bound=VariedSpec)
 
 
-class StudyPlan(Plan):
+class StudyPlan(VariedSpec):
     """A spec and what of it varies: every value of every axis with every other, with every row and every sample."""
 
     samples: Samples | None = None
@@ -298,7 +307,7 @@ class StudyPlan(Plan):
         return "axes, together or samples"
 
 
-class SearchPlan(Plan):
+class SearchPlan(VariedSpec):
     """What is varied to find the best: fields between two ends, and listed ones."""
 
     ranges: Annotated[dict[str, SampledRange], Field(default_factory=dict)]

@@ -97,8 +97,7 @@ class Shown:
         found, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
         across, up = found.ordered[:2]
         figure, (axis,) = stacked(1, 4.4)
-        kept = found.keeps if found.keeps.any() else np.ones(len(found.values), dtype=bool)
-        x, y, shown = found.values[kept, across], found.values[kept, up], self.sought(0)[kept]
+        x, y, shown = found.values[:, across], found.values[:, up], self.sought(0)
         if max(len(np.unique(x)), len(np.unique(y))) <= _CELLS:
             shaded = self._cells(axis, (x, y), shown, (found.fields[across], found.fields[up]))
             shaded.set_cmap(shades)
@@ -122,23 +121,20 @@ class Shown:
         columns, rows = (np.unique(values) for values in at)
         least = next(iter(self.found.sought.values())) == "least"
         best = np.ma.array(np.zeros((len(rows), len(columns))), mask=True)
+        kept = np.zeros(best.shape, dtype=bool)
         for i, j in np.ndindex(best.shape):
-            here = shown[(at[0] == columns[j]) & (at[1] == rows[i])]
-            if here.size:
-                best[i, j] = here.min() if least else here.max()
+            here = (at[0] == columns[j]) & (at[1] == rows[i])
+            kept[i, j] = (here & self.found.keeps).any()
+            values = shown[here & self.found.keeps] if kept[i, j] else shown[here]
+            if values.size:
+                best[i, j] = values.min() if least else values.max()
         shaded = axis.pcolormesh(range(len(columns) + 1), range(len(rows) + 1), best)
         middle = (best.min() + best.max()) / 2.0
         for i, j in zip(*np.nonzero(~np.ma.getmaskarray(best)), strict=True):
             ink = "white" if best[i, j] > middle else "black"
-            axis.text(
-                j + 0.5,
-                i + 0.5,
-                self._number(0, float(best[i, j])),
-                ha="center",
-                va="center",
-                fontsize=8,
-                color=ink,
-            )
+            number = self._number(0, float(best[i, j]))
+            words = number if kept[i, j] else f"({number})"
+            axis.text(j + 0.5, i + 0.5, words, ha="center", va="center", fontsize=8, color=ink)
         for scale, field, values in ((axis.xaxis, fields[0], columns), (axis.yaxis, fields[1], rows)):
             scale.set_ticks(np.arange(len(values)) + 0.5, [_word(field, value) for value in values])
             scale.set_label_text(_head(field))

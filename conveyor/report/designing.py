@@ -34,7 +34,8 @@ _CAPTIONS: Final = {
     "the joined ones in both. Numbers are those of the designs.",
     "effects": "Mean of what is sought first over all other fields, at each value of a field; shaded from the least to "
     "the most of any design. The field that matters most comes first.",
-    "map": "Best over all other fields at each pair of values, of designs that keep the limits where there are any.",
+    "map": "Best over all other fields at each pair of values, of designs that keep the limits; in brackets where none "
+    "does.",
     "lines": "A line a design, light where what is sought first is best; grey do not keep the limits.",
 }
 _MOST: Final = 50  # rows of the front on the page

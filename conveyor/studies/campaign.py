@@ -12,7 +12,7 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
@@ -23,13 +23,17 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
-from conveyor.models.study import Changes, Plan, StudyPlan, Value, with_states
+from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
-from conveyor.studies.points import OUTPUTS, Answer, answers, outputs_of
+from conveyor.studies.points import OUTPUTS, Answer, Job, answers, outputs_of
 
 BATCH: Final = 64
-"""Points solved side by side, and lost at most where a run is stopped."""
+"""Points solved side by side at most, and lost at most where a run is stopped."""
+SHARES: Final = 16
+"""Batches that a smaller study is cut into, so that several workers have work."""
+SMALLEST: Final = 8
+"""Points of such a batch at least."""
 AHEAD: Final = 2
 """Batches a worker that are handed out at once."""
 
@@ -58,13 +62,13 @@ class Campaign:
         Keys of the figures asked for.
     """
 
-    plan: Plan
+    plan: VariedSpec
     base: Conveyor
     compounds: Mapping[str, RubberCompound]
     outputs: tuple[str, ...]
 
     @classmethod
-    def of(cls, plan: Plan, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
+    def of(cls, plan: VariedSpec, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
         """Read what a plan names.
 
         Raises
@@ -102,6 +106,11 @@ class Campaign:
     def figures(self) -> dict[str, DesignFigure]:
         """Figures of a design by name."""
         return figures_of(self.plan, self.base)
+
+    @cached_property
+    def job(self) -> Job:
+        """What its batches follow from."""
+        return Job.of(self.base, self.outputs, self.compounds)
 
     @cached_property
     def _common(self) -> hashlib._Hash:
@@ -225,17 +234,20 @@ def run(
     ConveyorError
         A worker was lost, or answers cannot be written; what is done is kept, the same call goes on from there.
     """
-    whole = campaign.listed.count if points is None else len(points)
+    whole, every = (
+        (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
+    )
     asked: dict[Future[list[Answer]], list[bytes]] = {}
-    new, most = _batches(campaign, known, points), 1 if executor is None else AHEAD * workers
+    size = min(BATCH, max(SMALLEST, -(-whole // SHARES)))
+    new, most = _batches(campaign, known, every, size), 1 if executor is None else AHEAD * workers
     done = without = 0
     try:
         while True:
-            for batch in islice(new, most - len(asked)):
+            while len(asked) < most and (batch := next(new, None)) is not None:
                 done += batch.known
                 if batch.points:
-                    task = (campaign.base, batch.points, campaign.outputs, campaign.compounds)
-                    asked[_here(task) if executor is None else executor.submit(answers, *task)] = batch.keys
+                    task = (campaign.job, batch.points)
+                    asked[_here(*task) if executor is None else executor.submit(answers, *task)] = batch.keys
             if progress is not None:
                 progress(done, whole, without)
             if not asked:
@@ -245,7 +257,7 @@ def run(
                 known.add(zip(keys, found, strict=True))
                 done += len(keys)
                 without += sum(isinstance(answer, str) for answer in found)
-    except BrokenExecutor:
+    except (BrokenExecutor, CancelledError):
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
         ) from None
@@ -254,12 +266,10 @@ def run(
             future.cancel()
 
 
-def _here(
-    task: tuple[Conveyor, list[Changes], tuple[str, ...], Mapping[str, RubberCompound]],
-) -> Future[list[Answer]]:
+def _here(job: Job, points: list[Changes]) -> Future[list[Answer]]:
     """The answers of a batch, calculated in this process."""
     future: Future[list[Answer]] = Future()
-    future.set_result(answers(*task))
+    future.set_result(answers(job, points))
     return future
 
 
@@ -271,20 +281,12 @@ class _Batch(NamedTuple):
     known: int
 
 
-def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes] | None) -> Iterator[_Batch]:
-    """Points without an answer, `BATCH` at a time; the last may hold none."""
-    new: dict[bytes, Changes] = {}
-    seen = 0
-    for point in campaign.listed.points() if points is None else points:
-        key = campaign.key(point)
-        if key in known or key in new:
-            seen += 1
-        else:
-            new[key] = point
-        if len(new) == BATCH:
-            yield _Batch(list(new), list(new.values()), seen)
-            new, seen = {}, 0
-    yield _Batch(list(new), list(new.values()), seen)
+def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes], size: int) -> Iterator[_Batch]:
+    """Points without an answer, of every `size` points in their order: whoever calculates them, the same batches."""
+    every = iter(points)
+    while part := list(islice(every, size)):
+        new = {key: point for point in part if (key := campaign.key(point)) not in known}
+        yield _Batch(list(new), list(new.values()), len(part) - len(new))
 
 
 def rows(campaign: Campaign, known: Answers) -> Iterator[Point]:

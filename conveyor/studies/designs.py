@@ -15,7 +15,7 @@ from conveyor.laws.energy import YEAR, DutyStep, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, Operation
-from conveyor.models.study import Changes, Limit, Plan
+from conveyor.models.study import Changes, Limit, VariedSpec
 from conveyor.studies.points import OUTPUTS, Answer, outputs_of
 
 Array: TypeAlias = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Design:
         return self.why is None and not self.broken
 
 
-def figures_of(plan: Plan, base: Conveyor) -> dict[str, DesignFigure]:
+def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
     """Figures of a plan's designs by name: those asked for, then those that are sought or limited.
 
     Without any, every output asked for: its mean over the states.
@@ -87,7 +87,7 @@ def figures_of(plan: Plan, base: Conveyor) -> dict[str, DesignFigure]:
     return found
 
 
-def _figure(name: str, plan: Plan, operation: Operation | None, weights: Array) -> DesignFigure:
+def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: Array) -> DesignFigure:
     match = _NAMED.fullmatch(name)
     if match is None or match[1] not in OUTPUTS:
         raise InputError(
@@ -112,7 +112,7 @@ def _figure(name: str, plan: Plan, operation: Operation | None, weights: Array) 
     return DesignFigure(label, output.kind, (key,), lambda values: percentile(values[0], weights, share))
 
 
-def _yearly(key: str, plan: Plan, operation: Operation | None, hours: Array) -> DesignFigure:
+def _yearly(key: str, plan: VariedSpec, operation: Operation | None, hours: Array) -> DesignFigure:
     """Energy and cost of the states' hours, as of a duty."""
     if plan.hours is None:
         raise InputError(f"{key}: the states have no hours; give them hours, or ask for {key} mean")
@@ -168,13 +168,13 @@ def percentile(values: Array, weights: Array, share: float) -> float:
 
 
 def reduced(
-    plan: Plan, figures: Mapping[str, DesignFigure], outputs: Sequence[str], answers: Sequence[Answer]
+    plan: VariedSpec, figures: Mapping[str, DesignFigure], outputs: Sequence[str], answers: Sequence[Answer]
 ) -> tuple[dict[str, float | None], str | None, tuple[str, ...]]:
     """Figures of a design of the answers of its states; why it has none; limits that it does not keep.
 
     Parameters
     ----------
-    plan : Plan
+    plan : VariedSpec
         With the limits.
     figures : mapping
         Those of a design, by name.

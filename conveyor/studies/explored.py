@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 import math
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from conveyor.studies.designs import Design, DesignFigure, front
 from conveyor.units import quantity
 
 Array: TypeAlias = NDArray[np.float64]
+_NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 BEST: Final = 10
 """Designs that are listed, and written as specs."""
 BINS: Final = 8
@@ -173,10 +175,13 @@ def signs(sought: dict[str, Direction]) -> Array:
     return np.array([1.0 if direction == "least" else -1.0 for direction in sought.values()])
 
 
-def sought_of(plan: StudyPlan, figures: Iterable[str]) -> dict[str, Direction]:
+def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
     """What is sought: as the plan says, else cost and energy of a year if designs have them, else the first figure."""
-    known = tuple(figures)
-    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if name in known)
+    known, operation = tuple(figures), base.operation
+    priced = (
+        operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
+    )
+    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if priced and name in known)
     return dict(plan.best) or dict.fromkeys(usual or known[:1], "least")
 
 
@@ -192,7 +197,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     """
     plan = campaign.listed
     fields = varied(plan)
-    sought = sought_of(plan, campaign.figures)
+    sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
     values, found, keeps, numbers = [], [], [], []
     refused: Counter[str] = Counter()
@@ -267,6 +272,9 @@ def _read(value: Value, unit: str) -> float:
     """A number, or that of a quantity in a unit."""
     if not isinstance(value, str):
         return float(value)
+    number, _, sign = value.partition(" ")
+    if sign == unit and _NUMBER.fullmatch(number):
+        return float(number)
     given, like = quantity(value), quantity(f"0 {unit}".strip())
     if given.dimensionality != like.dimensionality:
         raise InputError(f"got {value}, expected a value in {unit}")

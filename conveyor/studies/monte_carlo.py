@@ -24,7 +24,7 @@ from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.models.uncertainty import FEWEST
 from conveyor.models.variants import with_alternative
-from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.pipeline import Anchors, CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.studies.compared import COVERED, ends
 
 Array: TypeAlias = NDArray[np.float64]
@@ -144,6 +144,7 @@ def drawn(
     rng = np.random.default_rng(ranges.seed)
     normal = rng.standard_normal((ranges.draws, len(inputs))) @ _root([one.name for one in inputs], ranges).T
     power: list[float] = []
+    anchors: Anchors = []
     refused: Counter[str] = Counter()
     for at in range(0, ranges.draws, _BATCH):
         variants: list[Variant] = []
@@ -152,7 +153,7 @@ def drawn(
                 variants.append(_variant(conveyor, inputs, row.tolist(), end))
             except ConveyorError as error:
                 refused[str(error)] += 1
-        for found in calculate_many(variants, rtol, known=known):
+        for found in calculate_many(variants, rtol, known=known, anchors=anchors):
             if isinstance(found, CalculatedConveyor):
                 power.append(found.balance.power.motor)
             else:

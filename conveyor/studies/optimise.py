@@ -32,7 +32,7 @@ _SPREAD: Final = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class SearchResult:
     """The best design of a search.
 
     Attributes
@@ -63,7 +63,7 @@ def optimise(
     executor: Executor | None = None,
     workers: int = 1,
     progress: Generation | None = None,
-) -> Found:
+) -> SearchResult:
     """Search the best design of a plan.
 
     Parameters
@@ -121,7 +121,7 @@ def optimise(
     if not best.keeps:
         why = best.why or f"the least beyond them breaks {', '.join(best.broken)}"
         raise NoSolutionError(f"none of {len(search.designs)} designs keeps the limits: {why}")
-    return Found(best, len(search.designs), int(found.nit), bool(found.success), tuple(history))
+    return SearchResult(best, len(search.designs), int(found.nit), bool(found.success), tuple(history))
 
 
 class _Search:

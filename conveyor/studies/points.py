@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+import pickle
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from operator import attrgetter
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, Self, TypeAlias
 
 from conveyor.checks import checks
 from conveyor.errors import ConveyorError, InputError
@@ -13,7 +16,7 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import Anchors, CalculatedConveyor, Variant, calculate_many
 
 RTOL: Final = 1e-4
 """Of the contacts of a study: their true error is a fifth of it, far below what a spec knows."""
@@ -73,25 +76,53 @@ def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
     return {key: OUTPUTS[key] for key in asked}
 
 
-def answers(
-    base: Conveyor,
-    points: Sequence[Changes],
-    outputs: Sequence[str],
-    compounds: Mapping[str, RubberCompound],
-    rtol: float = RTOL,
-) -> list[Answer]:
+@dataclass(frozen=True)
+class Job:
+    """What every batch of a study follows from, packed once; equal ones have the same key.
+
+    Attributes
+    ----------
+    key : bytes
+        Hash of all of it.
+    packed : bytes
+        Spec, keys of `OUTPUTS` and compounds.
+    """
+
+    key: bytes
+    packed: bytes = field(compare=False, repr=False)
+
+    @classmethod
+    def of(cls, base: Conveyor, outputs: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
+        """Pack a spec, the keys of the figures asked for, and the compounds that points give by name."""
+        packed = pickle.dumps((base, tuple(outputs), dict(compounds)))
+        return cls(hashlib.sha256(packed).digest(), packed)
+
+
+class _Opened(NamedTuple):
+    """A job where it is done: the very same parts for all its batches, and the levels of its compounds."""
+
+    base: Conveyor
+    outputs: tuple[str, ...]
+    compounds: Mapping[str, RubberCompound]
+    anchors: Anchors
+
+
+@lru_cache(maxsize=1)
+def _opened(job: Job) -> _Opened:
+    """A job unpacked, once in a process that does many batches of it."""
+    base, outputs, compounds = pickle.loads(job.packed)  # noqa: S301 packed by this program
+    return _Opened(base, outputs, compounds, [])
+
+
+def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:
     """Figures of points, calculated side by side.
 
     Parameters
     ----------
-    base : Conveyor
-        The spec.
+    job : Job
+        The study's.
     points : sequence of mapping
-        New values of its fields, by path.
-    outputs : sequence of str
-        Keys of `OUTPUTS`.
-    compounds : mapping
-        Those that points give by name.
+        New values of the spec's fields, by path.
     rtol : float
         Relative tolerance of the contacts [-].
 
@@ -100,6 +131,7 @@ def answers(
     list
         In their order the figures in SI, or why a point has none.
     """
+    base, outputs, compounds, anchors = _opened(job)
     known: dict[object, object] = {}
     made: list[Conveyor | str] = []
     for point in points:
@@ -108,7 +140,7 @@ def answers(
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    found = iter(calculate_many(variants, rtol))
+    found = iter(calculate_many(variants, rtol, anchors=anchors))
     return [one if isinstance(one, str) else _answer(next(found), outputs) for one in made]
 
 

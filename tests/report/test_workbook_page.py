@@ -77,7 +77,7 @@ def page():
 
 
 def _of_a_rare_spec():
-    """Lives of bearings, a pulley's shaft, a transition, CEMA's estimate, loads without an answer: in no example."""
+    """Bearing lives, a pulley's shaft, a transition, CEMA's estimate, loads without an answer, draws: in no spec."""
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     idlers = line.idlers
     roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
@@ -91,8 +91,11 @@ def _of_a_rare_spec():
     }  # fmt: skip
     take_up = {"kind": "fixed", "position": "tail"}
     route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
+    drawn = {"roll_drag": "10 %", "draws": 64}
     slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
-    line = line.replace(cases=(slow, warm), route=route, belt=line.belt.replace(carcass=steel))
+    line = line.replace(
+        cases=(slow, warm), route=route, uncertainty=drawn, belt=line.belt.replace(carcass=steel)
+    )
     asked = studies(line)
     refused = StateRefusal("full", 308.15, "bulk that does not fit")
     return conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import pytest
@@ -26,8 +27,9 @@ PLAN = {
 }
 
 
-def bowl(_base, points, outputs, _compounds):
+def bowl(job, points):
     """Least at 1.6 m/s and 1.2 m: 100 W; the safety grows with the speed; no answer above 1.9 m/s."""
+    _, outputs, _ = pickle.loads(job.packed)  # noqa: S301
     found = []
     for point in points:
         speed, spacing = (float(point[path].split()[0]) for path in ("belt.speed", "idlers.carry.spacing"))
@@ -73,11 +75,11 @@ def test_a_search_that_was_stopped_goes_on_and_ends_alike(line, tmp_path, monkey
     whole, calculated = search(line, tmp_path / "whole")
     asked = []
 
-    def failing(base, points, outputs, compounds):
+    def failing(job, points):
         asked.append(len(points))
         if len(asked) == 4:
             raise KeyboardInterrupt
-        return bowl(base, points, outputs, compounds)
+        return bowl(job, points)
 
     monkeypatch.setattr("conveyor.studies.campaign.answers", failing)
     with pytest.raises(KeyboardInterrupt):

@@ -1,0 +1,64 @@
+"""Memory of the process that runs a study, at 10,000 and 100,000 points, with a stand-in for the calculation.
+
+The stand-in answers at once, so that only what the driver does itself is measured: points, their keys, the file of
+answers, the table and the designs. Each size runs in a process of its own; the peak is that of the process.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import process_time
+
+SPEC = Path(__file__).parent.parent / "examples" / "specs" / "overland.yaml"
+SIZES = (100, 10_000, 100_000)
+
+
+def run(count: int) -> None:
+    import conveyor
+    from conveyor import shelf
+    from conveyor.models.study import StudyPlan
+    from conveyor.report.campaigning import of_points
+    from conveyor.studies import campaign as running
+    from conveyor.studies.explored import explored
+
+    running.answers = lambda _, points: [[1e6, 1e5, 8.0] for _ in points]
+    fields = {
+        "belt.speed": {"low": "4 m/s", "high": "6 m/s"},
+        "idlers.carry.spacing": {"low": "1 m", "high": "2 m"},
+    }
+    plan = StudyPlan.from_data(
+        {
+            "name": "memory",
+            "base": "overland.yaml",
+            "samples": {"count": count, "fields": fields},
+            "outputs": ["motor_power", "indentation", "belt_safety"],
+        }
+    )
+    study = running.Campaign.of(plan, conveyor.load(SPEC), shelf.compound)
+    with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
+        begun = process_time()
+        running.run(study, known)
+        ran = process_time() - begun
+        of_points(study, "SI", "-").write(Path(folder) / "t.csv", running.rows(study, known))
+        wrote = process_time() - begun - ran
+        plain = peak()
+        explored(study, running.designs(study, known))
+    memory = f"peak {plain:.0f} MB, with designs {peak():.0f} MB"
+    print(f"{count:,} points: {memory}; run {ran:.1f} s, table {wrote:.1f} s of the processor", flush=True)
+
+
+def peak() -> float:
+    """Of this process [MB]."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        run(int(sys.argv[1]))
+    else:
+        for size in SIZES:
+            subprocess.run([sys.executable, __file__, str(size)], check=True)
