@@ -29,6 +29,7 @@ _MORE: Final = f"{RATED_START:g} times the tension allowed in steady running, ge
 OVERSPEED: Final = 1.1
 """Speed over the steady one that a belt may reach without power [-]; general knowledge."""
 
+_AT_LIMIT: Final = 1e-6  # rounding of the limit [-]
 _BACKWARD: Final = 0.02
 """Speed backward over the steady one that a swing may reach [-]; general knowledge."""
 
@@ -157,16 +158,15 @@ def _grip(found: Followed) -> Iterator[Check]:
 
 
 def _torque(found: Followed) -> Iterator[Check]:
-    """Motors have torque left where they are led, and what they give is within what is installed."""
-    for d, (drive, unit) in enumerate(zip(found.ride.drives, found.ride.starters, strict=True)):
+    """Motors keep within their limits; a led one off its ramp at its limit is told how long."""
+    for d, drive in enumerate(found.ride.drives):
         name, most = quoted(drive.name), float(found.ride.limits()[d].max() / found.ride.rated[d])
-        torque = float(np.abs(found.torque[:, d]).max())
-        if unit.kind == "inverter":
-            why = said(f'"{name}" runs at its torque limit, off its ramp: slow the ramp, or raise the limit')
-            made = compared(
-                "dynamic_torque", f"torque of {name} over rated", torque, "at most", most, "safety", why=why
-            )
-            yield replace(made, verdict=verdict(holds=torque < most))
+        size = np.abs(found.torque[:, d])
+        held = float((size >= (1.0 - _AT_LIMIT) * most).sum()) * found.record.step
+        made = compared("dynamic_torque", f"torque of {name} over rated", float(size.max()), "at most",
+                        (1.0 + _AT_LIMIT) * most, "safety", source="its limit")  # fmt: skip
+        words = f", at its limit for {held:.1f} s" if held else ""
+        yield replace(made, found=said(f"{{}}{words}", (float(size.max()), "safety")))
         if drive.power is not None:
             turned = found.record.drives["motor"][:, d] * found.record.drives["rim"][:, d]
             power = float(np.abs(turned).max()) / found.line.efficiency
