@@ -103,7 +103,7 @@ def scenarios(found: CalculatedDynamics) -> Table:
         col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
         col("comes to rest", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
         col("way", "length", attrgetter("way"), "way_m"),
-        Column("error of the peaks", "share", attrgetter("error"), None, json="error"),
+        Column("error of the peaks", "share", attrgetter("error"), json="error"),
         Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
         Column("cells", "count", lambda r: r.middles.size, None, json="cells"),
         Column("step", "time", lambda r: r.record.step, None, json="step_s"),
