@@ -10,10 +10,9 @@ import pytest
 
 import conveyor
 from conveyor.analysis import compare_compounds, studies
-from conveyor.models import LoadCase
+from conveyor.models import LoadCase, Scenario
 from conveyor.report.comparing import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build
-from conveyor.report.tables import of_analysis
 from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import headed
 
@@ -92,7 +91,13 @@ def _of_a_rare_spec():
     take_up = {"kind": "fixed", "position": "tail"}
     route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
     slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
-    line = line.replace(cases=(slow, warm), route=route, belt=line.belt.replace(carcass=steel))
+    fails = Scenario.from_data(
+        {"name": "fails", "begins": "running", "events": [{"do": "power off"}], "duration": "2 s"}
+    )
+    splice = steel.replace(splice_strength="45 %")
+    line = line.replace(
+        cases=(slow, warm), route=route, belt=line.belt.replace(carcass=splice), scenarios=(fails,)
+    )
     asked = studies(line)
     refused = StateRefusal("full", 308.15, "bulk that does not fit")
     return conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))
@@ -104,7 +109,7 @@ def written(studied):
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
     found.append(_of_a_rare_spec())
     pairs = [
-        tuple(of_analysis(result.in_units(system), asked) for system in ("SI", "US"))
+        tuple(result.contents(asked, system=system) for system in ("SI", "US"))
         for result, asked in found
     ]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
