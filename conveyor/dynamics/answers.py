@@ -262,13 +262,20 @@ CRITERIA: Final[tuple[Callable[[Followed], Iterator[Check]], ...]] = (
 
 
 def checks_of(found: CalculatedDynamics) -> tuple[Check, ...]:
-    """Every criterion of every scenario."""
-    return tuple(
+    """Every criterion of every scenario; of a backstop, which has no limit, the scenario that loads it most."""
+    every = [
         replace(check, case=scenario_case(followed))
         for followed in found.followed
         for criterion in CRITERIA
         for check in criterion(followed)
-    )
+    ]
+    most: dict[Said, Check] = {}
+    for check in every:
+        if check.key == "dynamic_backstop":
+            most[check.subject] = max(
+                most.get(check.subject, check), check, key=lambda one: one.calculated or 0.0
+            )
+    return tuple(check for check in every if check is most.get(check.subject, check))
 
 
 def scenario_case(found: Followed) -> Said:
