@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.checks import Check, compared, verdict
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
@@ -48,7 +49,14 @@ class Peak:
     sag: float
 
     @classmethod
-    def of(cls, found: Followed, cells: slice, section: str, strand: str = "", least: float = 0.0) -> Peak:
+    def of(
+        cls,
+        found: Followed,
+        cells: slice | NDArray[np.int_],
+        section: str,
+        strand: str = "",
+        least: float = 0.0,
+    ) -> Peak:
         """Of some cells."""
         record = found.record
         high, low = int(record.highest[cells].argmax()), int(record.lowest[cells].argmin())

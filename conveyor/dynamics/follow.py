@@ -115,11 +115,11 @@ class Followed:
             low = min(int(low), self.middles.size - 1)
             yield k, slice(low, max(int(high), low + 1))
 
-    def beside(self, pulley: int) -> slice:
-        """Cells on both sides of a pulley of the line; one where it stands beside the take-up."""
+    def beside(self, pulley: int) -> NDArray[np.int_]:
+        """Cells on both sides of a pulley of the line; beyond the take-up where it stands beside that."""
         at = self.cells.at
         i = int(np.argmin(np.abs(at - self.ride.loop.pulleys[pulley])))
-        return slice(max(i - 1, 0), min(i + 1, at.size - 1))
+        return np.array([i - 1, i]) % (at.size - 1)
 
     @cached_property
     def sag(self) -> Array:
