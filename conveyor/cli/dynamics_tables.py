@@ -9,6 +9,8 @@ from conveyor.cli.terminal import console, table, words
 from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from conveyor.report.columns import Contents
 
 _SHOWN: Final = (
@@ -33,6 +35,23 @@ def show(contents: Contents) -> None:
         ))  # fmt: skip
     screen = console()
     screen.print(made)
+    if "scenario_sizes" in contents:
+        _sizes(screen, contents)
     counted = [row.verdict for row in contents["checks"].rows]
     screen.print(f"\nchecks: {counted.count('pass')} pass, {counted.count('FAIL')} FAIL")
     notes.show(screen, [*contents.lines("warning"), *(f"{line}" for line in contents.lines("assumption"))])
+
+
+def _sizes(screen: Console, contents: Contents) -> None:
+    """What was sought, how well it is known, and what decides."""
+    shown = contents["scenario_sizes"]
+    by_key = {column.key: column for column in shown.columns}
+    for row in shown.rows:
+        written = row.unit(contents.system)
+        error, most = by_key["to"].get(row), by_key["serves_up_to"].get(row)
+        said = f"{by_key['scenario'].get(row)}: {row.label} {written.said(by_key['found'].get(row))}"
+        said += "" if error is None else f", to {error:.1%}"
+        said += "" if most is None else f"; up to {written.said(most)} serves"
+        governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
+        said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"
+        screen.print(words(said))

@@ -25,7 +25,7 @@ from conveyor.models import Conveyor, Scenario, TakeUp
 
 Sought: TypeAlias = Literal["ramp", "brake", "delay", "take-up"]
 
-_TRIED, _ROUNDS, _CELLS = 8, 3, 80
+_TRIED, _ROUNDS, _CELLS = 8, 3, 60
 _RAMPS, _DELAYS = (5.0, 600.0), (0.0, 120.0)  # [s]
 _BRAKES = (0.02, 5.0)  # over the rated force of all motors
 _SETTINGS = (0.25, 8.0)  # over the setting as given
@@ -148,10 +148,10 @@ _LABELS: Final = {
 }
 
 
-def _followed(made: Callable[[float], Ride], values: list[float]) -> list[Followed]:
-    """All tried side by side, on cells that a search can do with."""
+def _followed(made: Callable[[float], Ride], values: list[float], k: int) -> list[Followed]:
+    """All tried side by side; cells half as long every round."""
     rides = [made(value) for value in values]
-    return side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS)
+    return side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / (_CELLS * 2**k))
 
 
 def _checks(found: Followed) -> list[Check]:
@@ -170,16 +170,15 @@ def _least(
     """The least value of the last run of those that serve, its largest, the next smaller one and what fails there."""
     most: float | None = None
     for k in range(_ROUNDS):
-        values = np.geomspace(low, high, _TRIED).tolist()
-        failing = [_failing(one) for one in _followed(made, values)]
+        # what served on coarser cells may just fail on finer ones: one step further is looked at too
+        values = np.geomspace(low, high if k == 0 else high * high / low, _TRIED).tolist()
+        failing = [_failing(one) for one in _followed(made, values, k)]
         serve = [i for i, of in enumerate(failing) if not of]
         if not serve:
-            if k:  # between the last two nothing serves but the upper end itself: it was tried before
-                return high, most, values[-2], failing[-2]
             nearest = min(failing, key=len)
             why = "; ".join(check.why.text() for check in nearest if check.why is not None)
             raise NoSolutionError(
-                f'scenario "{name}": nothing between {low:.4g} and {high:.4g} (SI) keeps every check; at best: {why}'
+                f'scenario "{name}": nothing from {low:.4g} to {values[-1]:.4g} (SI) keeps every check; at best: {why}'
             )
         first = last = serve[-1]
         while first and not failing[first - 1]:
@@ -195,9 +194,9 @@ def _least(
 def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: float) -> Size:
     """The delay with the lowest peak of those that keep every criterion."""
     best: tuple[float, float, Followed] | None = None
-    for _ in range(_ROUNDS):
+    for k in range(_ROUNDS):
         values = np.linspace(low, high, _TRIED).tolist()
-        found = _followed(made, values)
+        found = _followed(made, values, k)
         serve = [(one.highest, value, one) for value, one in zip(values, found, strict=True)
                  if not _failing(one)]  # fmt: skip
         if not serve and best is None:

@@ -39,6 +39,7 @@ ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
 _CELLS = 100  # of the longest belt at first
 _REFINED = 4  # times at most
+_REST = 1e-3  # of the steady speed, below which a belt away from the drives rests
 _COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
 
 
@@ -114,11 +115,11 @@ class Followed:
             low = min(int(low), self.middles.size - 1)
             yield k, slice(low, max(int(high), low + 1))
 
-    def beside(self, pulley: int) -> slice:
-        """Cells on both sides of a pulley of the line; one where it stands beside the take-up."""
+    def beside(self, pulley: int) -> NDArray[np.int_]:
+        """Cells on both sides of a pulley of the line; beyond the take-up where it stands beside that."""
         at = self.cells.at
         i = int(np.argmin(np.abs(at - self.ride.loop.pulleys[pulley])))
-        return slice(max(i - 1, 0), min(i + 1, at.size - 1))
+        return np.array([i - 1, i]) % (at.size - 1)
 
     @cached_property
     def sag(self) -> Array:
@@ -148,11 +149,17 @@ class Followed:
 
     @cached_property
     def rests_at(self) -> float | None:
-        """When the belt has come to rest for good on all drive pulleys [s]; None where it has not."""
+        """When the belt has come to rest for good, drive pulleys and all along [s]; None where it has not."""
         turning = np.abs(self.record.drives["belt"]).max(axis=1) > 0.0
-        if turning[-1]:
+        creeping = np.abs(self.record.speeds).max(axis=1) > _REST * self.line.speed
+        if turning[-1] or creeping[-1]:
             return None
-        return float(self.times[np.flatnonzero(turning)[-1]]) if turning.any() else 0.0
+        ends = [
+            float(times[np.flatnonzero(moves)[-1]])
+            for times, moves in ((self.times, turning), (self.record.times, creeping))
+            if moves.any()
+        ]
+        return max(ends, default=0.0)
 
     @cached_property
     def way(self) -> float:

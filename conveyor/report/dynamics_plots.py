@@ -98,9 +98,10 @@ def _map(figure: Figure, axis: Axes, found: Followed, system: System) -> None:
     shaded = axis.contourf(
         length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
     )
-    if float(tension.min()) < 0.0 < float(tension.max()):
+    taut = record.tensions[np.ix_(kept, order[cells])] / found.cells.slack[order[cells]]
+    if float(taut.min()) < 1.0 < float(taut.max()):
         axis.contour(
-            length(distance[cells]), record.times[kept], tension, levels=[0.0], colors="red", linewidths=1.0
+            length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0
         )
     axis.axvline(float(length(found.line.loop.way[found.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)

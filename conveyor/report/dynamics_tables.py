@@ -103,7 +103,7 @@ def scenarios(found: CalculatedDynamics) -> Table:
         col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
         col("comes to rest", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
         col("way", "length", attrgetter("way"), "way_m"),
-        Column("error of the peaks", "share", attrgetter("error"), None, json="error"),
+        Column("error of the peaks", "share", attrgetter("error"), json="error"),
         Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
         Column("cells", "count", lambda r: r.middles.size, None, json="cells"),
         Column("step", "time", lambda r: r.record.step, None, json="step_s"),
@@ -159,6 +159,10 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
     def drive(name: str, of: Any) -> Any:
         return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
 
+    def held(of: Any, there: Any) -> Any:
+        """Force that a brake or a backstop holds; none where there is none."""
+        return lambda row: drive("holding", of)(row) if there(row[1].ride)[row[2]] else None
+
     def torque(of: Any) -> Any:
         return lambda row: float(of(row[1].torque[:, row[2]]))
 
@@ -180,8 +184,9 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
         Column("highest power at the rim", "power", power, json="power_kW"),
         Column("slip", "length", lambda row: float(row[1].record.slipped[row[2]]), json="slip_m"),
         Column("heat of slip", "heat", lambda row: float(row[1].record.heat[row[2]]), json="slip_heat_MJ"),
-        Column("brake", "force", drive("holding", np.max), json="brake_N"),
-        Column("backstop", "force", drive("holding", lambda force: max(0.0, -np.min(force))), json="backstop_N"),
+        Column("brake", "force", held(np.max, lambda ride: ride.brakes), json="brake_N"),
+        Column("backstop", "force", held(lambda force: max(0.0, -np.min(force)), lambda ride: ride.backstops),
+               json="backstop_N"),
         Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
         Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
         Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),

@@ -135,7 +135,7 @@ def test_the_shortest_ramp_keeps_every_criterion():
     assert found.governs
     with pytest.raises(InputError, match="a ramp needs inverters"):
         size(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
-    with pytest.raises(NoSolutionError, match="nothing between 1 and 2"):
+    with pytest.raises(NoSolutionError, match="nothing from 1 to 2"):
         size(conveyor, scenario, "ramp", between=(1.0, 2.0))
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conveyor.dynamics.answers import CRITERIA
+from conveyor.dynamics.answers import CRITERIA, at_pulley, peaks
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
@@ -317,3 +317,31 @@ def test_two_scenarios_of_one_name_are_refused():
     with pytest.raises(InputError, match="its own name"):
         from_data(data() | {"scenarios": [one, one]})
     assert Scenario.from_data(one).as_data()["begins"] == "at rest"
+
+
+def test_splice_pulleys_and_curves_are_checked_at_their_own_highest_tensions():
+    """By hand: k_N = k S0 S1/k_t over 1.5; R = T/(m' g cos δ) of the empty belt; a pulley sees both its sides."""
+    carcass = DATA["belt"]["carcass"] | {"splice_strength": "45 %"}
+    hollow = [{"name": "a", "length": "300 m"},
+              {"name": "hollow", "length": "60 m", "lift": "3 m", "curve": "concave", "curve_radius": "900 m"},
+              {"name": "b", "length": "400 m", "lift": "36 m"}]  # fmt: skip
+    route = TAUT | {"sections": hollow, "pulleys": DATA["route"]["pulleys"][:3]}
+    conveyor = line(belt=DATA["belt"] | {"carcass": carcass}, drive=DATA["drive"] | MASSES, route=route)
+    found = followed(conveyor, START | {"starter": {"time": "8 s"}, "duration": "15 s"}, step=0.05)
+    said = checks_of_one(found)
+    (splice,) = (check for check in said if check.key == "dynamic_splice")
+    assert splice.required == pytest.approx(found.highest / 1.5 * 1.1 * 1.7 / 0.45, rel=1e-9)
+    there = {peak.strand: peak for peak in peaks(found) if peak.section == "hollow"}
+    lifts = {check.subject.text(): check for check in said if check.key == "dynamic_lift_off"}
+    assert len(lifts) == 2
+    radius = lifts["empty belt stays down, hollow, carry"].required
+    slope = found.line.loop.stretches[
+        [s.section for s in found.line.loop.stretches].index("hollow")
+    ].inclination
+    assert radius == pytest.approx(there["carry"].highest / (20.0 * 9.80665 * np.cos(slope)), rel=1e-3)
+    names = [pulley.name for pulley in found.line.pulleys]
+    head = at_pulley(found, names.index("head"))
+    # middles of its cells against their ends at it: a cell of the belt at most lies between
+    cell = 1.0 / found.middles.size
+    assert head.highest == pytest.approx(float(found.record.drives["arriving"].max()), rel=cell)
+    assert head.lowest == pytest.approx(float(found.record.drives["leaving"].min()), rel=cell)

@@ -10,10 +10,9 @@ import pytest
 
 import conveyor
 from conveyor.analysis import compare_compounds, studies
-from conveyor.models import LoadCase
+from conveyor.models import LoadCase, Scenario
 from conveyor.report.comparing import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build
-from conveyor.report.tables import of_analysis
 from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import headed
 
@@ -93,8 +92,16 @@ def _of_a_rare_spec():
     route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
     drawn = {"roll_drag": "10 %", "draws": 64}
     slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
+    fails = Scenario.from_data(
+        {"name": "fails", "begins": "running", "events": [{"do": "power off"}], "duration": "2 s"}
+    )
+    splice = steel.replace(splice_strength="45 %")
     line = line.replace(
-        cases=(slow, warm), route=route, uncertainty=drawn, belt=line.belt.replace(carcass=steel)
+        cases=(slow, warm),
+        route=route,
+        uncertainty=drawn,
+        belt=line.belt.replace(carcass=splice),
+        scenarios=(fails,),
     )
     asked = studies(line)
     refused = StateRefusal("full", 308.15, "bulk that does not fit")
@@ -107,8 +114,7 @@ def written(studied):
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
     found.append(_of_a_rare_spec())
     pairs = [
-        tuple(of_analysis(result.in_units(system), asked) for system in ("SI", "US"))
-        for result, asked in found
+        tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found
     ]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     line = line.replace(operation=line.operation.replace(emission="0.4 kg/kWh", emission_source="x"))
