@@ -328,7 +328,8 @@ class SizingTask:
             return None
         area = self.flow / (self.density * speed)
         filling = area / trough.area
-        if not si(self.rules.least_filling) <= filling <= si(self.rules.filling):
+        narrowest = width == self.troughs[0].width.belt
+        if filling > si(self.rules.filling) or (filling < si(self.rules.least_filling) and not narrowest):
             return None
         under = filled_width(
             area,
@@ -476,15 +477,12 @@ class SizingTask:
             "efficiency": f"{100.0 * self.efficiency:.6g} %",
             "start_factor": rules.start_factor,
         }
-        if len(motors) == 1:
-            return first
-        further = {
-            **one,
-            "name": "second drive",
-            "position": "tail" if choice.drives == "head and tail" else "head",
-            "installed_power": _written(motors[1], "kW"),
-        }
-        return {**first, "further_drives": [further]}
+        further = []
+        for number, motor in enumerate(motors[1:], start=2):
+            tail = "tail" in choice.drives and number == len(motors)
+            place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
+            further.append({**one, **place, "installed_power": _written(motor, "kW")})
+        return {**first, "further_drives": further} if further else first
 
 
 def _roll(roll: RollSize, length: float) -> dict[str, Any]:
@@ -509,6 +507,7 @@ def _written(value: float, unit: str) -> str:
     return f"{number:.6g} {unit}"
 
 
-def spread(power: float, layout: str) -> Sequence[float]:
-    """Share of each drive in a power: one pulley, or two alike."""
-    return (power,) if layout in {"head", "tail"} else (0.5 * power, 0.5 * power)
+def spread(power: float, layout: DriveLayout) -> Sequence[float]:
+    """Power of each drive: one pulley, or several alike."""
+    count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
+    return (power / count,) * count

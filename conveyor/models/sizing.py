@@ -37,7 +37,7 @@ from conveyor.units import (
 )
 
 Carcasses = Literal["EP", "steel cord"]
-DriveLayout = Literal["head", "head, two pulleys", "head and tail", "tail"]
+DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two pulleys, and tail", "tail"]
 Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
@@ -111,7 +111,7 @@ class SiteRules(Model):
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("90 %")
     """Most of the cross-section of ISO 5048 that the bulk may take."""
     least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
-    """Least of it: emptier belts are not looked at."""
+    """Least of it, but for the narrowest belt that takes the lumps: emptier ones are not looked at."""
     trough_angles: Annotated[
         tuple[Annotated[Angle, Bounds(ge="0 deg", le="60 deg")], ...], Field(min_length=1)
     ] = (quantity("35 deg"), quantity("45 deg"))
@@ -136,6 +136,7 @@ class SiteRules(Model):
         "head",
         "head, two pulleys",
         "head and tail",
+        "head, two pulleys, and tail",
         "tail",
     )
     """Places of the drives to choose from."""

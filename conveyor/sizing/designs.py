@@ -39,6 +39,10 @@ BRAKE_RESERVE: Final = 1.3
 """Brake force over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
+_TOO_MUCH: Final = (
+    "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses or drives "
+    "(rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel), or split the conveyor"
+)
 _NO_LIFE: Final = 1e12  # [s], of rolls without load
 
 
@@ -156,10 +160,7 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
     estimate = screen(task, choices, levels)
     probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
     if not probes:
-        raise NoSolutionError(
-            "no candidate has a belt, motors and bearings strong enough among the series: allow further carcasses or "
-            "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
-        )
+        raise NoSolutionError(_TOO_MUCH)
     first = _first(task, choices, estimate, probes)
     known = next((one for one in first if one is not None), None)
     levels = _levels(choices, estimate, probes, first, levels)
@@ -172,6 +173,8 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
         found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
         made = {i: one for i, one in found.items() if isinstance(one, Design)}
         levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
+    if not found:
+        raise NoSolutionError(_TOO_MUCH)
     reasons = Counter(one for one in found.values() if isinstance(one, str))
     final = _final(task, made.values(), best, known, reasons)
     if not final:

@@ -190,7 +190,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
     ("rules", "message"),
     [
         ({"speeds": ["0.1 m/s"]}, "no belt width and speed keep the rules"),
-        ({"largest_motor": "1 kW"}, "belt, motors and bearings strong enough"),
+        ({"largest_motor": "1 kW"}, "belt, motors, bearings and take-up"),
     ],
 )
 def test_rules_that_leave_nothing_say_so(small, rules, message):
