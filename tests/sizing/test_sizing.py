@@ -8,6 +8,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import conveyor
@@ -21,6 +22,7 @@ from conveyor.sizing import size
 from conveyor.sizing.around import around
 from conveyor.sizing.designs import settled
 from conveyor.sizing.screen import Candidates, first_levels, screen
+from conveyor.study_file import read_duty
 from tests.command_line import run
 
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
@@ -207,9 +209,18 @@ def test_prices_are_those_of_the_library_but_for_what_is_given():
         Prices.from_data({"roll": "20 USD"})
 
 
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_the_duty_to_begin_with_is_read_and_leaves_a_choice(tmp_path, units):
+    done = run("new", "duty.yaml", "--kind", "duty", "--units", units, cwd=tmp_path)
+    assert "next: conveyor size duty.yaml" in done.stdout
+    given = read_duty(tmp_path / "duty.yaml")
+    task = SizingTask(given)
+    every = Candidates.of(task)
+    assert given.report.units == units
+    assert np.isfinite(screen(task, every, first_levels(2)).year).sum() > 1000
+
+
 @pytest.mark.parametrize("name", ["overland", "in_plant", "downhill"])
 def test_duties_of_the_examples_are_read(name):
-    from conveyor.study_file import read_duty
-
     task = SizingTask(read_duty(DUTIES / f"{name}.yaml"))
     assert len(Candidates.of(task)) >= 2000
