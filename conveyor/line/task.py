@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Final
 
 from conveyor.files import libraries
@@ -302,13 +302,13 @@ class SizingTask:
     def troughs(self) -> tuple[Trough, ...]:
         """Widths that take the lumps, with every trough angle."""
         rules, surcharge = self.rules, self.duty.material.surcharge
-        asked = {si(width) for width in rules.widths}
+        asked = [si(width) for width in rules.widths]
         lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
         least = max([lumps, *self._fitted])
         found = []
         for row in sizes().widths:
             width = WidthSize(si(row.belt), si(row.one), si(row.two), si(row.three))
-            if width.belt < least or (asked and width.belt not in asked):
+            if width.belt < least or (asked and not any(map(partial(math.isclose, width.belt), asked))):
                 continue
             for angle in map(si, rules.trough_angles):
                 section = cross_section(

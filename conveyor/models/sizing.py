@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import cache
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -34,6 +35,7 @@ from conveyor.units import (
     Thickness,
     quantity,
     si,
+    text,
 )
 
 Carcasses = Literal["EP", "steel cord"]
@@ -41,6 +43,10 @@ DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two p
 Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
+
+
+_SAME_WIDTH: Final = 1e-9
+"""Widths are typed as decimals: a larger difference is another width."""
 
 
 class WidthRow(Model):
@@ -154,6 +160,17 @@ class SiteRules(Model):
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed."""
+
+    @model_validator(mode="after")
+    def _of_the_series(self) -> Self:
+        known = [si(row.belt) for row in sizes().widths]
+        listed = ", ".join(text(row.belt) for row in sizes().widths)
+        refuse("SiteRules", [
+            Problem(("widths", i), f"got {text(width)}, the series has {listed}")
+            for i, width in enumerate(self.widths)
+            if not any(math.isclose(si(width), each, rel_tol=_SAME_WIDTH) for each in known)
+        ])  # fmt: skip
+        return self
 
 
 class SizingDuty(Model):

@@ -177,6 +177,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
         ("flow: 400 t/h", "flow: 0 t/h", r"material.flow: got 0"),
         ("lump: 100 mm", "lump: 100 mm\nlength: 5 m", r"route: give either route, or length"),
         ("lumps: mixed", "prices: {drive: 10 EUR/kg}", r'prices.drive: got "10 EUR/kg"'),
+        ("widths: [650 mm, 800 mm]", "widths: [650 mm, 810 mm]", r"rules.widths\[1\]: got 810 mm, the series has"),
         ("  drives: [head]", "  drives: [middle]", r"rules.drives\[0\]: "),
     ],
 )  # fmt: skip
@@ -207,6 +208,13 @@ def test_prices_are_those_of_the_library_but_for_what_is_given():
     assert changed == {"roll", "interest"}
     with pytest.raises(InputError, match="one currency"):
         Prices.from_data({"roll": "20 USD"})
+
+
+def test_the_narrowest_belt_that_takes_the_lumps_may_be_as_empty_as_it_is(small):
+    """A tenth of the flow: by its filling no belt would do, the narrowest one does."""
+    material = small.material.replace(flow="20 t/h")
+    task = SizingTask(small.replace(material=material))
+    assert {running.trough.width.belt for running in Candidates.of(task).running} == {0.65}
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])
