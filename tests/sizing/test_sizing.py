@@ -164,6 +164,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
     told = json.loads(done.stdout)
     (design,) = told["designs"]
     assert design["cost_per_year"] == pytest.approx(sum(row["per_year"] for row in told["costs"]))
+    assert design["roll_life_h"] >= 30e3  # rules.roll_life
     assert {row["choice"] for row in told["around"]} >= {"roll diameter", "bottom cover"}
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("a.xlsx", "a.html", "a.svg"))
 
