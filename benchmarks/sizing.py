@@ -52,8 +52,8 @@ def main() -> None:
             f"{name:<10} {powers[0]:>7.1f} kW {powers[1]:>8.1f} {powers[1] / powers[0] - 1.0:>+7.1%}   "
             f"{found.candidates:>10,} {found.calculated:>6} {seconds:>6.1f} {seconds / one:>8.1f}\n"
             f"  {choice.trough.width.belt * 1e3:.0f} mm, {choice.speed:g} m/s, {carcass.kind} "
-            f"{carcass.strength / 1e3:.0f}, rolls {choice.roll.diameter * 1e3:.0f} mm every {choice.carry:g} "
-            f"and {choice.back:g} m, {choice.drives}"
+            f"{carcass.strength / 1e3:.0f}, rolls {choice.roll.diameter * 1e3:.0f} mm every "
+            f"{choice.carry:g} and {choice.back:g} m, {choice.drives}"
         )
 
 

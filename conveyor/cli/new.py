@@ -15,11 +15,12 @@ from conveyor.files.marks import TO_FILL_IN
 
 
 class StarterKind(StrEnum):
-    """Conveyors there is a starter of."""
+    """What there is a starter of: three conveyors, and a duty to size one from."""
 
     OVERLAND = "overland"
     IN_PLANT = "in-plant"
     DOWNHILL = "downhill"
+    DUTY = "duty"
 
 
 @app.command(
@@ -27,12 +28,16 @@ class StarterKind(StrEnum):
     epilog=examples(
         "conveyor new mine.yaml",
         "conveyor new mine.yaml --kind in-plant --units US",
+        "conveyor new duty.yaml --kind duty",
     ),
 )
 def new(
     spec: Annotated[Path, typer.Argument(help="Spec to write (.yaml).", show_default=False)],
     kind: Annotated[
-        StarterKind, typer.Option(help="Conveyor the example values belong to.", case_sensitive=False)
+        StarterKind,
+        typer.Option(
+            help="Conveyor the example values belong to; duty: of one to be sized.", case_sensitive=False
+        ),
     ] = StarterKind.OVERLAND,
     units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
     force: Force = False,
@@ -48,4 +53,5 @@ def new(
     to.add("spec", spec, {spec: written(kind.value, units.value, file=spec.name).encode()})
     lines = to.save()
     if not quiet:
-        say(*lines, f"next: conveyor power {quoted(str(spec))}")
+        command = "size" if kind is StarterKind.DUTY else "power"
+        say(*lines, f"next: conveyor {command} {quoted(str(spec))}")

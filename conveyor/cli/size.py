@@ -49,7 +49,7 @@ def size(
     duty: Annotated[Path, typer.Argument(metavar="DUTY", help="Duty: .yaml or .json.", show_default=False)],
     best: Annotated[
         int, typer.Option("--best", "-n", metavar="N", help="Designs to rank.", min=1, max=_MOST)
-    ] = 5,
+    ] = 3,
     output: Annotated[
         list[Path] | None,
         typer.Option(

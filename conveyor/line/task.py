@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Final
 
 from conveyor.files import libraries
@@ -302,13 +302,13 @@ class SizingTask:
     def troughs(self) -> tuple[Trough, ...]:
         """Widths that take the lumps, with every trough angle."""
         rules, surcharge = self.rules, self.duty.material.surcharge
-        asked = {si(width) for width in rules.widths}
+        asked = [si(width) for width in rules.widths]
         lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
         least = max([lumps, *self._fitted])
         found = []
         for row in sizes().widths:
             width = WidthSize(si(row.belt), si(row.one), si(row.two), si(row.three))
-            if width.belt < least or (asked and width.belt not in asked):
+            if width.belt < least or (asked and not any(map(partial(math.isclose, width.belt), asked))):
                 continue
             for angle in map(si, rules.trough_angles):
                 section = cross_section(
@@ -328,7 +328,8 @@ class SizingTask:
             return None
         area = self.flow / (self.density * speed)
         filling = area / trough.area
-        if not si(self.rules.least_filling) <= filling <= si(self.rules.filling):
+        narrowest = width == self.troughs[0].width.belt
+        if filling > si(self.rules.filling) or (filling < si(self.rules.least_filling) and not narrowest):
             return None
         under = filled_width(
             area,
@@ -476,15 +477,12 @@ class SizingTask:
             "efficiency": f"{100.0 * self.efficiency:.6g} %",
             "start_factor": rules.start_factor,
         }
-        if len(motors) == 1:
-            return first
-        further = {
-            **one,
-            "name": "second drive",
-            "position": "tail" if choice.drives == "head and tail" else "head",
-            "installed_power": _written(motors[1], "kW"),
-        }
-        return {**first, "further_drives": [further]}
+        further = []
+        for number, motor in enumerate(motors[1:], start=2):
+            tail = "tail" in choice.drives and number == len(motors)
+            place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
+            further.append({**one, **place, "installed_power": _written(motor, "kW")})
+        return {**first, "further_drives": further} if further else first
 
 
 def _roll(roll: RollSize, length: float) -> dict[str, Any]:
@@ -509,6 +507,7 @@ def _written(value: float, unit: str) -> str:
     return f"{number:.6g} {unit}"
 
 
-def spread(power: float, layout: str) -> Sequence[float]:
-    """Share of each drive in a power: one pulley, or two alike."""
-    return (power,) if layout in {"head", "tail"} else (0.5 * power, 0.5 * power)
+def spread(power: float, layout: DriveLayout) -> Sequence[float]:
+    """Power of each drive: one pulley, or several alike."""
+    count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
+    return (power / count,) * count

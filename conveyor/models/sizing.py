@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import cache
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -34,13 +35,18 @@ from conveyor.units import (
     Thickness,
     quantity,
     si,
+    text,
 )
 
 Carcasses = Literal["EP", "steel cord"]
-DriveLayout = Literal["head", "head, two pulleys", "head and tail", "tail"]
+DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two pulleys, and tail", "tail"]
 Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
+
+
+_SAME_WIDTH: Final = 1e-9
+"""Widths are typed as decimals: a larger difference is another width."""
 
 
 class WidthRow(Model):
@@ -111,7 +117,7 @@ class SiteRules(Model):
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("90 %")
     """Most of the cross-section of ISO 5048 that the bulk may take."""
     least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
-    """Least of it: emptier belts are not looked at."""
+    """Least of it, but for the narrowest belt that takes the lumps: emptier ones are not looked at."""
     trough_angles: Annotated[
         tuple[Annotated[Angle, Bounds(ge="0 deg", le="60 deg")], ...], Field(min_length=1)
     ] = (quantity("35 deg"), quantity("45 deg"))
@@ -136,6 +142,7 @@ class SiteRules(Model):
         "head",
         "head, two pulleys",
         "head and tail",
+        "head, two pulleys, and tail",
         "tail",
     )
     """Places of the drives to choose from."""
@@ -153,6 +160,17 @@ class SiteRules(Model):
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed."""
+
+    @model_validator(mode="after")
+    def _of_the_series(self) -> Self:
+        known = [si(row.belt) for row in sizes().widths]
+        listed = ", ".join(text(row.belt) for row in sizes().widths)
+        refuse("SiteRules", [
+            Problem(("widths", i), f"got {text(width)}, the series has {listed}")
+            for i, width in enumerate(self.widths)
+            if not any(math.isclose(si(width), each, rel_tol=_SAME_WIDTH) for each in known)
+        ])  # fmt: skip
+        return self
 
 
 class SizingDuty(Model):

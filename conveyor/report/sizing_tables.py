@@ -89,7 +89,7 @@ def designs(found: CalculatedSizing) -> Table:
         col("motor power", "power", _of("found.balance.power.motor"), "motor_power_kW"),
         col("belt safety", "ratio", _of("safety"), "belt_safety"),
         Column("take-up", "force", _of("found.balance.settled.setting"), json="take_up_N"),
-        Column("L10 of a roll set", "life", lambda row: row[1].roll_life / 3600.0, json="roll_life_h"),
+        Column("L10 of a roll set", "life", _of("roll_life"), json="roll_life_h"),
         col("capital", money, lambda row: float(row[1].costs.whole_capital), "capital"),
         col("energy a year", money, lambda row: float(row[1].costs.yearly["energy"]), "energy_per_year"),
         col("cost a year", money, _of("year"), "cost_per_year"),

@@ -39,6 +39,10 @@ BRAKE_RESERVE: Final = 1.3
 """Brake force over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
+_TOO_MUCH: Final = (
+    "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses or drives "
+    "(rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel), or split the conveyor"
+)
 _NO_LIFE: Final = 1e12  # [s], of rolls without load
 
 
@@ -128,7 +132,7 @@ class CalculatedSizing:
         return self.designs[0]
 
 
-def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) -> CalculatedSizing:
+def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -> CalculatedSizing:
     """Size a conveyor from its duty.
 
     Parameters
@@ -156,10 +160,7 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
     estimate = screen(task, choices, levels)
     probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
     if not probes:
-        raise NoSolutionError(
-            "no candidate has a belt, motors and bearings strong enough among the series: allow further carcasses or "
-            "drives (rules.carcasses, rules.drives, rules.largest_motor), or split the conveyor"
-        )
+        raise NoSolutionError(_TOO_MUCH)
     first = _first(task, choices, estimate, probes)
     known = next((one for one in first if one is not None), None)
     levels = _levels(choices, estimate, probes, first, levels)
@@ -172,6 +173,8 @@ def size(duty: SizingDuty, *, best: int = 10, progress: Progress | None = None) 
         found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
         made = {i: one for i, one in found.items() if isinstance(one, Design)}
         levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
+    if not found:
+        raise NoSolutionError(_TOO_MUCH)
     reasons = Counter(one for one in found.values() if isinstance(one, str))
     final = _final(task, made.values(), best, known, reasons)
     if not final:
@@ -202,7 +205,8 @@ def _final(
     final: list[Design] = []
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[:best], ranked[best:]
-        for one in settled(task, [(d.choice, d.chosen, d.estimate) for d in batch], known, every_load=True):
+        begin = [(design.choice, design.chosen, design.estimate) for design in batch]
+        for one in settled(task, begin, known, every_load=True, made=batch):
             if isinstance(one, Design):
                 final.append(one)
             else:
@@ -298,6 +302,7 @@ def settled(
     known: CalculatedConveyor | None,
     *,
     every_load: bool = False,
+    made: Sequence[Design] = (),
 ) -> list[Design | str]:
     """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
 
@@ -311,6 +316,8 @@ def settled(
         Calculated already: the anchors of its compounds are taken over.
     every_load : bool
         Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
+    made : sequence of Design
+        The same candidates as designs for the full belt: what is calculated of them is not calculated again.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
     found: dict[int, Design | str] = {}
@@ -323,8 +330,10 @@ def settled(
             except InputError as error:
                 found[i] = str(error)
         coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
+        held = {i: made[i].coldest for i in coldest if made and now[i] == made[i].chosen}
+        new = _calculated({i: spec for i, spec in coldest.items() if i not in held}, known)
         again = {}
-        for i, answer in _calculated(coldest, known).items():
+        for i, answer in {**held, **new}.items():
             try:
                 if not isinstance(answer, CalculatedConveyor):
                     raise answer
@@ -340,7 +349,9 @@ def settled(
         now = again
         if not now:
             break
-    warm = _calculated({i: spec for i, (_, spec, _) in sized.items()}, known) if task.cold else {}
+    held = {i: made[i].found for i, (chosen, _, _) in sized.items() if made and chosen == made[i].chosen}
+    left = {i: spec for i, (_, spec, _) in sized.items() if task.cold and i not in held}
+    warm = {**held, **_calculated(left, known)}
     for i, (chosen, _, loads) in sized.items():
         answer = warm.get(i, loads[0])
         found[i] = (
@@ -479,15 +490,16 @@ def _costs(
 
 def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
     """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
-    begin = []
-    for design in designs:
-        apart = graduated_spacing(task, design)
-        changed = replace(design.choice, graduated=apart) if len(set(apart)) > 1 else design.choice
-        begin.append((changed, design.chosen, design.estimate))
-    made = settled(task, begin, designs[0].found)
+    apart = {i: graduated_spacing(task, design) for i, design in enumerate(designs)}
+    varied = {i: one for i, one in apart.items() if len(set(one)) > 1}
+    begin = [
+        (replace(designs[i].choice, graduated=one), designs[i].chosen, designs[i].estimate)
+        for i, one in varied.items()
+    ]
+    made = dict(zip(varied, settled(task, begin, designs[0].found), strict=True)) if begin else {}
     return [
-        new if isinstance(new, Design) and new.year < old.year else old
-        for old, new in zip(designs, made, strict=True)
+        new if isinstance(new := made.get(i), Design) and new.year < old.year else old
+        for i, old in enumerate(designs)
     ]
 
 

@@ -284,7 +284,7 @@ def _tensions(
     task, at_tail = every.task, every.driven(_at_tail)
     friction, wrap = task.grip
     grips = 1.0 / np.expm1(
-        friction * wrap * every.driven(lambda one: 2.0 if one == "head, two pulleys" else 1.0)
+        friction * wrap * every.driven(lambda one: 2.0 if one.startswith("head, two pulleys") else 1.0)
     )
     start = task.rules.start_factor
     returning = np.cumsum(down, axis=1)
@@ -304,4 +304,4 @@ def _tensions(
 
 def _at_tail(drives: DriveLayout) -> float:
     """Share of the drive force at the tail."""
-    return {"head": 0.0, "head, two pulleys": 0.0, "head and tail": 0.5, "tail": 1.0}[drives]
+    return (1.0 / len(spread(1.0, drives))) if "tail" in drives else 0.0

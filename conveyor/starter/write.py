@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 from conveyor.models import Conveyor
+from conveyor.models.sizing import SizingDuty
 from conveyor.starter.values import LEFT_OUT, OPTIONAL, Kind, in_units, read
 from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.template.limits import like, limits_like
@@ -20,26 +21,28 @@ _WIDTH: Final = 112
 _COMMENT_COLUMN: Final = 40
 _HEADING: Final = """\
 # {name} to begin with. Replace the values by yours, then:
-#   conveyor power {file}
-#   conveyor power {file} -o report.xlsx
+{commands}
 # Lines that begin with "# key:" are fields that may be left out: remove "# " to use them.
 # Every value with a dimension carries its unit; a bare number is refused, a decimal comma and "ton" too. Units:
 {units}
-# All fields: conveyor schema. The same as a workbook to fill in: conveyor template input.xlsx --from {file}
+{more}
 """
+_OF_SPECS: Final = """\
+# All fields: conveyor schema. The same as a workbook to fill in: conveyor template input.xlsx --from {file}"""
+_OF_DUTIES: Final = "# All rules and prices: docs/sizing.md. One slope: length and lift instead of route."
 _SHOWN_KINDS: Final = (
     "length", "speed", "angle", "mass", "belt mass", "density", "mass flow", "force", "line force", "pressure",
     "power", "temperature", "fraction",
 )  # fmt: skip
 
 
-def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str:
+def written(kind: Kind | Literal["duty"], units: System = "SI", *, file: str = "spec.yaml") -> str:
     """Write a starter spec with a comment for every field.
 
     Parameters
     ----------
-    kind : {"overland", "in-plant", "downhill"}
-        Conveyor.
+    kind : {"overland", "in-plant", "downhill", "duty"}
+        Conveyor; or the duty of one that is to be sized.
     units : {"SI", "US"}
         System of units.
     file : str
@@ -50,8 +53,20 @@ def written(kind: Kind, units: System = "SI", *, file: str = "spec.yaml") -> str
     >>> next(line for line in written("overland").splitlines() if line.startswith("name"))
     'name: My overland conveyor              # What the conveyor is called in reports.'
     """
-    lines = _Writer(units).group(layout(Conveyor), read(f"{kind}.yaml"), ())
-    heading = _HEADING.format(name=f"A conveyor ({kind})", file=quoted(file), units=_units())
+    name, words = quoted(file), read("words.yaml")
+    if kind == "duty":
+        words = {path: said for path, said in words.items() if not path.startswith("operation")}
+        lines = _Writer(units, words).group(layout(SizingDuty), read("duty.yaml"), ())
+        about = (
+            "A conveyor's duty",
+            f"#   conveyor size {name}\n#   conveyor size {name} -o design.yaml",
+            _OF_DUTIES,
+        )
+    else:
+        lines = _Writer(units, words).group(layout(Conveyor), read(f"{kind}.yaml"), ())
+        commands = f"#   conveyor power {name}\n#   conveyor power {name} -o report.xlsx"
+        about = f"A conveyor ({kind})", commands, _OF_SPECS.format(file=name)
+    heading = _HEADING.format(name=about[0], commands=about[1], units=_units(), more=about[2])
     return "\n".join([heading, *lines]).rstrip() + "\n"
 
 
@@ -82,9 +97,9 @@ def _units() -> str:
 class _Writer:
     """Lines of a spec: a value on the left, what it means on the right."""
 
-    def __init__(self, units: System) -> None:
+    def __init__(self, units: System, words: Mapping[str, str]) -> None:
         self._units: System = units
-        self._words = read("words.yaml")
+        self._words = words
 
     def group(self, group: FieldGroup, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
         """Write the fields of a model that the data have, in the model's order."""

@@ -8,6 +8,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import conveyor
@@ -21,6 +22,7 @@ from conveyor.sizing import size
 from conveyor.sizing.around import around
 from conveyor.sizing.designs import settled
 from conveyor.sizing.screen import Candidates, first_levels, screen
+from conveyor.study_file import read_duty
 from tests.command_line import run
 
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
@@ -162,6 +164,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
     told = json.loads(done.stdout)
     (design,) = told["designs"]
     assert design["cost_per_year"] == pytest.approx(sum(row["per_year"] for row in told["costs"]))
+    assert design["roll_life_h"] >= 30e3  # rules.roll_life
     assert {row["choice"] for row in told["around"]} >= {"roll diameter", "bottom cover"}
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("a.xlsx", "a.html", "a.svg"))
 
@@ -175,6 +178,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
         ("flow: 400 t/h", "flow: 0 t/h", r"material.flow: got 0"),
         ("lump: 100 mm", "lump: 100 mm\nlength: 5 m", r"route: give either route, or length"),
         ("lumps: mixed", "prices: {drive: 10 EUR/kg}", r'prices.drive: got "10 EUR/kg"'),
+        ("widths: [650 mm, 800 mm]", "widths: [650 mm, 810 mm]", r"rules.widths\[1\]: got 810 mm, the series has"),
         ("  drives: [head]", "  drives: [middle]", r"rules.drives\[0\]: "),
     ],
 )  # fmt: skip
@@ -190,7 +194,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
     ("rules", "message"),
     [
         ({"speeds": ["0.1 m/s"]}, "no belt width and speed keep the rules"),
-        ({"largest_motor": "1 kW"}, "belt, motors and bearings strong enough"),
+        ({"largest_motor": "1 kW"}, "belt, motors, bearings and take-up"),
     ],
 )
 def test_rules_that_leave_nothing_say_so(small, rules, message):
@@ -207,9 +211,25 @@ def test_prices_are_those_of_the_library_but_for_what_is_given():
         Prices.from_data({"roll": "20 USD"})
 
 
+def test_the_narrowest_belt_that_takes_the_lumps_may_be_as_empty_as_it_is(small):
+    """A tenth of the flow: by its filling no belt would do, the narrowest one does."""
+    material = small.material.replace(flow="20 t/h")
+    task = SizingTask(small.replace(material=material))
+    assert {running.trough.width.belt for running in Candidates.of(task).running} == {0.65}
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_the_duty_to_begin_with_is_read_and_leaves_a_choice(tmp_path, units):
+    done = run("new", "duty.yaml", "--kind", "duty", "--units", units, cwd=tmp_path)
+    assert "next: conveyor size duty.yaml" in done.stdout
+    given = read_duty(tmp_path / "duty.yaml")
+    task = SizingTask(given)
+    every = Candidates.of(task)
+    assert given.report.units == units
+    assert np.isfinite(screen(task, every, first_levels(2)).year).sum() > 1000
+
+
 @pytest.mark.parametrize("name", ["overland", "in_plant", "downhill"])
 def test_duties_of_the_examples_are_read(name):
-    from conveyor.study_file import read_duty
-
     task = SizingTask(read_duty(DUTIES / f"{name}.yaml"))
     assert len(Candidates.of(task)) >= 2000
