@@ -40,7 +40,8 @@ def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
     and δ(3n/4) the error at n is δ(3n/4)²/δ(n/2) for geometric convergence; four times that covers n^-3, and δ(3n/4)
-    is the most. Edges likewise, by the shift of ε and of the half width that another load takes, |δp/p| of it at most.
+    is the most. Twice that bounds it down to n^-1.4. Edges shift with ε and with the half width that another load
+    takes, |δp/p| of it at most; they converge more slowly, so twice their shift from 3n/4 is taken.
 
     Parameters
     ----------
@@ -59,28 +60,23 @@ def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: 
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
     n = matrix.shape[2]
-    change, moved = [], []
+    change = []
     for order in (n // 2, (3 * n) // 4):
         lower = of_order(matrix, order, contact, rho)
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
         change.append(np.where(lower.inside, shift, 1.0))
-        edges = (contact.alpha + np.abs(contact.eps)) * np.abs(load) + np.abs(lower.eps - contact.eps)
-        moved.append(np.where(lower.inside, edges, contact.alpha))
-    return OrderErrors(_left(*change), change[1], _left(*moved))
-
-
-def _left(half: Array, most: Array) -> Array:
-    """Error at order n from the changes from n/2 and from 3n/4."""
-    error: Array = np.where(
+    moved = (contact.alpha + np.abs(contact.eps)) * np.abs(load) + np.abs(lower.eps - contact.eps)
+    half, most = change
+    left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
-    return error
+    return OrderErrors(left, 2.0 * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
 
 
 def by_energy(energy: Array, most: Array) -> Array:
-    """What the energy's error says of friction's: a tenth of it at least, itself or the change from 3n/4 at most.
+    """What the energy's error says of friction's: a tenth of it at least, itself or the bound by order at most.
 
     Both are upper bounds, so that the smaller one is; the tenth is what is usual.
     """

@@ -218,7 +218,10 @@ class ContactSolution:
     @property
     def edge_error(self) -> float:
         """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity."""
-        return (self._need().edge_error / self.problem.rho) + self.outer_edge * self.error_estimate
+        found = self._need()
+        return (
+            found.edge_error + found.fields.edge_error()
+        ) / self.problem.rho + self.outer_edge * self.error_estimate
 
     @cached_property
     def peak_error(self) -> float:
