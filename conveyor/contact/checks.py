@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,13 +26,22 @@ _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
 _GAP_POINTS = 24
 
 
-def order_error(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> Array:
-    """Relative error of friction by order, from the nested matrices of order n/2 and 3n/4 at the same half width.
+class OrderErrors(NamedTuple):
+    """Errors by order, shape (b,) each: of friction, relative; an upper bound of it; of the edges' places X."""
+
+    friction: Array
+    most: Array
+    edges: Array
+
+
+def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> OrderErrors:
+    """Errors of friction and edges by order, from the nested matrices of order n/2 and 3n/4 at the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
     and δ(3n/4) the error at n is δ(3n/4)²/δ(n/2) for geometric convergence; four times that covers n^-3, and δ(3n/4)
-    is the most.
+    is the most. Twice that bounds it down to n^-1.4. Edges shift with ε and with the half width that another load
+    takes, |δp/p| of it at most; they converge more slowly, so twice their shift from 3n/4 is taken.
 
     Parameters
     ----------
@@ -46,21 +56,31 @@ def order_error(contact: Contact, matrix: Array, rho: Array | float, exponent: A
 
     Returns
     -------
-    ndarray, shape (b,)
-        One where a lower order has no contact on the roll.
+    OrderErrors
+        Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
     n = matrix.shape[2]
     change = []
-    for lower in (n // 2, (3 * n) // 4):
-        found, pressure, inside = of_order(matrix, lower, contact, rho)
-        friction = relative_difference(found, contact.friction)
-        load = pressure / contact.pressure - 1.0
+    for order in (n // 2, (3 * n) // 4):
+        lower = of_order(matrix, order, contact, rho)
+        friction = relative_difference(lower.friction, contact.friction)
+        load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
-        change.append(np.where(inside, shift, 1.0))
+        change.append(np.where(lower.inside, shift, 1.0))
+    moved = (contact.alpha + np.abs(contact.eps)) * np.abs(load) + np.abs(lower.eps - contact.eps)
     half, most = change
-    error: Array = np.where(
+    left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
+    return OrderErrors(left, 2.0 * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
+
+
+def by_energy(energy: Array, most: Array) -> Array:
+    """What the energy's error says of friction's: a tenth of it at least, itself or the bound by order at most.
+
+    Both are upper bounds, so that the smaller one is; the tenth is what is usual.
+    """
+    error: Array = np.maximum(energy / ENERGY_OVER_ERROR, np.minimum(energy, most))
     return error
 
 

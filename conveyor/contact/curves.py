@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.arguments import checked
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
-    ENERGY_OVER_ERROR,
+    by_energy,
     may_touch_elsewhere,
-    order_error,
+    order_errors,
     pulling_and_pressing,
     relative_difference,
 )
@@ -337,8 +337,8 @@ class _Sampler:
                 if n == first.order
                 else self._sample(first.rows[places], points(_FEW if thin else first.count - 1), n)
             )
-            error, energy = self._errors(batch.few(), exponent[places])
-            worst = np.maximum(np.maximum(_BETWEEN * error, energy / ENERGY_OVER_ERROR), self.floor)
+            error, energy, by_loss = self._errors(batch.few(), exponent[places])
+            worst = np.maximum(np.maximum(_BETWEEN * error, by_loss), self.floor)
             pulling, pressing = (
                 flags.reshape(-1, batch.count)
                 for flags in pulling_and_pressing(batch.contact, max(float(worst.max()), _SIGN_FLOOR))
@@ -366,19 +366,21 @@ class _Sampler:
                     more = order_for(
                         n,
                         _BETWEEN * float(error[k]) / rtol,
-                        float(energy[k]) / ENERGY_OVER_ERROR / rtol,
+                        float(by_loss[k]) / rtol,
                         _FARTHEST,
                     )
                     todo.setdefault((more, plain), []).append(place)
 
-    def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array]:
-        """Largest errors by order and by energy of each row."""
+    def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array, Array]:
+        """Largest errors by order of each row, of the energy, and what that says of friction."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
-        error = order_error(batch.contact, batch.matrix, rho, exponent.ravel())
+        by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
         by_loss = friction_by_loss(self.check[every], self.group.creeps[every], batch.contact, rho, batch.ik)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
-        return error.reshape(-1, batch.count).max(axis=1), energy.reshape(-1, batch.count).max(axis=1)
+        each = (by_order.friction, energy, by_energy(energy, by_order.most))
+        error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
+        return error, energy, bound
 
     def _split(self, row: int) -> NoSolutionError:
         lowest, highest = self.lowest[row], self.group.problems[row].pressure

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, overlaps, sign
 from conveyor.contact.fields import GridFields, SpectralFields
@@ -21,6 +22,8 @@ from conveyor.contact.single import LOAD_FLOOR, ROUNDING, SIGN_ORDER, remarks
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.strips import Strips, friction_by_loss, settle
 from conveyor.errors import NoSolutionError
+
+Array = NDArray[np.float64]
 
 _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
@@ -110,7 +113,7 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
                 )
                 return Outcome(
                     status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
-                    found=_found(strips, fields, error, energy),
+                    found=_found(strips, before, fields, (error, energy)),
                     order=n,
                     grid=grid.points,
                     way="strips",
@@ -125,10 +128,18 @@ def _scale(scene: Scene, friction: float) -> float:
     return abs(friction) if scene.lossy and friction else 1.0
 
 
-def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) -> Found:
+def _edges(strips: Strips) -> Array:
     contact = strips.contact
     edges = np.stack([contact.eps - contact.alpha, contact.eps + contact.alpha], axis=1)
-    edges = edges[np.argsort(edges[:, 0])]
+    return edges[np.argsort(edges[:, 0])]
+
+
+def _found(
+    strips: Strips, before: Strips | None, fields: SpectralFields, errors: tuple[float, float]
+) -> Found:
+    contact = strips.contact
+    edges = _edges(strips)
+    moved = float(contact.alpha.max()) if before is None else float(np.abs(edges - _edges(before)).max())
     low, high = float(edges[0, 0]), float(edges[-1, 1])
     alone = contact.alpha.size == 1
     return Found(
@@ -137,8 +148,9 @@ def _found(strips: Strips, fields: SpectralFields, error: float, energy: float) 
         half_width=float(contact.alpha[0]) if alone else 0.5 * (high - low),
         centre=float(contact.eps[0]) if alone else 0.5 * (high + low),
         strips=edges,
-        energy_error=energy,
-        error_estimate=error,
+        energy_error=errors[1],
+        error_estimate=errors[0],
+        edge_error=moved,
         fields=fields,
     )
 
@@ -161,6 +173,7 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
             strips=grid.strips,
             energy_error=energy,
             error_estimate=error,
+            edge_error=4.0 * math.pi / grid.points,
             fields=GridFields(grid),
         ),
         grid=grid.points,

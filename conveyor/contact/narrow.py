@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
-    ENERGY_OVER_ERROR,
     WRAPPED,
+    by_energy,
     may_touch_elsewhere,
-    order_error,
+    order_errors,
     overlaps,
     pulling_and_pressing,
     relative_difference,
@@ -293,7 +293,7 @@ class _Closing:
     def __init__(self, search: Search, rtol: float) -> None:
         self.search, self.rtol = search, rtol
         self.tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
-        self.error = np.ones(search.place.size)
+        self.error, self.most, self.edges = np.ones((3, search.place.size))
         self.wanted = np.full(search.place.size, lowest_order(rtol))
         self.done: dict[int, Outcome | Left] = {}
 
@@ -316,7 +316,8 @@ class _Closing:
             exponent = search.exponent(rows)
             contact, matrix, miss, ik = search.evaluate(rows, n)
             if step == 0:
-                self.error[rows] = order_error(contact, matrix, search.group.rho[rows], exponent)
+                by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
+                self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = ((self.error[rows] <= rtol) | (n == ORDERS[-1])) & alive
             near = fine & (np.abs(miss) <= self.tight)
@@ -333,7 +334,7 @@ class _Closing:
 
     def _raise(self, row: int, n: int, energy: float) -> None:
         if n < ORDERS[-1]:
-            excess, excess_energy = float(self.error[row]) / self.rtol, energy / ENERGY_OVER_ERROR / self.rtol
+            excess, excess_energy = float(self.error[row]) / self.rtol, energy / self.rtol
             self.wanted[row] = order_for(n, excess, excess_energy, _FARTHEST)
 
     def _accept(self, rows: Index, contact: Contact, ik: ProductIK, error: Array) -> None:
@@ -344,7 +345,8 @@ class _Closing:
         rho = group.rho[rows]
         by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
         energy = np.abs(relative_difference(by_loss, contact.friction))
-        estimate = np.maximum(np.maximum(error, energy / ENERGY_OVER_ERROR), grade.error)
+        by_loss_error = by_energy(energy, self.most[rows])
+        estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
         pulling, pressing = pulling_and_pressing(contact, rtol)
         outside = may_touch_elsewhere(contact, rho)
         n = int(contact.c.shape[1])
@@ -355,7 +357,7 @@ class _Closing:
             elif estimate[k] > rtol and last and not pressing[k]:
                 self.done[row] = Left.ANY
             elif (estimate[k] > rtol and not last) or not (pressing[k] or n >= SIGN_ORDER):
-                self._raise(row, n, float(energy[k]))
+                self._raise(row, n, float(by_loss_error[k]))
             else:
                 one = chosen_rows(contact, np.array([k]))
                 flags = bool(pressing[k]), bool(outside[k])
@@ -386,6 +388,7 @@ class _Closing:
                 strips=np.array([[eps - alpha, eps + alpha]]),
                 energy_error=errors[1],
                 error_estimate=errors[0],
+                edge_error=float(self.edges[row]),
                 fields=SpectralFields(problem.layer, creep, contact, problem.rho, depth),
             ),
             order=int(contact.c.shape[1]),

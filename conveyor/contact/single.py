@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from conveyor.contact.checks import (
-    ENERGY_OVER_ERROR,
     Sign,
+    by_energy,
     energy_error,
     may_touch_elsewhere,
-    order_error,
+    order_errors,
     overlaps,
     sign,
 )
@@ -33,7 +33,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
     found = _converged(scene, rtol)
     if found is None:
         return None
-    state, error, energy = found
+    state, error, energy, edges = found
     contact, rho = state.contact, scene.problem.rho
     pressing = sign(contact, rtol)
     if pressing is Sign.PULLING:
@@ -55,6 +55,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
             strips=np.array([[eps - alpha, eps + alpha]]),
             energy_error=energy,
             error_estimate=estimate,
+            edge_error=edges,
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
         order=state.order,
@@ -67,7 +68,7 @@ def remarks(pressing: Sign) -> tuple[str, ...]:
     return (EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
-def _converged(scene: Scene, rtol: float) -> tuple[State, float, float] | None:
+def _converged(scene: Scene, rtol: float) -> tuple[State, float, float, float] | None:
     """Raise the order until the estimate meets rtol, then close the load and check the energy."""
     search = LoadSearch(scene.target, *guess(scene))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
@@ -78,16 +79,17 @@ def _converged(scene: Scene, rtol: float) -> tuple[State, float, float] | None:
         if state is None:
             return None
         exponent = search.exponent if scene.depth is None else None
-        error = float(order_error(state.contact, state.matrix, scene.problem.rho, exponent)[0])
+        by_order = order_errors(state.contact, state.matrix, scene.problem.rho, exponent)
+        error = float(by_order.friction[0])
         if error <= rtol or n == ORDERS[-1]:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
-            energy = float(energy_error(scene, state.contact)[0])
-            error = max(error, state.miss, energy / ENERGY_OVER_ERROR)
+            energy = energy_error(scene, state.contact)
+            error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = n >= SIGN_ORDER or sign(state.contact, rtol) is not Sign.UNDECIDED
             settled = error <= rtol and decided
             if settled or n == ORDERS[-1]:
-                return state, error, energy
+                return state, error, float(energy[0]), float(by_order.edges[0])
         n = next_order(n, error, rtol)
         search.renew()

@@ -68,6 +68,7 @@ class Found:
     strips: Array
     energy_error: float
     error_estimate: float
+    edge_error: float  # X
     fields: Fields
 
 
@@ -213,6 +214,19 @@ class ContactSolution:
     def error_estimate(self) -> float:
         """Estimated relative error of friction [-]."""
         return self._need().error_estimate
+
+    @property
+    def edge_error(self) -> float:
+        """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity."""
+        found = self._need()
+        return (
+            found.edge_error + found.fields.edge_error()
+        ) / self.problem.rho + self.outer_edge * self.error_estimate
+
+    @cached_property
+    def peak_error(self) -> float:
+        """Estimated relative error of the largest pressure [-], from the tail of its series."""
+        return self._need().fields.peak_error() + self.error_estimate
 
     @property
     def patches(self) -> Array:

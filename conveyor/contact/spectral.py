@@ -171,10 +171,8 @@ def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contac
     return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
 
 
-def of_order(
-    matrix: Array, n: int, contact: Contact, rho: Array | float
-) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Friction and load at the half widths of contacts of a higher order, and whether there is a contact; (b,) each.
+def of_order(matrix: Array, n: int, contact: Contact, rho: Array | float) -> Contact:
+    """Contacts of a lower order at the half widths of those of a higher one.
 
     To second order in the shift of the eccentricity.
     """
@@ -182,7 +180,7 @@ def of_order(
     slope, c, step = _balanced(matrix[:, : n + 1, :n], contact.alpha, contact.eps, radius)
     lower = pressed(c, slope, (contact.alpha, contact.eps + step), radius)
     inside = (contact.alpha + np.abs(lower.eps) < radius) & (lower.pressure > 0.0)
-    return lower.friction, lower.pressure, inside
+    return replace(lower, inside=inside)
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:

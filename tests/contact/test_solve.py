@@ -416,3 +416,14 @@ def test_profile_between_rolls_of_a_narrow_contact():
     middle = 0.5 / found.problem.radius
     # midway a line load Q acts: u/R = -(Q/π) ln(2 |sin(X/2)|), X = π; its retarded part is slower than that
     assert abs(found.profile([middle])[0]) < abs(found.penetration)
+
+
+@pytest.mark.parametrize(("instantaneous", "time"), [(0.1, 1.0), (0.01, 0.3), (1e-3, 0.1)])
+def test_edges_and_peak_keep_their_error_estimates(instantaneous, time):
+    creep = CreepSpectrum(instantaneous, [1.0 - instantaneous], [time])
+    problem = ContactProblem("confined", 0.1, 0.01, creep, thickness=0.5)
+    rough, fine = solve(problem, 1e-4), solve(problem, 1e-9)
+    assert np.abs(rough.patches - fine.patches).max() <= rough.edge_error
+    assert abs(rough.peak_pressure / fine.peak_pressure - 1.0) <= rough.peak_error
+    assert fine.edge_error < rough.edge_error
+    assert fine.peak_error < rough.peak_error
