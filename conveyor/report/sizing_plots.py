@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
-from conveyor.sizing.designs import Design
+from conveyor.sizing.designs import SizedDesign
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _HEIGHT, _TALL = 3.0, 2.7
 
 
-def idlers(design: Design) -> float:
+def idlers(design: SizedDesign) -> float:
     """Cost of rolls and frames of a year [currency/a]."""
     return float(design.costs.yearly["rolls"] + design.costs.yearly["idler frames"])
 
@@ -50,7 +50,9 @@ def sweeps(found: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system:
     for axis, sweep in zip(axes, varied, strict=True):
         kind = unit(sweep.kind, system)
         points = [
-            (x, one) for x, one in zip(sweep.values, sweep.designs, strict=True) if isinstance(one, Design)
+            (x, one)
+            for x, one in zip(sweep.values, sweep.designs, strict=True)
+            if isinstance(one, SizedDesign)
         ]
         at = kind(np.array([x for x, _ in points]))
         parts = {

@@ -14,7 +14,7 @@ from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
-from conveyor.sizing.designs import CalculatedSizing, Design
+from conveyor.sizing.designs import CalculatedSizing, SizedDesign
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY
@@ -103,12 +103,12 @@ def designs(found: CalculatedSizing) -> Table:
     return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
 
 
-def _belt(design: Design) -> str:
+def _belt(design: SizedDesign) -> str:
     carcass = design.chosen.carcass
     return f"{'ST' if carcass.steel_cord else 'EP'}{carcass.strength / 1e3:.0f}"
 
 
-def _widest(design: Design) -> float:
+def _widest(design: SizedDesign) -> float:
     return max(design.choice.graduated or (design.choice.carry,))
 
 
@@ -150,14 +150,14 @@ def swept(found: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
         (
             sweep,
             value,
-            design if isinstance(design, Design) else None,
+            design if isinstance(design, SizedDesign) else None,
             design if isinstance(design, str) else "",
         )
         for sweep in sweeps
         for value, design in zip(sweep.values, sweep.designs, strict=True)
     ]
 
-    def of(get: Callable[[Design], Any]) -> Callable[[Any], Any]:
+    def of(get: Callable[[SizedDesign], Any]) -> Callable[[Any], Any]:
         return lambda row: None if row[2] is None else get(row[2])
 
     columns = (

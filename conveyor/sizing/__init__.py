@@ -1,5 +1,5 @@
 """Sizing: ranked designs of a conveyor from its duty alone."""
 
-from conveyor.sizing.designs import CalculatedSizing, Design, size
+from conveyor.sizing.designs import CalculatedSizing, SizedDesign, size
 
-__all__ = ["CalculatedSizing", "Design", "size"]
+__all__ = ["CalculatedSizing", "SizedDesign", "size"]

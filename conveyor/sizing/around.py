@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 from conveyor.line.task import Choice, SizingTask
-from conveyor.sizing.designs import Design, settled
+from conveyor.sizing.designs import SizedDesign, settled
 
 _Point: TypeAlias = tuple[float, "Choice | None"]
 _THICKER: Final = (0.0, 1e-3, 2e-3, 4e-3)  # [m], of the bottom cover
@@ -23,7 +23,7 @@ class VariedChoice:
         Of what varies.
     values : tuple of float
         SI.
-    designs : tuple of Design or str
+    designs : tuple of SizedDesign or str
         At each, or why there is none.
     at : float
         That of the design.
@@ -32,18 +32,18 @@ class VariedChoice:
     name: str
     kind: str
     values: tuple[float, ...]
-    designs: tuple[Design | str, ...]
+    designs: tuple[SizedDesign | str, ...]
     at: float
 
 
-def around(task: SizingTask, design: Design) -> tuple[VariedChoice, ...]:
+def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
     """Vary the distances of the sets, roll diameter, speed and bottom cover of a design, each alone.
 
     Parameters
     ----------
     task : SizingTask
         The duty.
-    design : Design
+    design : SizedDesign
         Around which; its carry sets evenly apart.
 
     Returns

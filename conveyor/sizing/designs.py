@@ -47,7 +47,7 @@ _NO_LIFE: Final = 1e12  # [s], of rolls without load
 
 
 @dataclass(frozen=True, eq=False)
-class Design:
+class SizedDesign:
     """A design that keeps every rule.
 
     Attributes
@@ -103,7 +103,7 @@ class CalculatedSizing:
     ----------
     duty : SizingDuty
         What was sized.
-    designs : tuple of Design
+    designs : tuple of SizedDesign
         The cheapest in a year first; every one calculated exactly.
     candidates, possible, calculated : int
         Combinations within the rules; those for which the series have parts; those calculated exactly.
@@ -114,7 +114,7 @@ class CalculatedSizing:
     """
 
     duty: SizingDuty
-    designs: tuple[Design, ...]
+    designs: tuple[SizedDesign, ...]
     candidates: int
     possible: int
     calculated: int
@@ -127,7 +127,7 @@ class CalculatedSizing:
         return SizingTask(self.duty)
 
     @property
-    def best(self) -> Design:
+    def best(self) -> SizedDesign:
         """The cheapest one."""
         return self.designs[0]
 
@@ -164,14 +164,14 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     first = _first(task, choices, estimate, probes)
     known = next((one for one in first if one is not None), None)
     levels = _levels(choices, estimate, probes, first, levels)
-    found: dict[int, Design | str] = {}
+    found: dict[int, SizedDesign | str] = {}
     for _ in range(_SCREENINGS):
         estimate = screen(task, choices, levels)
         new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in found]
         if progress is not None:
             progress(len(found), len(found) + len(new))
         found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
-        made = {i: one for i, one in found.items() if isinstance(one, Design)}
+        made = {i: one for i, one in found.items() if isinstance(one, SizedDesign)}
         levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
     if not found:
         raise NoSolutionError(_TOO_MUCH)
@@ -193,21 +193,21 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
 
 def _final(
     task: SizingTask,
-    designs: Iterable[Design],
+    designs: Iterable[SizedDesign],
     best: int,
     known: CalculatedConveyor | None,
     reasons: Counter[str],
-) -> list[Design]:
+) -> list[SizedDesign]:
     """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
     ranked = sorted(designs, key=_year)
     if task.rules.graduated and len(task.sections) > 1:
         ranked = sorted([*_graduated(task, ranked[:best]), *ranked[best:]], key=_year)
-    final: list[Design] = []
+    final: list[SizedDesign] = []
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[:best], ranked[best:]
         begin = [(design.choice, design.chosen, design.estimate) for design in batch]
         for one in settled(task, begin, known, every_load=True, made=batch):
-            if isinstance(one, Design):
+            if isinstance(one, SizedDesign):
                 final.append(one)
             else:
                 reasons[one] += 1
@@ -215,7 +215,7 @@ def _final(
     return final
 
 
-def _year(design: Design) -> float:
+def _year(design: SizedDesign) -> float:
     return design.year
 
 
@@ -290,7 +290,7 @@ def _designs(
     estimate: Screened,
     chosen: Sequence[int],
     known: CalculatedConveyor | None,
-) -> list[Design | str]:
+) -> list[SizedDesign | str]:
     """Candidates calculated exactly."""
     begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
     return settled(task, begin, known)
@@ -302,8 +302,8 @@ def settled(
     known: CalculatedConveyor | None,
     *,
     every_load: bool = False,
-    made: Sequence[Design] = (),
-) -> list[Design | str]:
+    made: Sequence[SizedDesign] = (),
+) -> list[SizedDesign | str]:
     """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
 
     Parameters
@@ -316,11 +316,11 @@ def settled(
         Calculated already: the anchors of its compounds are taken over.
     every_load : bool
         Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
-    made : sequence of Design
+    made : sequence of SizedDesign
         The same candidates as designs for the full belt: what is calculated of them is not calculated again.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
-    found: dict[int, Design | str] = {}
+    found: dict[int, SizedDesign | str] = {}
     sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
     for _ in range(_SIZINGS):
         specs: dict[int, Conveyor] = {}
@@ -430,14 +430,16 @@ def _design(
     chosen: Chosen,
     found: CalculatedConveyor,
     loads: Sequence[CalculatedConveyor],
-) -> Design | str:
+) -> SizedDesign | str:
     """The design, or what fails in it."""
     failed = next(_failed(task, (found, *loads)), None)
     if failed is not None:
         return failed
     choice, _, estimate = begin
     life = _roll_life(found)
-    return Design(choice, chosen, found, loads[0], _costs(task, choice, chosen, found, life), estimate, life)
+    return SizedDesign(
+        choice, chosen, found, loads[0], _costs(task, choice, chosen, found, life), estimate, life
+    )
 
 
 def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
@@ -488,7 +490,7 @@ def _costs(
     return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
 
 
-def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
+def _graduated(task: SizingTask, designs: Sequence[SizedDesign]) -> list[SizedDesign]:
     """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
     apart = {i: graduated_spacing(task, design) for i, design in enumerate(designs)}
     varied = {i: one for i, one in apart.items() if len(set(one)) > 1}
@@ -498,12 +500,12 @@ def _graduated(task: SizingTask, designs: Sequence[Design]) -> list[Design]:
     ]
     made = dict(zip(varied, settled(task, begin, designs[0].found), strict=True)) if begin else {}
     return [
-        new if isinstance(new := made.get(i), Design) and new.year < old.year else old
+        new if isinstance(new := made.get(i), SizedDesign) and new.year < old.year else old
         for i, old in enumerate(designs)
     ]
 
 
-def graduated_spacing(task: SizingTask, design: Design) -> tuple[float, ...]:
+def graduated_spacing(task: SizingTask, design: SizedDesign) -> tuple[float, ...]:
     """Distance of the carry sets of each section: the cheapest that sag and rolls bear at the tensions there [m].
 
     Notes
