@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from conveyor.cli.app import say
-from conveyor.cli.calibrate import shown
 from conveyor.cli.completion import compound_names
 from conveyor.cli.session import Session, command
 from conveyor.files import marks
@@ -75,9 +74,9 @@ def anchor(
 def _show(found: Anchored, system: System) -> None:
     """What the tests say, row by row and in all."""
     from conveyor import anchoring
-    from conveyor.cli.terminal import console, wrapped
+    from conveyor.cli.terminal import console, grid, wrapped
 
     screen = console()
     for part in (anchoring.rows(found), anchoring.levels(found)):
-        screen.print(shown(part, system), "")
+        screen.print(grid(part, system), "")
     say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(found)))

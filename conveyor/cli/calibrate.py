@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -15,7 +15,6 @@ from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import CalibrationStudy
-    from conveyor.report.columns import Table
     from conveyor.units import System
 
 _OF_RUNS = ("run", "flow", "speed", "temperature", "measured", "before", "after", "difference", "note")
@@ -93,14 +92,14 @@ def calibrate(
 
 def _show(found: CalibrationStudy, system: System) -> None:
     """Factors, correlation, runs, and the part of the spec."""
-    from conveyor.cli.terminal import console, wrapped
+    from conveyor.cli.terminal import console, grid, wrapped
     from conveyor.report import calibrating
 
     screen = console()
     runs = calibrating.runs(found).only(*_OF_RUNS)
     for part in (calibrating.factors(found), calibrating.correlation(found), runs):
         if not part.empty:
-            screen.print(shown(part, system), "")
+            screen.print(grid(part, system), "")
             if part.note:
                 say(part.note, "")
     say("basis and limitations:")
@@ -115,20 +114,3 @@ def _share(given: str) -> float:
         return in_si(given, "fraction")
     except InputError as error:
         raise InputError(f"--error: {error}") from None
-
-
-def shown(part: Table, system: System) -> Any:
-    """A table of the report on the terminal, units below names."""
-    from conveyor.cli.terminal import table, words
-    from conveyor.units.presentation import unit
-
-    made = table(part.heading)
-    for column in part.columns:
-        sign = unit(column.kind, system).sign
-        heading = f"{column.label}\n[{sign}]" if sign else column.label
-        made.add_column(words(heading), justify="left" if column.kind == "text" else "right")
-    for row in part.rows:
-        made.add_row(
-            *(words(part.unit(column, row, system).written(column.get(row))) for column in part.columns)
-        )
-    return made

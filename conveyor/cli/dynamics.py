@@ -10,24 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Changed,
-    Force,
-    Quiet,
-    Shelves,
-    Spec,
-    UnitsOption,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    read_spec,
-    say,
-)
+from conveyor.cli.app import Spec
 from conveyor.cli.outputs import Outputs
-from conveyor.cli.study import executor_of
+from conveyor.cli.session import Session, command
+from conveyor.cli.workers import executor_of
 from conveyor.errors import InputError
 from conveyor.files import marks
 
@@ -35,7 +21,6 @@ if TYPE_CHECKING:
     from conveyor.dynamics.follow import CalculatedDynamics
     from conveyor.models import Conveyor, Scenario
     from conveyor.report.columns import Contents
-    from conveyor.units import System
 
 
 class Sought(StrEnum):
@@ -51,9 +36,9 @@ _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png"
           ".pdf": marks.FIGURE}  # fmt: skip
 
 
-@app.command(
+@command(
     short_help="Starting and stopping through time: waves in the belt.",
-    epilog=examples(
+    examples_of=(
         "conveyor dynamics overland.yaml",
         'conveyor dynamics overland.yaml --scenario "start full" -o start.png',
         "conveyor dynamics overland.yaml -o starts.xlsx -o starts.html",
@@ -63,6 +48,7 @@ _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png"
     ),
 )
 def dynamics(
+    session: Session,
     spec: Spec,
     scenario: Annotated[
         list[str] | None,
@@ -87,25 +73,19 @@ def dynamics(
         ),
     ] = None,
     workers: Annotated[int, typer.Option(metavar="N", help="Processes.", min=1, max=64)] = 1,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
-    to = Outputs(spec, force=force)
+    to = session.outputs(spec)
     for path in output or ():
         to.file("--output", path, *_KINDS, kind=_KINDS.get(path.suffix.lower(), ""))
     from conveyor.dynamics.follow import follow
     from conveyor.report.dynamics_tables import of_dynamics, plain
 
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
+    line = session.read(spec)
+    system = session.system(line)
     chosen = _chosen(line, scenario)
     with ExitStack() as stack:
-        told = stack.enter_context(progress(silent=quiet or as_json))
+        told = stack.enter_context(session.progress())
         executor = stack.enter_context(executor_of(None, workers)) if workers > 1 else None
         how: Any = {"executor": executor, "workers": workers,
                     "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
@@ -116,18 +96,11 @@ def dynamics(
 
             found = sized(line, chosen, size.value, error=error, **how)
     contents = of_dynamics(found, system)
-    figures = json_text(plain(found))
     for path in output or ():
         _write(found, contents, path, to)
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.dynamics_tables import show
+    from conveyor.cli.dynamics_tables import show
 
-        show(contents)
-        if written:
-            say("", *written)
+    session.answer(plain(found), to, lambda: show(contents))
 
 
 def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from conveyor.cli import notes
-from conveyor.cli.terminal import console, table, words
-from conveyor.units.presentation import unit
+from conveyor.cli.terminal import console, grid, words
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,20 +20,8 @@ _SHOWN: Final = (
 def show(contents: Contents) -> None:
     """Print the scenarios, then checks that fail and assumptions."""
     shown = contents["scenarios"].only(*_SHOWN)
-    made = table(contents.document.title)
-    units = [unit(column.kind, contents.system, large=True) for column in shown.columns]
-    for column, written in zip(shown.columns, units, strict=True):
-        left = column.kind == "text"
-        head = column.label if left else f"{column.label}\n[{written.sign}]"
-        made.add_column(words(head), justify="left" if left else "right")
-    for row in shown.rows:
-        cells = [column.get(row) for column in shown.columns]
-        made.add_row(*(
-            words("" if value is None else value if isinstance(value, str) else f"{written.shown(value):,.1f}")
-            for value, written in zip(cells, units, strict=True)
-        ))  # fmt: skip
     screen = console()
-    screen.print(made)
+    screen.print(grid(shown, contents.system, contents.document.title, large=True))
     if "scenario_sizes" in contents:
         _sizes(screen, contents)
     counted = [row.verdict for row in contents["checks"].rows]

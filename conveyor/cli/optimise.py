@@ -8,38 +8,25 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Changed,
-    Force,
-    Quiet,
-    Shelves,
-    UnitsOption,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    read_spec,
-    say,
-)
-from conveyor.cli.outputs import Outputs
-from conveyor.cli.study import Scheduler, Workers, executor_of, said, spec_of
+from conveyor.cli.app import say
+from conveyor.cli.session import Session, command
+from conveyor.cli.study import said, spec_of
+from conveyor.cli.workers import Scheduler, Workers, executor_of
 
 if TYPE_CHECKING:
     from conveyor.studies.designs import Design
-    from conveyor.units import System
 
 
-@app.command(
+@command(
     short_help="Find the best design and write its spec.",
-    epilog=examples(
+    examples_of=(
         "conveyor optimise search.yaml -o best.yaml",
         "conveyor optimise search.yaml -o best.yaml --workers 8",
         "conveyor power best.yaml",
     ),
 )
 def optimise(
+    session: Session,
     plan_file: Annotated[
         Path, typer.Argument(metavar="SEARCH", help="Search: .yaml or .json.", show_default=False)
     ],
@@ -51,12 +38,6 @@ def optimise(
     ],
     workers: Workers = 1,
     scheduler: Scheduler = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Search the best design within limits; stopped, it goes on from FILE.answers beside the spec it writes."""
     from conveyor import shelf as shelves
@@ -67,15 +48,15 @@ def optimise(
 
     plan = read_search(plan_file)
     spec = plan_file.parent / plan.base
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
-    campaign = Campaign.of(plan, line, shelves.resolver(extra=shelf or (), base=spec.parent))
-    to = Outputs(plan_file, spec, force=force)
+    line = session.read(spec)
+    system = session.system(line)
+    campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
+    to = session.outputs(plan_file, spec)
     to.file("--output", output, ".yaml", ".yml", kind=marks.TO_FILL_IN)
     with ExitStack() as stack:
         known = stack.enter_context(Answers(output.with_name(f"{output.name}.answers")))
         before = len(known)
-        told = stack.enter_context(progress(silent=quiet or as_json))
+        told = stack.enter_context(session.progress())
         executor = stack.enter_context(executor_of(scheduler, workers))
 
         def tell(done: int, most: int, best: Design) -> None:
@@ -91,27 +72,21 @@ def optimise(
         new = len(known) - before
     figures = said(found.design, campaign, system)
     to.add("spec", output, {output: spec_of(campaign, found.design, figures)})
-    written = to.save()
-    if as_json:
-        plain = {
-            "changes": dict(found.design.changes),
-            "figures_SI": dict(found.design.figures),
-            "designs": found.tried,
-            "calculated": new,
-            "generations": found.generations,
-            "settled": found.settled,
-            "history_SI": list(found.history),
-            "spec": str(output),
-        }
-        print_text(json_text(plain))
-    elif not quiet:
-        end = (
-            "settled"
-            if found.settled
-            else "stopped at the most that were asked for: the best may be better still"
-        )
+    plain = {
+        "changes": dict(found.design.changes),
+        "figures_SI": dict(found.design.figures),
+        "designs": found.tried,
+        "calculated": new,
+        "generations": found.generations,
+        "settled": found.settled,
+        "history_SI": list(found.history),
+        "spec": str(output),
+    }
+
+    def show() -> None:
         say(*(f"{path}: {value}" for path, value in found.design.changes.items()), figures)
-        say(
-            f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}",
-            *written,
-        )
+        more = "stopped at the most that were asked for: the best may be better still"
+        end = "settled" if found.settled else more
+        say(f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}")
+
+    session.answer(plain, to, show)

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from conveyor.models import Conveyor
+    from conveyor.models.sizing import SizingDuty
     from conveyor.units import System
 
 
@@ -60,7 +61,7 @@ class Session:
         """
         return read_spec(spec, self.shelf, self.changed)
 
-    def system(self, line: Conveyor | None = None) -> System:
+    def system(self, line: Conveyor | SizingDuty | None = None) -> System:
         """Units of what is shown and written: as asked for, else those of a spec, else SI."""
         if self.units is not None:
             return self.units.value

@@ -8,37 +8,24 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    AsParquet,
-    Force,
-    Quiet,
-    Shelves,
-    TablesFolder,
-    UnitsOption,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    say,
-)
+from conveyor.cli.app import AsParquet, TablesFolder
 from conveyor.cli.outputs import Outputs
+from conveyor.cli.session import Session, command
 from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.report.columns import Contents
     from conveyor.sizing import CalculatedSizing
-    from conveyor.units import System
 
 _KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png": marks.FIGURE, ".svg": marks.FIGURE,
           ".pdf": marks.FIGURE, ".yaml": marks.TO_FILL_IN, ".yml": marks.TO_FILL_IN}  # fmt: skip
 _MOST = 50
 
 
-@app.command(
+@command(
     short_help="Size a conveyor from its duty: ranked designs.",
-    epilog=examples(
+    without=("changed",),
+    examples_of=(
         "conveyor size duty.yaml",
         "conveyor size duty.yaml -n 3 -o design.yaml",
         "conveyor size duty.yaml -o designs.xlsx -o around.png",
@@ -46,6 +33,7 @@ _MOST = 50
     ),
 )
 def size(
+    session: Session,
     duty: Annotated[Path, typer.Argument(metavar="DUTY", help="Duty: .yaml or .json.", show_default=False)],
     best: Annotated[
         int, typer.Option("--best", "-n", metavar="N", help="Designs to rank.", min=1, max=_MOST)
@@ -62,11 +50,6 @@ def size(
     ] = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
 ) -> None:
     """Size a conveyor from what it is to convey, where and by which rules; the cheapest in a year first.
 
@@ -74,7 +57,7 @@ def size(
     design shown is calculated exactly and passes its checks; a closed estimate chooses which are worth it.
     """
     asked = [(path, path.suffix.lower()) for path in output or ()]
-    to = Outputs(duty, force=force)
+    to = session.outputs(duty)
     for path, ending in asked:
         numbered = _ranked(path, best) if ending in {".yaml", ".yml"} else [path]
         for each in numbered:
@@ -84,28 +67,22 @@ def size(
     from conveyor.report.sizing_tables import of_sizing, plain
     from conveyor.study_file import read_duty
 
-    read = read_duty(duty, shelves=shelf or ())
-    system: System = read.report.units if units is None else units.value
-    with progress(silent=quiet or as_json) as told:
+    read = read_duty(duty, shelves=session.shelf or ())
+    with session.progress() as told:
         found = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
-    pictured = as_json or tables is not None or any(ending not in {".yaml", ".yml"} for _, ending in asked)
-    contents = of_sizing(found, system, vary=pictured)
-    figures = json_text(plain(contents, found))
+    pictured = (
+        session.as_json or tables is not None or any(ending not in {".yaml", ".yml"} for _, ending in asked)
+    )
+    contents = of_sizing(found, session.system(read), vary=pictured)
     for path, ending in asked:
         _write(found, contents, path, ending, to)
     if tables is not None:
         from conveyor.report import files
 
         to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
-    written = to.save()
-    if as_json:
-        print_text(figures)
-    elif not quiet:
-        from conveyor.cli.sizing_tables import show
+    from conveyor.cli.sizing_tables import show
 
-        show(contents)
-        if written:
-            say("", *written)
+    session.answer(plain(contents, found), to, lambda: show(contents))
 
 
 def _ranked(path: Path, best: int) -> list[Path]:

@@ -4,37 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import (
-    AsJson,
-    Changed,
-    Force,
-    Quiet,
-    Shelves,
-    UnitsOption,
-    WebPage,
-    app,
-    examples,
-    json_text,
-    print_text,
-    progress,
-    read_spec,
-    say,
-)
+from conveyor.cli.app import WebPage, say
 from conveyor.cli.outputs import Outputs
-from conveyor.errors import ConveyorError, InputError
+from conveyor.cli.session import Session, command
+from conveyor.cli.workers import Scheduler, Workers, executor_of
 from conveyor.files import marks
 from conveyor.printable import printable
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
     from conveyor.models import Conveyor
     from conveyor.report.columns import Contents
     from conveyor.studies.campaign import Campaign, Point
@@ -45,18 +29,10 @@ if TYPE_CHECKING:
 _SHOWN = 3
 """Reasons without an answer that are printed."""
 
-Workers = Annotated[
-    int, typer.Option(metavar="N", help="Processes, or workers of the cluster.", min=1, max=1024)
-]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(metavar="ADDRESS", help="Of a Dask cluster (package distributed); else this machine."),
-]
 
-
-@app.command(
+@command(
     short_help="Calculate many variants of a spec.",
-    epilog=examples(
+    examples_of=(
         "conveyor study spacing.yaml -o spacing.csv",
         "conveyor study year.yaml -o points.csv --designs designs.csv --html year.html --specs best",
         "conveyor study spacing.yaml -o spacing.parquet --workers 8",
@@ -64,6 +40,7 @@ Scheduler = Annotated[
     ),
 )
 def study(
+    session: Session,
     plan_file: Annotated[
         Path, typer.Argument(metavar="STUDY", help="Study: .yaml or .json.", show_default=False)
     ],
@@ -85,12 +62,6 @@ def study(
     ] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
-    units: UnitsOption = None,
-    force: Force = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-    shelf: Shelves = None,
-    changed: Changed = None,
 ) -> None:
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
     from conveyor import shelf as shelves
@@ -101,13 +72,13 @@ def study(
 
     plan = read_plan(plan_file)
     spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
-    line = read_spec(spec, shelf, changed)
-    system: System = line.report.units if units is None else units.value
-    campaign = running.Campaign.of(plan, line, shelves.resolver(extra=shelf or (), base=spec.parent))
+    line = session.read(spec)
+    system = session.system(line)
+    campaign = running.Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     money = currency(line)
     table = campaigning.of_points(campaign, system, money)
     designed = campaigning.of_designs(campaign, system, money)
-    to = Outputs(plan_file, spec, force=force)
+    to = session.outputs(plan_file, spec)
     for option, path, made in (("--output", output, table), ("--designs", designs, designed)):
         csv = path is not None and path.suffix == ".csv"
         to.file(option, path, ".csv", ".parquet", kind=made.mark if csv else marks.TABLE)
@@ -118,7 +89,7 @@ def study(
     with ExitStack() as stack:
         known = stack.enter_context(running.Answers(answers))
         before = len(known)
-        told = stack.enter_context(progress(silent=quiet or as_json))
+        told = stack.enter_context(session.progress())
         executor = stack.enter_context(executor_of(scheduler, workers))
         running.run(campaign, known, executor=executor, workers=workers, progress=telling(told))
         new, spent = len(known) - before, perf_counter() - begun
@@ -129,22 +100,17 @@ def study(
             designed.write(designs, campaigning.design_rows(found, running.designs(campaign, known)))
     contents = designing.of_study(found, system, money)
     _made(to, campaign, found, contents, html=html, plots=plots, specs=specs)
-    written = to.save()
-    if as_json:
-        told_of = {
-            "points": count,
-            "calculated": new,
-            "without_an_answer": reasons.total(),
-            "table": str(output),
-        }
-        print_text(json_text(told_of | designing.plain(found, money)))
-    elif not quiet:
+    plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
+
+    def show() -> None:
         show_best(contents)
         rate = f" in {spent:.3g} s, {new / spent:.3g} a second" if new else ""
         say(f"{count} points, {new} of them calculated now{rate}; {reasons.total()} without an answer")
         for reason, times in reasons.most_common(_SHOWN):
             say(f"{times} without an answer: {reason}")
-        say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]), *written)
+        say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
+
+    session.answer(plain | designing.plain(found, money), to, show)
 
 
 def _made(
@@ -179,21 +145,11 @@ def _made(
 
 def show_best(contents: Contents) -> None:
     """Print the best designs."""
-    from conveyor.cli.terminal import console, table, words
+    from conveyor.cli.terminal import console, grid
 
-    if "best" not in contents:
-        return
-    best, system = contents["best"], contents.system
-    made = table(f"{contents.document.title}: {dict(contents.document.facts)['study']}")
-    for column in best.columns:
-        made.add_column(
-            words(best.head(column, system)), justify="left" if column.kind == "text" else "right"
-        )
-    for row in best.rows:
-        made.add_row(
-            *(words(best.unit(column, row, system).written(column.get(row))) for column in best.columns)
-        )
-    console().print(made)
+    if "best" in contents:
+        title = f"{contents.document.title}: {dict(contents.document.facts)['study']}"
+        console().print(grid(contents["best"], contents.system, title))
 
 
 def spec_of(campaign: Campaign, design: Design, figures: str) -> bytes:
@@ -249,39 +205,3 @@ def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:
         if isinstance(point[-1], str):
             reasons[point[-1]] += 1
         yield point
-
-
-@contextmanager
-def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
-    """Processes of this machine, or a cluster; this process alone where one is enough.
-
-    Raises
-    ------
-    InputError
-        No cluster answers, or the package for it is missing.
-    ConveyorError
-        A worker of the cluster was lost again and again with the same points.
-    """
-    if scheduler is None:
-        from concurrent.futures import ProcessPoolExecutor
-        from multiprocessing import get_context
-
-        if workers == 1:
-            yield None
-            return
-        with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-            yield pool
-        return
-    try:
-        from distributed import Client, KilledWorker
-    except ImportError:
-        raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
-    try:
-        client = Client(scheduler, timeout="10s")
-    except (OSError, ValueError) as error:
-        raise InputError(f"--scheduler: {scheduler}: no cluster answers ({error})") from None
-    with client:
-        try:
-            yield client.get_executor()
-        except KilledWorker as error:
-            raise ConveyorError(f"{error}; what is done is kept: run it again to go on") from None

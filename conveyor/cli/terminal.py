@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
+    from conveyor.report.columns import Table as Part
+    from conveyor.units import System
+
 _PIPED: Final = 120  # columns where nobody's terminal limits them
 _NARROWEST: Final = 40
 
@@ -46,6 +49,26 @@ def table(title: str | None = None) -> Table:
         pad_edge=False,
         padding=(0, 1),
     )
+
+
+def grid(part: Part, system: System, title: str | None = None, *, large: bool = False) -> Table:
+    """A table of the report, units below names; `large`: in kN where the report has N."""
+    from conveyor.units.presentation import unit
+
+    made = table(part.heading if title is None else title)
+    for column in part.columns:
+        sign = unit(column.kind, system, large=large).sign
+        heading = f"{column.label}\n[{sign}]" if sign else column.label
+        made.add_column(words(heading), justify="left" if column.kind == "text" else "right")
+    for row in part.rows:
+        cells = (
+            unit(column.kind, system, large=True) if large else part.unit(column, row, system)
+            for column in part.columns
+        )
+        made.add_row(*(
+            words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
+        ))  # fmt: skip
+    return made
 
 
 def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str:
