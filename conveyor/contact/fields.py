@@ -99,7 +99,7 @@ class SpectralFields:
 
     def peak_error(self) -> float:
         """Four times the tail of any strip: of 284 sharp scenes one was off by more, by 3 %."""
-        return float(_TAILS * self._tails.max())
+        return _TAILS * float(self._tails.max())
 
     def edge_error(self) -> float:
         """α/n of the tail: of 284 sharp scenes one was off by more than this and the change by order, by 24 %."""
