@@ -109,8 +109,7 @@ def written(studied):
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
     found.append(_of_a_rare_spec())
     pairs = [
-        tuple(result.contents(asked, system=system) for system in ("SI", "US"))
-        for result, asked in found
+        tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found
     ]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     options = {
