@@ -103,7 +103,8 @@ class SpectralFields:
 
     def edge_error(self) -> float:
         """α/n of the tail: of 284 sharp scenes one was off by more than this and the change by order, by 24 %."""
-        return float((self.contact.alpha * self._tails).max()) / self.contact.c.shape[1]
+        worst = float((self.contact.alpha * self._tails).max())
+        return worst / float(self.contact.c.shape[1])
 
     @property
     def _tails(self) -> Array:
