@@ -43,7 +43,7 @@ def run(count: int) -> None:
         begun = process_time()
         running.run(study, known)
         ran = process_time() - begun
-        of_points(study, "SI", "-").write(Path(folder) / "t.csv", running.rows(study, known))
+        of_points(study, "SI").write(Path(folder) / "t.csv", running.rows(study, known))
         wrote = process_time() - begun - ran
         plain = peak()
         explored(study, running.designs(study, known))

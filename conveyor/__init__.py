@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         Comparison,
         DutyStudy,
         Sizing,
+        Study,
         VerificationSheet,
         analyse,
         analyse_cases,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
         compare,
         compare_compounds,
         size,
+        study,
         verify_sheet,
     )
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
@@ -52,6 +54,7 @@ _WHERE = {
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
     "Sizing": "conveyor.analysis",
+    "Study": "conveyor.analysis",
     "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
@@ -61,6 +64,7 @@ _WHERE = {
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
     "size": "conveyor.analysis",
+    "study": "conveyor.analysis",
     "verify_sheet": "conveyor.analysis",
 }
 
@@ -77,6 +81,7 @@ __all__ = [
     "RangeError",
     "RubberCompound",
     "Sizing",
+    "Study",
     "ValidityWarning",
     "VerificationSheet",
     "__version__",
@@ -88,6 +93,7 @@ __all__ = [
     "compare_compounds",
     "load",
     "size",
+    "study",
     "verify_sheet",
 ]
 

@@ -19,7 +19,6 @@ from conveyor.files import marks
 from conveyor.printable import printable
 
 if TYPE_CHECKING:
-    from conveyor.models import Conveyor
     from conveyor.report.columns import Contents
     from conveyor.studies.campaign import Campaign, Point
     from conveyor.studies.designs import Design
@@ -75,9 +74,8 @@ def study(
     line = session.read(spec)
     system = session.system(line)
     campaign = running.Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
-    money = currency(line)
-    table = campaigning.of_points(campaign, system, money)
-    designed = campaigning.of_designs(campaign, system, money)
+    table = campaigning.of_points(campaign, system)
+    designed = campaigning.of_designs(campaign, system)
     to = session.outputs(plan_file, spec)
     for option, path, made in (("--output", output, table), ("--designs", designs, designed)):
         csv = path is not None and path.suffix == ".csv"
@@ -98,7 +96,7 @@ def study(
         found = explored(campaign, running.designs(campaign, known))
         if designs is not None:
             designed.write(designs, campaigning.design_rows(found, running.designs(campaign, known)))
-    contents = designing.of_study(found, system, money)
+    contents = designing.of_study(found, system)
     _made(to, campaign, found, contents, html=html, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
@@ -110,7 +108,7 @@ def study(
             say(f"{times} without an answer: {reason}")
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
-    session.answer(plain | designing.plain(found, money), to, show)
+    session.answer(plain | designing.plain(found), to, show)
 
 
 def _made(
@@ -131,7 +129,7 @@ def _made(
     if html is not None:
         to.add("page", html, {html: page.build(contents, designing.PARTS).encode()})
     if plots is not None:
-        drawings = designing.drawings(found, contents.system, currency(campaign.base))
+        drawings = designing.drawings(found, contents.system)
         files = {plots / f"{name}.png": figure for name, figure in drawings}
         to.add("figures", plots, {path: drawn(figure, path) for path, figure in files.items()})
     if specs is not None:
@@ -168,20 +166,13 @@ def said(design: Design, campaign: Campaign, system: System) -> str:
     from conveyor.report.campaigning import priced
     from conveyor.units.presentation import unit
 
-    money = currency(campaign.base)
     known = [(one, design.figures[name]) for name, one in campaign.figures.items()]
     written = (
-        f"{one.label} {unit(priced(one.kind, money), system).brief(value)}"
+        f"{one.label} {unit(priced(one.kind, campaign.base), system).brief(value)}"
         for one, value in known
         if value is not None
     )
     return ", ".join(written)
-
-
-def currency(line: Conveyor) -> str:
-    """Of the spec's costs."""
-    price = None if line.operation is None else line.operation.price
-    return "-" if price is None else str(price.currency)
 
 
 def telling(told: Callable[..., None] | None) -> Callable[[int, int, int], None] | None:

@@ -18,6 +18,7 @@ from conveyor.units import System
 from conveyor.units.presentation import MONEY, labelled, unit
 
 if TYPE_CHECKING:
+    from conveyor.models import Conveyor
     from conveyor.models.study import Value
     from conveyor.studies.campaign import Campaign
     from conveyor.studies.designs import Design
@@ -43,8 +44,8 @@ class CampaignTable:
         Words and kind of each figure, in the system's units.
     system : {"SI", "US"}
         Of the figures.
-    currency : str
-        Of costs.
+    line : Conveyor
+        Whose currency costs have.
     """
 
     def __init__(
@@ -53,10 +54,10 @@ class CampaignTable:
         fields: Sequence[VariedField],
         figures: Sequence[tuple[str, str]],
         system: System,
-        currency: str,
+        line: Conveyor,
     ) -> None:
         self._fields = fields
-        self._shown = [unit(priced(kind, currency), system) for _, kind in figures]
+        self._shown = [unit(priced(kind, line), system) for _, kind in figures]
         headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
         inputs = (labelled(field.path, field.unit) for field in fields)
         self.headings = (row, *inputs, *headed, "no answer because")
@@ -132,17 +133,19 @@ def _line(cells: Iterable[Any]) -> str:
     return line.getvalue()
 
 
-def of_points(campaign: Campaign, system: System, currency: str) -> CampaignTable:
+def of_points(campaign: Campaign, system: System) -> CampaignTable:
     """The table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
-    return CampaignTable("point", varied(campaign.listed, campaign.plan.paths), figures, system, currency)
+    return CampaignTable(
+        "point", varied(campaign.listed, campaign.plan.paths), figures, system, campaign.base
+    )
 
 
-def of_designs(campaign: Campaign, system: System, currency: str) -> CampaignTable:
+def of_designs(campaign: Campaign, system: System) -> CampaignTable:
     """The table of a study's designs; its rows come from `design_rows`."""
     figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
     shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
-    return CampaignTable("design", varied(campaign.listed), shown, system, currency)
+    return CampaignTable("design", varied(campaign.listed), shown, system, campaign.base)
 
 
 def design_rows(found: Explored, designs: Iterable[Design]) -> Iterator[Row]:
@@ -158,6 +161,9 @@ def design_rows(found: Explored, designs: Iterable[Design]) -> Iterator[Row]:
         yield one.number, values, one.why or figures
 
 
-def priced(kind: str, currency: str) -> str:
-    """A kind, money with its currency."""
-    return f"{MONEY}{currency}" if kind == "money" else kind
+def priced(kind: str, line: Conveyor) -> str:
+    """A kind, money in the currency of the spec's costs."""
+    if kind != "money":
+        return kind
+    price = None if line.operation is None else line.operation.price
+    return f"{MONEY}{'-' if price is None else price.currency}"

@@ -33,7 +33,7 @@ Array: TypeAlias = "np.ndarray[Any, Any]"
 
 
 class Shown:
-    """A study's designs in a system of units and a currency.
+    """A study's designs in a system of units.
 
     Parameters
     ----------
@@ -41,16 +41,14 @@ class Shown:
         The designs; at least one has an answer.
     system : {"SI", "US"}
         Of the figures.
-    currency : str
-        Of costs.
     """
 
-    def __init__(self, found: Explored, system: System, currency: str) -> None:
+    def __init__(self, found: Explored, system: System) -> None:
         self.found, self.system = found, system
         figures = [found.figures[name] for name in found.sought]
         self.labels = [figure.label for figure in figures]
         self.units: list[Unit] = [
-            unit(priced(figure.kind, currency), system, large=True) for figure in figures
+            unit(priced(figure.kind, found.base), system, large=True) for figure in figures
         ]
 
     def sought(self, k: int) -> Any:

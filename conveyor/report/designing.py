@@ -41,13 +41,13 @@ _CAPTIONS: Final = {
 _MOST: Final = 50  # rows of the front on the page
 
 
-def of_study(found: Explored, system: System, currency: str) -> Contents:
+def of_study(found: Explored, system: System) -> Contents:
     """Tables and figures of a study's designs in a unit system."""
     name = next(iter(found.sought))
     parts = (
-        best(found, currency),
-        on_the_front(found, currency),
-        effects(found, currency),
+        best(found),
+        on_the_front(found),
+        effects(found),
         refused(found),
         provenance(fingerprint(found.base), "Notes"),
     )
@@ -65,7 +65,7 @@ def of_study(found: Explored, system: System, currency: str) -> Contents:
     about = document(found.base, "Study of designs", system, facts)
     drawn: tuple[Drawing, ...] = ()
     if len(found.values):
-        every = Shown(found, system, currency).every
+        every = Shown(found, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
     return Contents(about, tuple(part for part in parts if not part.empty), system, drawn)
 
@@ -75,13 +75,13 @@ def _limit(label: str, limit: Limit) -> str:
     return f"{label} " + " and ".join(f"{words} {end}" for end, words in ends if end is not None)
 
 
-def best(found: Explored, currency: str) -> Table:
+def best(found: Explored) -> Table:
     """The designs that come first, one row each."""
     columns = (
         Column("design", "count", attrgetter("number")),
         *(Column(field.label, "text", _change(field.path), key=field.path) for field in found.fields),
         *(
-            Column(figure.label, priced(figure.kind, currency), _figure(name), key=name)
+            Column(figure.label, priced(figure.kind, found.base), _figure(name), key=name)
             for name, figure in found.figures.items()
         ),
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
@@ -98,7 +98,7 @@ def _figure(name: str) -> Callable[[Design], float | None]:
     return lambda row: row.figures[name]
 
 
-def on_the_front(found: Explored, currency: str) -> Table:
+def on_the_front(found: Explored) -> Table:
     """Designs that none beats, one row each; no rows where just one figure is sought."""
     several = len(found.sought) > 1
     rows = [int(i) for i in found.front.nonzero()[0]] if several else []
@@ -112,7 +112,7 @@ def on_the_front(found: Explored, currency: str) -> Table:
         *(
             Column(
                 found.figures[name].label,
-                priced(found.figures[name].kind, currency),
+                priced(found.figures[name].kind, found.base),
                 _sought(found, k),
                 key=name,
             )
@@ -131,7 +131,7 @@ def _sought(found: Explored, k: int) -> Callable[[int], float]:
     return lambda i: float(found.found[i, k])
 
 
-def effects(found: Explored, currency: str) -> Table:
+def effects(found: Explored) -> Table:
     """What each field does to what is sought first, one row a field and value."""
     rows = (
         [(found.fields[k].path, effect) for k in found.ordered for effect in found.effects(k)]
@@ -139,7 +139,7 @@ def effects(found: Explored, currency: str) -> Table:
         else []
     )
     figure = found.figures[next(iter(found.sought))]
-    kind = priced(figure.kind, currency)
+    kind = priced(figure.kind, found.base)
     columns = (
         Column("field", "text", itemgetter(0)),
         Column("value", "text", lambda row: row[1].value),
@@ -166,16 +166,16 @@ def refused(found: Explored) -> Table:
     )
 
 
-def drawings(found: Explored, system: System, currency: str) -> Iterator[tuple[str, Any]]:
+def drawings(found: Explored, system: System) -> Iterator[tuple[str, Any]]:
     """Figures of a study by name; none where no design has an answer."""
     if len(found.values):
-        for name, draw in Shown(found, system, currency).every.items():
+        for name, draw in Shown(found, system).every.items():
             yield name, draw()
 
 
-def plain(found: Explored, currency: str) -> dict[str, Any]:
+def plain(found: Explored) -> dict[str, Any]:
     """Plain numbers for JSON; SI, the unit in the key."""
-    table = replace(best(found, currency), page=())
+    table = replace(best(found), page=())
     front = found.numbers[found.front].tolist()
     return {
         "designs": found.count,
