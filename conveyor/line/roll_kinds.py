@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.laws.loading import line_loads
 from conveyor.line.stretches import Strand, Stretch
 
 Array = NDArray[np.float64]
@@ -68,8 +69,8 @@ def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, .
     kinds = []
     for (strand, radius, spacing), rolls in gathered.items():
         loads = [stretches[i].loads[place] for i, place in rolls]
-        sampled = [load.line_loads(points) for load in loads]
-        lines = np.concatenate([w for w, _ in sampled])
+        sampled, weights = line_loads(loads, points)
+        lines = sampled.ravel()
         distinct, which = np.unique(lines, return_inverse=True)
         highest = max(float(lines.max()), *(load.peak_line_load for load in loads))
         kinds.append(
@@ -78,17 +79,12 @@ def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, .
                 radius=radius,
                 spacing=spacing,
                 rolls=tuple(rolls),
-                starts=np.cumsum([0, *(w.size for w, _ in sampled[:-1])]),
+                starts=np.arange(0, lines.size, points),
                 line_loads=lines,
                 distinct=distinct,
                 which=which,
-                weights=np.concatenate([weights for _, weights in sampled]),
-                sets=np.concatenate(
-                    [
-                        np.full(w.size, stretches[i].sets)
-                        for (i, _), (w, _) in zip(rolls, sampled, strict=True)
-                    ]
-                ),
+                weights=weights.ravel(),
+                sets=np.repeat([stretches[i].sets for i, _ in rolls], points),
                 lowest=min(float(lines.min()), _CURVE_DOWN_TO * highest),
                 highest=highest,
             )

@@ -13,7 +13,7 @@ from conveyor.laws.loading.curves import (
     effective_tension,
 )
 from conveyor.laws.loading.heap import Heap, middle_share_by_area, surcharge_from_slope
-from conveyor.laws.loading.rolls import RollLoad, middle_share_belt, middle_share_bulk, roll_loads
+from conveyor.laws.loading.rolls import RollLoad, line_loads, middle_share_belt, middle_share_bulk, roll_loads
 
 __all__ = [
     "CrossSection",
@@ -25,6 +25,7 @@ __all__ = [
     "curve_set_force",
     "effective_tension",
     "filled_width",
+    "line_loads",
     "middle_share_belt",
     "middle_share_bulk",
     "middle_share_by_area",

@@ -6,6 +6,7 @@ Source: VDI 2341 (shares of the rolls).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Literal
@@ -164,11 +165,24 @@ class RollLoad:
         >>> w.round(3).tolist(), round(float(w @ weights), 12)
         ([573.205, 226.795], 120.0)
         """
-        require(n >= 1, "n", n, "at least 1 point is needed")
-        nodes, weights = _gauss(n)
-        slope = nodes if self.shape == "triangular" else np.zeros(n)
-        line_load = (self.bulk_force * (1.0 - slope) + self.belt_force) / self.length
-        return line_load, weights * (self.length / 2.0)
+        line_load, weights = line_loads([self], n)
+        return line_load[0], weights[0]
+
+
+def line_loads(loads: Sequence[RollLoad], n: int) -> tuple[Array, Array]:
+    """Line loads [N/m] and weights [m] of many rolls, each as of `RollLoad.line_loads`, both of shape (rolls, n).
+
+    Raises
+    ------
+    InputError
+        n is below 1.
+    """
+    require(n >= 1, "n", n, "at least 1 point is needed")
+    nodes, weights = _gauss(n)
+    bulk, belt, length, slope = np.array([
+        (load.bulk_force, load.belt_force, load.length, load.shape == "triangular") for load in loads
+    ]).T[:, :, None]  # fmt: skip
+    return (bulk * (1.0 - slope * nodes) + belt) / length, weights * (length / 2.0)
 
 
 def _contact_lengths(n_rolls: int, roll_length: float, belt_width: float) -> tuple[float, ...]:
