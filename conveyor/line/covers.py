@@ -129,7 +129,7 @@ class StrandAtWork:
             line.softened,
             line.support,
             cover.thickness,
-            cover.other,
+            cover.other if line.support == "belt" else None,
             cover.level,
         )
 

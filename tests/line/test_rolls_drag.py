@@ -222,7 +222,7 @@ def test_remarks_follow_the_law(line):
         "Roll drag: carry over load, speed and air temperature by Palmgren" in a for a in assumptions(made)
     )
     assert any("f0, f1_factor, f1_exponent not given" in w for w in said)
-    assert any("mm²/s at -10 degC: bearings warm themselves" in w for w in said)
+    assert any("mm²/s at -10 °C: bearings warm themselves" in w for w in said)
     assert not any("idlers.carry: roll drag not given" in w for w in said)
 
 
