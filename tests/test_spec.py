@@ -97,7 +97,7 @@ POSITIONS = [
     ("name: test line", "name: test line\noperation: {hours_per_year: 5 h, price: 1 EUR}",
      '2:41 operation.price: got "1 EUR", expected a price'),
     ("name: test line", "name: test line\ncalculation: {support: confned}",
-     '2:24 calculation.support: got "confned", allowed: \'confined\', \'free\' or \'half-space\''),
+     '2:24 calculation.support: got "confned", allowed: \'confined\', \'belt\', \'free\' or \'half-space\''),
     ("name: test line", "name: test line\ncalculation: {gauss_points: 3.5}",
      "2:29 calculation.gauss_points: expected a whole number, got 3.5"),
     ("name: test line", 'name: ""', "1:7 name: empty; give some text"),

@@ -51,6 +51,7 @@ _PINT_NAME = {
     "short_ton/h": "short_ton/hour", "km/h": "kilometer/hour", "in^2": "inch**2", "ft/min": "foot/minute",
     "m/min": "meter/minute", "ft^3/min": "foot**3/minute", "lbf/in": "force_pound/inch",
     "lbf/ft": "force_pound/foot", "rpm": "1/minute", "N/rpm": "newton*minute", "lbf*in": "force_pound*inch",
+    "lbf*in^2": "force_pound*inch**2",
     "cSt": "centistokes",
 }  # fmt: skip
 _UNITS: dict[str, Any] = {

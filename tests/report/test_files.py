@@ -56,8 +56,8 @@ def test_a_comparison_has_its_files(tmp_path):
     found = compare_compounds(line, ["standard-cover", "S100"], rtol=1e-3)
     names = [path.name for path in found.to_tables(str(tmp_path), system="US")]
     assert names == [
-        "ranking.csv", "costs.csv", "what_if.csv", "power_1.csv", "scenes.csv", "coverage.csv", "remarks.csv", "compounds.csv",
-        "provenance.csv",
+        "ranking.csv", "costs.csv", "what_if.csv", "power_1.csv", "scenes.csv", "coverage.csv", "remarks.csv",
+        "compounds.csv", "provenance.csv",
     ]  # fmt: skip
     read = pd.read_csv(tmp_path / "scenes.csv", encoding="utf-8-sig")
     assert len(read) == len(found.table)

@@ -368,7 +368,7 @@ def test_written_out_compounds_are_named_once(path: Path) -> None:
         load(path)
     own["B5"] = "mine"
     book.copy_worksheet(own).title = "Rubber compound 2"
-    for part in ("terms", "sweeps", "tests"):
+    for part in ("terms", "shift", "sweeps", "tests"):
         book.copy_worksheet(book[f"Rubber compound 1 {part}"]).title = f"Rubber compound 2 {part}"
     book.save(path)
     with pytest.raises(InputError, match=r"'Rubber compound 2'!B5 \"mine\" is written out twice"):

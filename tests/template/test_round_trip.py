@@ -95,8 +95,8 @@ def test_one_written_out_compound_serves_both_covers(overland: dict[str, Any], t
     conveyor = spec.from_data(overland)
     assert there_and_back(conveyor, tmp_path).as_data() == conveyor.as_data()
     names = load_workbook(tmp_path / "input.xlsx").sheetnames
-    # the compound, its terms, its strain sweeps, its rolling-resistance tests
-    assert sum(name.startswith("Rubber compound") for name in names) == 4
+    # the compound, its terms, the laws of its band, its strain sweeps, its rolling-resistance tests
+    assert sum(name.startswith("Rubber compound") for name in names) == 5
 
 
 TEXTS = ("=1+1", "+1", "@x", "-", "'quoted'", "'", "a;b", '""x', "10 %", "1,2", "true", "#REF!", "_x0041_")

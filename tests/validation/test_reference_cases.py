@@ -97,6 +97,10 @@ def test_shipped_checks_name_source_and_quantity():
         "Helix shaft report",
         "ISO 5293:2004",
         "Lemmon (2013), finite elements",
+        "Nordell and Ciozda (1984), measured",
+        "Harrison (1983, 1985), measured",
+        "Lodewijks (1996), finite elements",
+        "Song et al. (2012)",
     }
     assert len({(check.source, check.quantity) for check in checks}) == len(checks)
 
