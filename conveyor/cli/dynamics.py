@@ -110,7 +110,8 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
     every = {one.name: one for one in line.scenarios or standard_scenarios(line)}
     for name in names or ():
         if name not in every:
-            raise InputError(f'--scenario: got "{name}", there are: {", ".join(every)}')
+            known = ", ".join(f'"{one}"' for one in every)
+            raise InputError(f'--scenario: got "{name}", there are: {known}')
     return tuple(every[name] for name in names) if names else tuple(every.values())
 
 

@@ -215,7 +215,7 @@ def _take_up(found: Followed) -> Iterator[Check]:
         return
     way = float(np.ptp(found.travel))
     room = duty.whole - duty.tensioning
-    why = said("the carriage of the take-up moves by {}, once the belt is taut its computed travel has {}",
+    why = said("the carriage of the take-up moves by {}; its computed travel, with the belt taut, is {}",
                (way, "length"), (room, "length"))  # fmt: skip
     yield compared("dynamic_travel", "way of the take-up's carriage", way, "at most", room, "length", why=why)
 

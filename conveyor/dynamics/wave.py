@@ -393,6 +393,9 @@ class _Motion:
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
         self.rubbing = start.resisting[self.rows, self.at]
+        self.on_pulleys = start.speed[
+            self.rows, self.at
+        ]  # at rest exactly 0, which the solver's rounding blurs
         self.pulled, self.taken = chain.held, np.zeros(s)
         self.extremes = _Extremes((s, n))
         names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
@@ -489,7 +492,7 @@ class _Motion:
             np.where(self.last, self.of_take_up, softer[rows, self.behind]),
         )
         coming = self.tension + softer * np.diff(new, axis=1)
-        lying = self.here * (chain.weight[rows, at] + np.sign(at_nodes) * rolling[rows, at])
+        lying = self.here * (chain.weight[rows, at] + np.sign(self.on_pulleys) * rolling[rows, at])
         tight = (chain.held - lacking / self.dt)[:, None]
         arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
         leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
@@ -497,7 +500,7 @@ class _Motion:
             chain, self.machines, i, step=self.dt, answer=solver.answer, rim=self.rims,
             free=going - solver.answer * self.dt * (self.driving - self.rubbing),
             arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going,
-            yields=yields, friction=np.where(at_nodes == 0.0, self.stuck, rolling[rows, at]),
+            yields=yields, friction=np.where(self.on_pulleys == 0.0, self.stuck, rolling[rows, at]),
         )  # fmt: skip
         push = (moved.belt - going) / solver.answer
         for name, values in self.drives.items():
@@ -506,7 +509,12 @@ class _Motion:
         self.slipped = self.slipped + np.abs(over)
         self.heat = self.heat + over * moved.force
         self.ledger.drives(self.rims, at_nodes, moved)
-        self.driving, self.rubbing, self.rims = moved.force, moved.friction, moved.rim
+        self.driving, self.rubbing, self.rims, self.on_pulleys = (
+            moved.force,
+            moved.friction,
+            moved.rim,
+            moved.belt,
+        )
         new = new + np.einsum("sd,sdn->sn", push, solver.columns)
         return new, lacking + (solver.of_take_up * push).sum(axis=1)
 

@@ -37,7 +37,7 @@ class Starter(Model):
     delay: Annotated[Time, Bounds(ge="0 s", le="10 min")] = quantity("0 s")
     """From the command to start until this drive is switched on; an inverter then joins the ramp that all follow."""
     initial_torque: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
-    """Of a soft starter or a coupling at the begin, over its largest; 30 % without it."""
+    """Of a soft starter or a coupling at the start, over its largest; 30 % without it."""
     fill: Annotated[tuple[FillPoint, ...], Field(max_length=100)] = ()
     """How a fluid coupling fills, from 0 s on, instead of time and initial_torque."""
     torque_limit: Annotated[Number, Field(ge=1, le=5)] | None = None

@@ -33,7 +33,7 @@ def tension_map(found: Followed, *, system: System = "SI") -> Figure:
 
 
 def envelope(found: Followed, *, system: System = "SI") -> Figure:
-    """Highest and lowest tension over the place, and that at the begin."""
+    """Highest and lowest tension over the place, and that at the start."""
     figure, (axis,) = stacked(1, _HEIGHT)
     _envelope(axis, found, system)
     return figure
@@ -122,7 +122,7 @@ def _envelope(axis: Axes, found: Followed, system: System) -> None:
         x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15
     )
     for k, (name, values) in enumerate(
-        (("highest", record.highest), ("lowest", record.lowest), ("at the begin", record.tensions[0]))
+        (("highest", record.highest), ("lowest", record.lowest), ("at the start", record.tensions[0]))
     ):
         axis.plot(x, force(values[order]), color=colour(k), label=name)
     axis.axhline(0.0, color="0.6", linewidth=0.8)

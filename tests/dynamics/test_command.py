@@ -79,7 +79,7 @@ def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(sp
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("-s", "start"), "there are: power failure, with brakes"),
+        (("-s", "start"), 'there are: "power failure", "with brakes"'),
         (("-o", "x.txt"), "its name ends in"),
         (("--error", "2"), "between 0 and 1"),
     ],

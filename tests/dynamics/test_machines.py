@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +13,12 @@ from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
-from conveyor.spec import from_data
+from conveyor.spec import from_data, load
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
 from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 
+SPECS = Path(__file__).parents[2] / "examples" / "specs"
 GRIP = 1.5
 SLOW = 0.05  # of a winch: its waves, c m' v, stay within its band
 HEAVY = 2e6
@@ -276,6 +278,16 @@ def test_a_led_stop_comes_to_rest_at_the_end_of_its_ramp():
     assert found.rests_at == pytest.approx(20.0, abs=3.0 * found.ride.loop.travel[-1])
     # of an S the way is half of that at full speed
     assert found.way == pytest.approx(0.5 * found.line.speed * 20.0, rel=0.02)
+
+
+def test_a_drive_at_rest_has_a_quiet_belt():
+    """Friction of a belt that rests is what holds it: it does not change sides with the rounding of the speed."""
+    off = {"begins": "running", "events": [{"do": "power off"}], "duration": "80 s"}
+    found = followed(load(SPECS / "overland_10km.yaml"), off, step=0.1)
+    belt, arriving = found.record.drives["belt"][:, 0], found.record.drives["arriving"][:, 0]
+    quiet = arriving[np.flatnonzero(belt)[-1] + 2 :]
+    assert quiet.size > 100
+    assert np.abs(np.diff(quiet)).max() < 1e-3 * arriving.max()  # it was 4e-3, back and forth
 
 
 @pytest.mark.parametrize(
