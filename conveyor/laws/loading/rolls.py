@@ -170,12 +170,32 @@ class RollLoad:
 
 
 def line_loads(loads: Sequence[RollLoad], n: int) -> tuple[Array, Array]:
-    """Line loads [N/m] and weights [m] of many rolls, each as of `RollLoad.line_loads`, both of shape (rolls, n).
+    """Line loads of many rolls, each at the Gauss-Legendre points of its loaded length.
+
+    Parameters
+    ----------
+    loads : sequence of RollLoad
+        Of the rolls [N].
+    n : int
+        Number of points [-], at least 1, as of `RollLoad.line_loads`.
+
+    Returns
+    -------
+    line_load : ndarray, shape (rolls, n)
+        w [N/m].
+    weights : ndarray, shape (rolls, n)
+        Weights [m].
 
     Raises
     ------
     InputError
         n is below 1.
+
+    Examples
+    --------
+    >>> wing = RollLoad(name="left wing", bulk_force=90.0, belt_force=30.0, length=0.3, shape="triangular")
+    >>> line_loads([wing], 2)[0].round(3).tolist()
+    [[573.205, 226.795]]
     """
     require(n >= 1, "n", n, "at least 1 point is needed")
     nodes, weights = _gauss(n)
