@@ -175,7 +175,7 @@ def test_fit_writes_a_compound_that_the_shelf_reads(tmp_path: Path) -> None:
         "--shift", ROOT / "materials" / "s120.shift.csv", "-o", target, "--name", "mine",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert "rms 8.4%" in done.stdout
+    assert "rms 8.4 %" in done.stdout
     shown = run("shelf", target)
     assert shown.returncode == 0, shown.stderr
     assert "mine" in shown.stdout

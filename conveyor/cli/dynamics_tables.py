@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from conveyor.cli import notes
 from conveyor.cli.terminal import console, grid, words
+from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -37,7 +38,7 @@ def _sizes(screen: Console, contents: Contents) -> None:
         written = row.unit(contents.system)
         error, most = by_key["to"].get(row), by_key["serves_up_to"].get(row)
         said = f"{by_key['scenario'].get(row)}: {row.label} {written.said(by_key['found'].get(row))}"
-        said += "" if error is None else f", to {error:.1%}"
+        said += "" if error is None else f", to {percent(error, 1)}"
         said += "" if most is None else f"; up to {written.said(most)} serves"
         governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
         said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"

@@ -127,7 +127,7 @@ def _sag(found: Followed) -> Iterator[Check]:
                  f"{help_}", (float(found.record.lowest[i]), "force"))  # fmt: skip
     yield compared(
         "dynamic_slack", "belt is taut", float(found.record.lowest[i]), "at least", least, "force", why=slack, where=at,
-        source=f"sag of {SLACK_SAG.value:.0%} of the span, general knowledge",
+        source=f"sag of {percent(SLACK_SAG.value)} of the span, general knowledge",
     )  # fmt: skip
     most = MOVING_SAG.value
     why = said(f"the belt sags by {percent(sag)} of the span in {quoted(found.place(i))}; {help_}")

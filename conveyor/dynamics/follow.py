@@ -32,6 +32,7 @@ from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.studies.states import load_states
 from conveyor.units import from_si
+from conveyor.units.sentences import percent
 
 Array = NDArray[np.float64]
 
@@ -310,7 +311,8 @@ def refined(
             return tuple(found[i] for i in range(len(rides)))
     worst = max((found[i] for i in open_ones), key=lambda one: one.error or 0.0)
     raise NoSolutionError(
-        f'scenario "{worst.name}": its peaks still change by {worst.error:.1%} at cells of {step:.3g} s: ask for a '
+        f'scenario "{worst.name}": its peaks still change by {percent(worst.error or 0.0, 1)} at cells of {step:.3g} '
+        "s: ask for a "
         "larger error, or look for a drive of hardly any mass"
     )
 
@@ -412,12 +414,16 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
     if line.belt.stiffness is None:
         yield "belt.carcass.stiffness not given: the usual multiple of the strength"
     if any(not pulley.driven for pulley in line.pulleys):
-        yield f"pulleys not driven turn like {PULLEY_INERTIA.value:.0%} of their mass, not given: general knowledge"
+        yield (
+            f"pulleys not driven turn like {percent(PULLEY_INERTIA.value)} of their mass, not given: "
+            "general knowledge"
+        )
     if line.take_up.kind == "slack side":
         yield "route.take_up not given: a weight on the slack side of the drive"
     if any(float(followed.record.slipped.max()) > 0.0 for followed in found.followed):
         yield (
-            f"drag of a drive without power, whose belt slips, not given: {DRIVE_DRAG.value:.0%} of its loss at rated "
+            f"drag of a drive without power, whose belt slips, not given: {percent(DRIVE_DRAG.value)} of its "
+            "loss at rated "
             "power, general knowledge"
         )
     for followed in found.followed:
@@ -427,10 +433,10 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
 def _assumed_drives(ride: Ride) -> Iterator[str]:
     for drive, unit in zip(ride.drives, ride.starters, strict=True):
         values = {
-            "slip": f"{MOTOR_SLIP.value:.0%}, general knowledge",
+            "slip": f"{percent(MOTOR_SLIP.value)}, general knowledge",
             "kind": unit.kind,
             "time": f"{unit.time or 0.0:.0f} s, of the stiff belt at the start factor, by the ramp's shape",
-            "initial torque": f"{unit.initial:.0%}, general knowledge",
+            "initial torque": f"{percent(unit.initial)}, general knowledge",
         }
         for what in unit.assumed:
             yield f"{drive.name}: starter's {what} not given: {values[what]}"

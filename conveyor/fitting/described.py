@@ -14,7 +14,7 @@ from conveyor.fitting.request import Request
 from conveyor.laboratory import DmaData
 from conveyor.rubber import WLF, Arrhenius, PronyFit, PronySeries, ReplicaBand, ShiftLaw, Superposition
 from conveyor.rubber.band import METHOD
-from conveyor.units.sentences import ZERO_CELSIUS
+from conveyor.units.sentences import ZERO_CELSIUS, percent
 
 Array = NDArray[np.float64]
 
@@ -110,7 +110,10 @@ def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
 
 def _method(fit: PronyFit, request: Request) -> str:
     equilibrium = "free" if request.equilibrium is None else "held"
-    left = f"leaves {fit.residual:.1%} rms of both, the best positive spectrum of all {fit.consistency_floor:.1%}"
+    left = (
+        f"leaves {percent(fit.residual, 1)} rms of both, the best positive spectrum of all "
+        f"{percent(fit.consistency_floor, 1)}"
+    )
     if request.terms_per_decade is not None:
         return (
             f"NNLS on relative errors of E' and E'', {request.terms_per_decade:g} times per decade inside the data "
@@ -119,7 +122,10 @@ def _method(fit: PronyFit, request: Request) -> str:
     scatter = (
         ""
         if fit.storage_noise is None or fit.loss_noise is None
-        else f"; scatter of the data from row to row {fit.storage_noise:.1%} (E') and {fit.loss_noise:.1%} (E'')"
+        else (
+            f"; scatter of the data from row to row {percent(fit.storage_noise, 1)} (E') and "
+            f"{percent(fit.loss_noise, 1)} (E'')"
+        )
     )
     return (
         f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "

@@ -13,7 +13,7 @@ from conveyor.fitting.compound import Fitted
 from conveyor.fitting.verdict import GLOSSARY, Criterion, kept
 from conveyor.models.report import Paper
 from conveyor.report.columns import Column, Contents, ReportHead, Table
-from conveyor.units.sentences import celsius
+from conveyor.units.sentences import celsius, percent
 
 DOCUMENT: Final = ("laboratory", "number", "specimen", "instrument", "method", "measured", "by")
 """What is said of the document: given, or stated by the files under these names."""
@@ -81,7 +81,7 @@ def facts(found: Fitted) -> list[tuple[str, str]]:
         ("shift law kept", law),
         ("rows", f"{found.rows.frequency.size} of {len(found.files)} file{'s' * (len(found.files) > 1)}"),
         ("terms", f"{fit.active_terms}, E_e {fit.series.equilibrium / 1e6:.3g} MPa"),
-        ("error of the series, rms", f"E' {fit.storage.rms:.1%}, E'' {fit.loss.rms:.1%}"),
+        ("error of the series, rms", f"E' {percent(fit.storage.rms, 1)}, E'' {percent(fit.loss.rms, 1)}"),
         ("strain", compound.strain or "not stated"),
         ("Poisson's ratio", f"{compound.poisson_ratio:g}"),
     ]

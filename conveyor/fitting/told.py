@@ -11,7 +11,7 @@ from conveyor.fitting.compound import Fitted, Tabulated
 from conveyor.report.plots import colour, keyed, master_curve, stacked
 from conveyor.rubber.superposition import STRAY
 from conveyor.units import text
-from conveyor.units.sentences import celsius
+from conveyor.units.sentences import celsius, percent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -59,21 +59,23 @@ def _shift(found: Fitted) -> Iterator[str]:
         yield f"  {celsius(float(t)):8.2f} degC  log10 a_T {shift:+9.4f} +- {error:.4f}"
     overlaps = ((shifted.storage_residual, "E'"), (shifted.loss_residual, "E''"))
     scatter = ((shifted.storage_scatter, "E'"), (shifted.loss_scatter, "E''"))
-    told = " and ".join(f"{value:.1%} ({name})" for value, name in scatter if value is not None)
+    told = " and ".join(f"{percent(value, 1)} ({name})" for value, name in scatter if value is not None)
     yield (
-        f"  overlaps differ by {' and '.join(f'{value:.1%} ({name})' for value, name in overlaps)}; scatter about the "
+        f"  overlaps differ by {' and '.join(f'{percent(value, 1)} ({name})' for value, name in overlaps)}; "
+        "scatter about the "
         f"common curve {told}"
         + ("" if None not in (shifted.storage_scatter, shifted.loss_scatter) else "; it alone placed them")
     )
     for one in shifted.resonances:
         yield (
             f"  {one.frequency:.4g} Hz is left out of all isotherms: {one.isotherms} of them stand off the common curve"
-            f" there, E' by {one.storage:+.0%}, E'' by {one.loss:+.0%}: a resonance of the instrument?"
+            f" there, E' by {percent(one.storage, signed=True)}, E'' by {percent(one.loss, signed=True)}: a "
+            "resonance of the instrument?"
         )
     other = shifted.with_vertical
     if other is not None:
         beside = [
-            f"{now:.1%} of {name} to {then:.1%}"
+            f"{percent(now, 1)} of {name} to {percent(then, 1)}"
             for now, then, name in (
                 (shifted.storage_scatter, other.storage_scatter, "E'"),
                 (shifted.loss_scatter, other.loss_scatter, "E''"),
@@ -82,7 +84,7 @@ def _shift(found: Fitted) -> Iterator[str]:
         ]
         vertical = 10.0 ** float(np.max(np.abs(other.log10_b_T))) - 1.0
         yield (
-            f"  a vertical shift of up to {vertical:.0%} would bring them closer, the scatter from "
+            f"  a vertical shift of up to {percent(vertical)} would bring them closer, the scatter from "
             f"{' and '.join(beside)}: try --vertical. The errors above, and the band, hold what it would change"
         )
     if other is None and shifted.correlation > _SHAPE_CORRELATION:
@@ -113,11 +115,12 @@ def _series(found: Fitted) -> Iterator[str]:
     )
     for label, misfit in (("E'", fit.storage), ("E''", fit.loss), ("tan delta", fit.tan_delta)):
         yield (
-            f"  {label:>9}: rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"
+            f"  {label:>9}: rms {percent(misfit.rms, 1)}, worst {percent(misfit.worst, 1, signed=True)} at "
+            f"{misfit.worst_frequency:.3g} Hz"
         )
     yield from _outliers(fit)
     if fit.storage_noise is not None and fit.loss_noise is not None:
-        yield f"  scatter from row to row: {fit.storage_noise:.1%} (E'), {fit.loss_noise:.1%} (E'')"
+        yield f"  scatter from row to row: {percent(fit.storage_noise, 1)} (E'), {percent(fit.loss_noise, 1)} (E'')"
 
 
 def _outliers(fit: PronyFit) -> Iterator[str]:
@@ -126,7 +129,10 @@ def _outliers(fit: PronyFit) -> Iterator[str]:
     for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
         stray = np.flatnonzero(kept < STRAY)
         if stray.size:
-            rows = ", ".join(f"{f[k]:.3g} Hz ({1.0 / (1.0 + error[k]) - 1.0:+.0%})" for k in stray[:_STRAYS])
+            rows = ", ".join(
+                f"{f[k]:.3g} Hz ({percent(1.0 / (1.0 + error[k]) - 1.0, signed=True)})"
+                for k in stray[:_STRAYS]
+            )
             more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
             yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more}:"
             yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
@@ -146,13 +152,14 @@ def _criterion(found: Fitted) -> Iterator[str]:
 
 def _consistency(found: Fitted) -> Iterator[str]:
     yield (
-        f"any positive spectrum leaves at least {found.fit.consistency_floor:.1%} rms of both: that much the data "
+        f"any positive spectrum leaves at least {percent(found.fit.consistency_floor, 1)} rms of both: that "
+        "much the data "
         "scatter or contradict themselves"
     )
     if found.entropic_floor is not None:
         yield (
             "  with the vertical shift of an entropic network, b_T = T/T_ref, it would leave "
-            f"{found.entropic_floor:.1%}: try --vertical"
+            f"{percent(found.entropic_floor, 1)}: try --vertical"
         )
     known = found.consistency
     if known is None:
@@ -161,7 +168,8 @@ def _consistency(found: Fitted) -> Iterator[str]:
     for label, one, misfit in (("E''", "E'", known.loss), ("E'", "E''", known.storage)):
         yield (
             f"  Kramers-Kronig, {label} predicted from {one} over {known.judged[0]:.3g} to {known.judged[1]:.3g} Hz: "
-            f"rms {misfit.rms:.1%}, worst {misfit.worst:+.1%} at {misfit.worst_frequency:.3g} Hz"
+            f"rms {percent(misfit.rms, 1)}, worst {percent(misfit.worst, 1, signed=True)} at "
+            f"{misfit.worst_frequency:.3g} Hz"
         )
 
 

@@ -19,7 +19,7 @@ from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.rubber import ShiftComparison
 from conveyor.units import text
-from conveyor.units.sentences import celsius
+from conveyor.units.sentences import celsius, percent
 
 Word = Literal["pass", "FAIL", "not checked"]
 
@@ -120,7 +120,7 @@ def _most(name: str, value: float, most: float, write: Callable[[float], str], w
 
 
 def _percent(value: float) -> str:
-    return f"{value:.1%}"
+    return percent(value, 1)
 
 
 def _decades(value: float) -> str:
@@ -248,14 +248,16 @@ def _collapse(found: Fitted) -> Iterator[Criterion]:
 def _consistent(found: Fitted) -> Iterator[Criterion]:
     why = "more is in the data: two strains, two set-ups, an outlier"
     if found.entropic_floor is not None:
-        why = f"with b_T = T/T_ref {found.entropic_floor:.1%}: a vertical shift is missing, --vertical"
+        why = (
+            f"with b_T = T/T_ref {percent(found.entropic_floor, 1)}: a vertical shift is missing, --vertical"
+        )
     yield _most("best positive spectrum of E' and E''", found.fit.consistency_floor, DOUBTED, _percent, why)
     known = found.consistency
     if known is None:
         yield _open("Kramers-Kronig", "too few rows beyond a decade from the ends of the window")
         return
     for label, misfit in (("E'' from E'", known.loss), ("E' from E''", known.storage)):
-        where = f"worst {misfit.worst:+.0%} at {misfit.worst_frequency:.2g} Hz"
+        where = f"worst {percent(misfit.worst, signed=True)} at {misfit.worst_frequency:.2g} Hz"
         yield _most(f"Kramers-Kronig, {label}", misfit.rms, KRAMERS_KRONIG, _percent, where)
 
 
@@ -280,7 +282,7 @@ def _ends(found: Fitted) -> Iterator[Criterion]:
         for errors in (fit.errors, fit.best_errors)
     ]
     worst = int(np.argmax(np.abs(means[0])))
-    why = f"{ends[worst][0]}; the best positive spectrum has {means[1][worst]:+.1%} there"
+    why = f"{ends[worst][0]}; the best positive spectrum has {percent(means[1][worst], 1, signed=True)} there"
     if abs(means[1][worst]) > ENDS:
         why += ": the data contradict themselves"
     yield _most("ends of the window", abs(means[0][worst]), ENDS, _percent, why)

@@ -118,13 +118,14 @@ def _contradiction(
     if left < DOUBTED:
         return
     seen = (
-        f"E' and E'' contradict each other: the best of all positive spectra misses them by {left:.0%} (rms)"
+        "E' and E'' contradict each other: the best of all positive spectra misses them by "
+        f"{100.0 * left:.0f} % (rms)"
     )
     tried = [(_left(*curve), advice) for curve, advice in _readings(frequency, storage, loss, shear)]
     least, advice = min(tried, key=lambda one: one[0], default=(np.inf, ""))
     noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if least < BETTER * left:
-        yield Finding("contradiction", f"{seen}, but by {least:.1%} {advice}")
+        yield Finding("contradiction", f"{seen}, but by {100.0 * least:.1f} % {advice}")
     elif left > max(CONTRADICTED, OVER_SCATTER * math.sqrt(0.5) * math.hypot(*noise)):
         yield Finding(
             "contradiction",

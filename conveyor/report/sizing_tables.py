@@ -18,6 +18,7 @@ from conveyor.sizing.designs import CalculatedSizing, SizedDesign
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY
+from conveyor.units.sentences import percent
 
 PARTS: Final = (
     ("designs", "Designs"),
@@ -117,7 +118,7 @@ def _why(found: CalculatedSizing, rank: int) -> str:
     if rank == 0:
         shares = {name: value / found.best.year for name, value in found.best.costs.yearly.items()}
         most = sorted(shares, key=lambda name: -float(shares[name]))[:3]
-        return "cheapest: " + ", ".join(f"{name} {float(shares[name]):.0%}" for name in most)
+        return "cheapest: " + ", ".join(f"{name} {percent(float(shares[name]))}" for name in most)
     best, own = found.best.costs.yearly, found.designs[rank].costs.yearly
     change = {name: float(own[name] - best[name]) for name in own}
     order = sorted(change, key=lambda name: -abs(change[name]))[:2]
@@ -205,7 +206,7 @@ def _remarks(found: CalculatedSizing) -> Table:
     told = _WHY.format(calculated=found.calculated, possible=f"{found.possible:,}")
     lines = [
         f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
-        f"the estimate's cost of a year was off by at most {found.estimate_error:.1%} where it was calculated",
+        f"the estimate's cost of a year was off by at most {percent(found.estimate_error, 1)} where it was calculated",
         f"{found.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
         "prices, series and rules without a source are general knowledge, orders of magnitude: give your own in the "
         "duty (prices, rules)",

@@ -123,11 +123,12 @@ class PronyFit:
             *(
                 (
                     f"{name}, error",
-                    f"rms {found.rms:.1%}, worst {found.worst:+.1%} at {found.worst_frequency:.3g} Hz",
+                    f"rms {100.0 * found.rms:.1f} %, worst {100.0 * found.worst:+.1f} % at "
+                    f"{found.worst_frequency:.3g} Hz",
                 )
                 for name, found in (("E'", self.storage), ("E''", self.loss), ("tan δ", self.tan_delta))
             ),
-            ("any positive spectrum leaves", f"{self.consistency_floor:.1%}"),
+            ("any positive spectrum leaves", f"{100.0 * self.consistency_floor:.1f} %"),
         ]
         return joined([listing("PronyFit", rows), Html(self.series._repr_html_())])
 

@@ -122,7 +122,7 @@ class _Run:
         if least < low and not self.plateau:
             raise RangeError(
                 f"{label}: a strain of {least:.4g} is below the lowest measured, {low:.4g}, where the data show no "
-                f"plateau (they differ by more than {PLATEAU_SPREAD:.0%} up to {PLATEAU_SPAN:g} times it); "
+                f"plateau (they differ by more than {100.0 * PLATEAU_SPREAD:.0f} % up to {PLATEAU_SPAN:g} times it); "
                 "measure smaller strains"
             )
         return np.asarray(self.curve(np.log(np.maximum(strain, low)))) / self.unit

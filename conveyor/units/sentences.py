@@ -37,15 +37,15 @@ def rounded(number: float) -> str:
     return "0" if float(written) == 0.0 else written
 
 
-def percent(share: float, decimals: int = 0) -> str:
-    """Write a share in per cent.
+def percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
+    """Write a share in per cent, `signed` with a plus.
 
     Examples
     --------
-    >>> percent(0.0222, 1), percent(-0.14)
-    ('2.2 %', '-14 %')
+    >>> percent(0.0222, 1), percent(-0.14), percent(0.05, signed=True)
+    ('2.2 %', '-14 %', '+5 %')
     """
-    return f"{100.0 * share:.{decimals}f} %"
+    return f"{100.0 * share:{'+' if signed else ''}.{decimals}f} %"
 
 
 def figure(value: float, kind: str, system: System = "SI") -> str:
