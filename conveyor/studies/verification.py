@@ -189,7 +189,7 @@ def verification(
     ...     covers=["7 mm"],
     ... )
     >>> round(found.rows[0].resistances[0], 2)
-    6.33
+    7.24
     """
     extra = tuple(shelves)
     chosen = tuple(c if isinstance(c, RubberCompound) else shelf.compound(c, extra=extra) for c in compounds)

@@ -133,7 +133,7 @@ def written_out(model: type[BaseModel], name: str) -> Plan:
     --------
     >>> from conveyor.models import RubberCompound
     >>> [sheet.name for sheet in written_out(RubberCompound, "Rubber compound 1").tables]
-    ['Rubber compound 1 terms', 'Rubber compound 1 sweeps', 'Rubber compound 1 tests']
+    ['Rubber compound 1 terms', 'Rubber compound 1 shift', 'Rubber compound 1 sweeps', 'Rubber compound 1 tests']
     """
     root = layout(model)
     names = _Names(prefix=name)
