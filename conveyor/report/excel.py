@@ -65,6 +65,7 @@ _PORTRAIT: Final = (
     "Results",
     "Given",
     "Resistances",
+    "Tension diagram",
     "Loop",
     "Load cases",
     "Rubber",
