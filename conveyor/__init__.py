@@ -20,8 +20,6 @@ if TYPE_CHECKING:
         CaseStudy,
         Comparison,
         DutyStudy,
-        Sizing,
-        Study,
         VerificationSheet,
         analyse,
         analyse_cases,
@@ -29,10 +27,9 @@ if TYPE_CHECKING:
         calibrate,
         compare,
         compare_compounds,
-        size,
-        study,
         verify_sheet,
     )
+    from conveyor.designs import Sizing, Study, size, study
     from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
@@ -53,8 +50,8 @@ _WHERE = {
     "RangeError": "conveyor.errors",
     "RubberCompound": "conveyor.models",
     "ValidityWarning": "conveyor.errors",
-    "Sizing": "conveyor.analysis",
-    "Study": "conveyor.analysis",
+    "Sizing": "conveyor.designs",
+    "Study": "conveyor.designs",
     "VerificationSheet": "conveyor.analysis",
     "analyse": "conveyor.analysis",
     "analyse_cases": "conveyor.analysis",
@@ -63,8 +60,8 @@ _WHERE = {
     "compare": "conveyor.analysis",
     "compare_compounds": "conveyor.analysis",
     "load": "conveyor.spec",
-    "size": "conveyor.analysis",
-    "study": "conveyor.analysis",
+    "size": "conveyor.designs",
+    "study": "conveyor.designs",
     "verify_sheet": "conveyor.analysis",
 }
 

@@ -1,0 +1,149 @@
+"""Designs for people: those of a duty, those of a study; with their tables and reports. Nothing below imports this."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from conveyor import shelf, sizing
+from conveyor.models import Conveyor
+from conveyor.models.sizing import SizingDuty
+from conveyor.models.study import StudyPlan
+from conveyor.spec import load
+from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
+from conveyor.studies.explored import Explored, explored
+from conveyor.study_file import read_duty, read_plan
+from conveyor.units.presentation import chosen
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import pandas as pd
+
+    from conveyor.report.columns import Contents
+    from conveyor.units import System
+
+
+class Sizing(sizing.CalculatedSizing):
+    """Ranked designs of a duty, with their tables and reports; `.best.conveyor` is the spec of the cheapest."""
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a design; units in the names."""
+        return self.contents(vary=False)["designs"].frame()
+
+    @cached_property
+    def around(self) -> pd.DataFrame:
+        """One row a value of what varies around the best design; units in the names."""
+        return self.contents()["around"].frame()
+
+    def contents(self, system: System | None = None, *, vary: bool = True) -> Contents:
+        """Everything a report holds, in a system of units; what varies around the best design takes seconds."""
+        from conveyor.report.sizing_tables import of_sizing
+
+        return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
+
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the workbook; as `Analysis.to_excel`."""
+        from conveyor.report.excel import write
+
+        return write(self.contents(system), Path(path))
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Every point of a study, and its designs: `explored.best` are the ten that come first.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        The study on its spec.
+    points : tuple of (int, values, answer)
+        Number, values of the fields, SI figures or why there are none.
+    explored : Explored
+        The designs as numbers: best ones, front, main effects.
+    """
+
+    campaign: Campaign
+    points: tuple[Point, ...]
+    explored: Explored
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row a point; units in the names."""
+        import pandas as pd
+
+        from conveyor.report.campaigning import of_points
+
+        made = of_points(self.campaign, self.campaign.base.report.units)
+        return pd.DataFrame(map(made.cells, self.points), columns=list(made.headings))
+
+    def contents(self, system: System | None = None) -> Contents:
+        """Tables and figures of the designs, in a system of units."""
+        from conveyor.report.designing import of_study
+
+        return of_study(self.explored, chosen(self.campaign.base.report.units, system))
+
+
+def size(duty: str | Path | SizingDuty, **options: Any) -> Sizing:
+    """Ranked designs of a duty, of a file or as data; as `conveyor.sizing.size`.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.size("examples/duties/overland.yaml", best=3).table  # doctest: +SKIP
+    """
+    given = duty if isinstance(duty, SizingDuty) else read_duty(duty)
+    found = sizing.size(given, **options)
+    return Sizing(**{field.name: getattr(found, field.name) for field in fields(found)})
+
+
+def study(
+    plan: str | Path | StudyPlan,
+    conveyor: Conveyor | None = None,
+    *,
+    answers: str | Path | None = None,
+    executor: Executor | None = None,
+    workers: int = 1,
+    shelves: Iterable[str | Path] = (),
+) -> Study:
+    """Every point of a study, of a file or as data; as `conveyor.studies.campaign.run`.
+
+    Parameters
+    ----------
+    plan : path or StudyPlan
+        The study.
+    conveyor : Conveyor, optional
+        Its spec; else the file that it names, from the folder of the study.
+    answers : path, optional
+        File in which answers are kept as they come, and known from; without it they end with the call.
+    executor : concurrent.futures.Executor, optional
+        Where points are calculated, with so many `workers`; in this process without one.
+    shelves : iterable of path
+        Further folders of compounds.
+
+    Raises
+    ------
+    InputError
+        A file is refused.
+    ConveyorError
+        A worker was lost, or answers cannot be written.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.study("examples/studies/spacing.yaml").table  # doctest: +SKIP
+    """
+    given = plan if isinstance(plan, StudyPlan) else read_plan(plan)
+    spec = Path(given.base) if isinstance(plan, StudyPlan) else Path(plan).parent / given.base
+    base = load(spec, shelves=shelves) if conveyor is None else conveyor
+    campaign = Campaign.of(given, base, shelf.resolver(extra=shelves, base=spec.parent))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "study.answers" if answers is None else Path(answers)
+        with Answers(path) as known:
+            run(campaign, known, executor=executor, workers=workers)
+            return Study(campaign, tuple(rows(campaign, known)), explored(campaign, designs(campaign, known)))
