@@ -150,7 +150,10 @@ class Answers:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._file = sqlite3.connect(path, isolation_level=None)
+        try:
+            self._file = sqlite3.connect(path, isolation_level=None)
+        except sqlite3.OperationalError as error:
+            raise InputError(f"{path}: cannot be written ({error})") from None
         try:
             (mark,) = self._file.execute("PRAGMA application_id").fetchone()
             (pages,) = self._file.execute("PRAGMA page_count").fetchone()

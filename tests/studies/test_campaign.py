@@ -157,6 +157,11 @@ def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
         same(list(rows(study, known)), answered(study, tmp_path / "whole"))
 
 
+def test_a_folder_in_the_place_of_the_answers_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"cannot be written \(unable to open database file\)"):
+        Answers(tmp_path)
+
+
 @pytest.mark.parametrize("held", ["mine\n", "SQLite format 3\0 that is none" * 40])
 def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
     path = tmp_path / "a"
