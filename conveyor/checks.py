@@ -21,6 +21,7 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
+from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.pipeline import CalculatedConveyor
@@ -696,6 +697,80 @@ def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
+def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
+    """No set bears more than it is rated for; of sets that give a class or a rating."""
+    for strand, duties in _sets_of_strands(found):
+        rated = [(duty, duty.limits.rating) for duty in duties if duty.limits.rating is not None]
+        if not rated:
+            continue
+        worst, rating = max(rated, key=lambda pair: pair[0].limits.load / pair[1])
+        limits = worst.limits
+        of_class = "" if limits.cema_class is None else f"CEMA class {limits.cema_class}"
+        cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
+        why = said(
+            f"{strand} sets in {quoted(worst.stretch.section)} bear {{}}, they are rated for {{}}{cure}",
+            (limits.load, "force"),
+            (rating, "force"),
+        )
+        yield compared(
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force",
+            source=of_class, why=why, where=worst.stretch.section,
+        )  # fmt: skip
+
+
+def roll_axle(found: CalculatedConveyor) -> Iterator[Check]:
+    """The axles of the rolls bend no more at their bearings than these bear; of axles that are given."""
+    for strand, duties in _sets_of_strands(found):
+        axles = [(duty.limits.axle, duty.stretch.section) for duty in duties if duty.limits.axle is not None]
+        if not axles:
+            continue
+        axle, section = max(axles, key=lambda of: of[0].slope / of[0].allowed)
+        why = said(
+            f"the axle of the {axle.roll} roll, {strand}, {quoted(section)}, slopes by {{}} at its bearings, they bear "
+            "{}: a thicker axle, a closer spacing",
+            (axle.slope, "angle"),
+            (axle.allowed, "angle"),
+        )
+        yield compared(
+            "roll_axle", f"slope of the axle at its bearings, {strand} rolls", axle.slope, "at most", axle.allowed,
+            "angle", why=why, where=f"{axle.roll}, {section}",
+        )  # fmt: skip
+
+
+def belt_flap(found: CalculatedConveyor) -> Iterator[Check]:
+    """The rolls' rotation stays off the belt's natural frequencies between sets; where a distance is asked for."""
+    for strand, duties in _sets_of_strands(found):
+        asked = [duty for duty in duties if duty.limits.flap_margin is not None]
+        if not asked:
+            continue
+        worst = min(asked, key=lambda duty: duty.distance)
+        cure, figures = "; a higher tension", list[tuple[float, str]]()
+        if worst.still_spacing is not None and worst.still_diameter is not None:
+            cure = "; sets at most {} apart, or rolls of at least {}, keep it still"
+            figures = [(worst.still_spacing, "length"), (worst.still_diameter, "thickness")]
+        why = said(
+            f"the belt may flap on its {strand} sets in {quoted(worst.stretch.section)}: rolls turn at "
+            f"{_band(worst.rotations)} Hz, the belt swings at {_band(worst.frequencies)} Hz and twice that{cure}",
+            *figures,
+        )
+        made = compared(
+            "belt_flap", f"distance from resonance of belt and rolls, {strand}", worst.distance, "at least",
+            worst.limits.flap_margin, "fraction", found=said(percent(worst.distance)), why=why,
+            where=worst.stretch.section,
+        )  # fmt: skip
+        yield replace(made, asked=said(f"at least {percent(worst.limits.flap_margin or 0.0)}"))
+
+
+def _band(ends: tuple[float, float]) -> str:
+    """Both ends of a band in words, an even one once."""
+    return " to ".join(dict.fromkeys(f"{end:.3g}" for end in ends))
+
+
+def _sets_of_strands(found: CalculatedConveyor) -> Iterator[tuple[Strand, list[SetDuty]]]:
+    for strand in STRANDS:
+        yield strand, [duty for duty in found.set_duty if duty.stretch.strand == strand]
+
+
 def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
     for strand, compound in compounds_by_strand(found.conveyor).items():
@@ -767,5 +842,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     bulk_slip,
     penetration,
     roll_life,
+    set_rating,
+    roll_axle,
+    belt_flap,
     rubber_coverage,
 )

@@ -42,6 +42,7 @@ from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, converged, pressing_masses, pulls
 from conveyor.loop.frame import Frame
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
+from conveyor.loop.set_duty import SetDuty, set_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
@@ -205,6 +206,11 @@ class CalculatedConveyor:
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:
         """Loads of every pulley in every state, its shaft, bearings and lagging."""
         return pulley_duty(self.balance, self.every_state)
+
+    @cached_property
+    def set_duty(self) -> tuple[SetDuty, ...]:
+        """Load, axles, life and flap of the idler sets whose spec asks for them."""
+        return set_duty(self.balance)
 
     @cached_property
     def year(self) -> Year | None:

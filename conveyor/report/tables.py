@@ -30,6 +30,7 @@ from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import CemaEstimate, Classical
+from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.models import Conveyor, RubberCompound
@@ -108,6 +109,7 @@ def of_analysis(
         cema(analysis),
         breakdown(analysis),
         distinct_rolls(analysis),
+        idler_sets(analysis, studies),
         rolls(analysis),
         section_ends(analysis),
         tensions(analysis),
@@ -492,6 +494,88 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
         f"Relative error of the contacts: at most {a.error_estimate:.0e}.",
     )
     return Table("distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), page, note, named=3)
+
+
+def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
+    system, alike = a.conveyor.report.units, dict[tuple[Strand, float], _AlikeSets]()
+    for label, found in _loads(a, studies) if a.set_duty else ():
+        for duty in found.set_duty:
+            key = (duty.stretch.strand, duty.stretch.spacing)
+            alike.setdefault(key, _AlikeSets()).add(label.text(system), duty)
+    columns = (
+        Column("strand", "text", lambda row: row.first.stretch.strand),
+        Column("spacing", "spacing", lambda row: row.first.stretch.spacing),
+        Column("sets", "count", attrgetter("sets")),
+        Column("turning mass of a set", "mass", lambda row: row.first.stretch.set_mass),
+        Column("rotation", "rotation", lambda row: max(one.rotations[1] for one in row.of)),
+        Column("load of a set", "force", lambda row: row.heaviest.limits.load),
+        Column("of the case", "text", attrgetter("case"), page=None),
+        Column("rating", "force", lambda row: row.first.limits.rating, sparse=True),
+        Column("CEMA class", "text", lambda row: row.first.limits.cema_class, sparse=True),
+        Column("least CEMA class", "text", lambda row: row.heaviest.limits.least_class, sparse=True),
+        Column("slope of the axle", "angle", attrgetter("slope"), sparse=True),
+        Column("L10 life of a set", "life", attrgetter("life"), sparse=True),
+        Column("rolls turn at", "frequency", lambda row: row.closest.rotations[1]),
+        Column("belt swings from", "frequency", lambda row: row.closest.frequencies[0]),
+        Column("belt swings to", "frequency", lambda row: row.closest.frequencies[1]),
+        Column("distance from resonance", "share", lambda row: row.closest.distance),
+        Column("in section", "text", lambda row: row.closest.stretch.section),
+        Column("spacing at most, against flap", "spacing",
+               lambda row: min((one.still_spacing for one in row.of if one.still_spacing), default=None), sparse=True),
+    )  # fmt: skip
+    heading = "Idler sets, the worst of all cases"
+    note = (
+        "Load with lump_factor and the tension on a raised set. Belt: first natural frequency between two sets in the "
+        "section closest to resonance; rolls out of round excite it and twice it; distance 0 where a span is hit."
+    )
+    return Table("idler_sets", "Sections", heading, columns, tuple(alike.values()), (OnPage("rolls", heading),),
+                 note if alike else "", named=2)  # fmt: skip
+
+
+class _AlikeSets:
+    """Sets of one strand and spacing in every case."""
+
+    def __init__(self) -> None:
+        self.of: list[SetDuty] = []
+        self.cases: list[str] = []
+
+    def add(self, case: str, duty: SetDuty) -> None:
+        self.cases.append(case)
+        self.of.append(duty)
+
+    @property
+    def first(self) -> SetDuty:
+        return self.of[0]
+
+    @property
+    def sets(self) -> float:
+        """Of one case: each counts once."""
+        first = self.cases[0]
+        return math.fsum(
+            one.stretch.sets for case, one in zip(self.cases, self.of, strict=True) if case == first
+        )
+
+    @property
+    def heaviest(self) -> SetDuty:
+        return max(self.of, key=lambda one: one.limits.load)
+
+    @property
+    def case(self) -> str:
+        return self.cases[self.of.index(self.heaviest)]
+
+    @property
+    def closest(self) -> SetDuty:
+        """To resonance."""
+        return min(self.of, key=lambda one: one.distance)
+
+    @property
+    def slope(self) -> float | None:
+        return max((one.limits.axle.slope for one in self.of if one.limits.axle is not None), default=None)
+
+    @property
+    def life(self) -> float | None:
+        return min((one.life.hours * _HOUR for one in self.of if one.life is not None), default=None)
 
 
 def _of_first(get: Getter) -> Getter:
