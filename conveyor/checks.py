@@ -365,19 +365,53 @@ def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
-    """The belt is as strong as its splice asks for."""
+    """The belt is as strong as its splice asks for: by mean tension, by the strips that are longest, by starts."""
     duty, strength = found.belt_duty, found.line.belt.strength
-    if duty.safety_steady is None or duty.strength_needed is None or strength is None:
+    if strength is None:
         return
-    why = said(
-        "the splice requires a belt of {} (DIN 22101:2002, factors general knowledge), given: {}",
-        (duty.strength_needed, "belt strength"),
-        (strength, "belt strength"),
-    )
-    yield compared(
-        "splice_strength", "belt strength for the splice", strength, "at least", duty.strength_needed,
-        "belt strength", source="DIN 22101:2002", why=why,
-    )  # fmt: skip
+    for what, needed in duty.strength_needed.items():
+        why = said(
+            f"the splice requires a belt of {{}} ({what}; DIN 22101:2002, factors general knowledge), given: {{}}",
+            (needed, "belt strength"),
+            (strength, "belt strength"),
+        )
+        name = "belt strength for the splice" + ("" if what == "steady" else f", {what}")
+        yield compared(
+            "splice_strength", name, strength, "at least", needed, "belt strength", source="DIN 22101:2002", why=why,
+        )  # fmt: skip
+
+
+def cover_thickness(found: CalculatedConveyor) -> Iterator[Check]:
+    """The covers protect the carcass and outlast the bulk; where the spec says how it wears them."""
+    for cover in found.line.belt.covers:
+        least = cover.least + cover.wear
+        why = said(
+            f"the {cover.cover} cover is {{}}, {{}} over the carcass and {{}} for wear are needed (DIN 22101 "
+            "by points, general knowledge)",
+            *((value, "thickness") for value in (cover.thickness, cover.least, cover.wear)),
+        )
+        yield compared(
+            "cover_thickness", f"thickness of the {cover.cover} cover", cover.thickness, "at least", least, "thickness",
+            source="DIN 22101", why=why,
+        )  # fmt: skip
+
+
+def belt_temperature(found: CalculatedConveyor) -> Iterator[Check]:
+    """The covers stay within the temperatures that the belt's maker allows, as far as given."""
+    relations: tuple[Relation, Relation] = ("at least", "at most")
+    for limit, relation in zip(found.line.belt.bears, relations, strict=True):
+        if limit is None:
+            continue
+        end = "lowest" if relation == "at least" else "highest"
+        why = said(
+            "the covers are at {}, the belt bears {} " + relation,
+            (found.temperature, "temperature"),
+            (limit, "temperature"),
+        )
+        yield compared(
+            "belt_temperature", f"{end} temperature of the covers", found.temperature, relation, limit, "temperature",
+            why=why,
+        )  # fmt: skip
 
 
 def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
@@ -388,6 +422,8 @@ def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
             size = ", standard size {}"
             figures.append((pulley.next_size, "thickness"))
         name, group = quoted(pulley.name), f"DIN 22101, group {pulley.group}"
+        if pulley.utilisation is not None:
+            group += f" at {percent(pulley.utilisation)} of the allowed tension"
         words = f'pulley "{name}" is {{}} in diameter, the carcass requires {{}}{size} ({group})'
         yield compared(
             "pulley_diameter", f"diameter, {name} pulley", pulley.diameter, "at least", pulley.least, "thickness",
@@ -830,6 +866,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_rating,
     belt_breakage,
     splice_strength,
+    cover_thickness,
+    belt_temperature,
     pulley_diameter,
     curve_radius,
     transitions,

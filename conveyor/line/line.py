@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
-from conveyor.laws.belt import Condition
+from conveyor.laws.belt import Condition, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
+from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
 from conveyor.line import usual
@@ -35,6 +36,16 @@ _LEAST_DRIVEN_WRAP = math.radians(90.0)
 """Nobody drives a pulley that the belt lies on for less; general knowledge."""
 _MOST_DRIVEN_WRAP = math.radians(270.0)
 """On one pulley; a drive of more stands for several, general knowledge."""
+
+
+@dataclass(frozen=True)
+class CoverNeed:
+    """Thickness of a cover and the least one [m]: what protects the carcass, what wears off."""
+
+    cover: str
+    thickness: float
+    least: float
+    wear: float
 
 
 @dataclass(frozen=True)
@@ -61,6 +72,10 @@ class BeltBody:
     """D' of the carcass per width [N m]."""
     bending_loss: float
     relaxing: tuple[float, float] | None = None
+    bears: tuple[float | None, float | None] = (None, None)
+    """Lowest and highest temperature [K]; None not given."""
+    covers: tuple[CoverNeed, ...] = ()
+    """Empty where nothing is said of the bulk's wear."""
 
     @property
     def tensile_stiffness(self) -> float | None:
@@ -433,6 +448,27 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         relaxing=None
         if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
         else (si(carcass.relaxing_stiffness), si(carcass.relaxation_time)),
+        bears=(_known(belt.lowest_temperature), _known(belt.highest_temperature)),
+        covers=_cover_needs(conveyor),
+    )
+
+
+def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
+    """Least covers where the spec says how the bulk wears them."""
+    belt = conveyor.belt
+    if belt.wear is None:
+        return ()
+    least = least_cover(si(belt.carcass.thickness), steel_cord=belt.carcass.kind == "steel cord")
+    wear = wear_addition(
+        lump=si(belt.wear.lump),
+        density=si(conveyor.material.density),
+        round_time=2.0 * conveyor.route.length / si(belt.speed),
+        abrasiveness=belt.wear.abrasiveness,
+        loading=belt.wear.severity,
+    )
+    return (
+        CoverNeed("top", si(belt.top_cover.thickness), least, wear),
+        CoverNeed("bottom", si(belt.bottom_cover.thickness), least, 0.0),
     )
 
 

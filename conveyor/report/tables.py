@@ -835,7 +835,9 @@ def brakes(a: CalculatedConveyor) -> Table:
 
 def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
-    duty = a.belt_duty
+    duty, strength = a.belt_duty, a.line.belt.strength
+    needed = duty.strength_needed.values()
+    used = max(needed) / strength if needed and strength is not None else None
     rows = (
         Figure("maximum tension, steady", "force", duty.largest_steady, us="Tmax", key="largest_tension_steady"),
         Figure("maximum tension, all states", "force", duty.largest, us="Tmax", key="largest_tension_all_states"),
@@ -845,8 +847,13 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
         Figure("tension per width, steady", "strength", duty.per_width_steady),
         Figure("tension per width, all states", "strength", duty.per_width),
         Figure("rated tension per width", "strength", duty.rating),
-        Figure("belt strength required by the splice", "strength", duty.strength_needed,
+        Figure("belt strength required by the splice", "strength", max(needed, default=None),
                key="strength_the_splice_asks_for"),
+        Figure("utilisation of the splice", "share", used),
+        *(
+            Figure(f"required {cover.cover} cover", "thickness", cover.least + cover.wear)
+            for cover in a.line.belt.covers
+        ),
         Figure("minimum diameter of drive pulleys", "size", duty.drive_diameter,
                key="least_diameter_of_drive_pulleys"),
     )  # fmt: skip
@@ -860,6 +867,7 @@ def pulleys(a: CalculatedConveyor) -> Table:
         Column("pulley", "text", attrgetter("name")),
         Column("position", "text", attrgetter("position")),
         Column("group", "text", attrgetter("group")),
+        Column("utilisation", "share", attrgetter("utilisation"), sparse=True),
         Column("diameter", "size", attrgetter("diameter")),
         Column("minimum", "size", attrgetter("least"), key="least"),
         Column("standard size", "size", attrgetter("next_size"), key="of_the_series"),

@@ -30,7 +30,7 @@ def test_worse_conditions_ask_for_more(table):
 
 def test_groups_are_steps_of_the_r10_series():
     # 10^(1/10) per step, R10 values are rounded to 1.5 %
-    factors = [belt_check.GROUP_FACTOR[group] for group in ("A", "B", "C")]
+    factors = [belt_check.pulley_group_diameter(1.0, group=group) for group in ("A", "B", "C")]
     for large, small in pairwise(factors):
         assert large / small == pytest.approx(10**0.1, rel=0.015)
     assert belt_check.pulley_group_diameter(0.5, group="B") == pytest.approx(0.4, rel=ROUNDING)
