@@ -16,6 +16,7 @@ import numpy as np
 from conveyor.laws.belt import RATED_START
 from conveyor.laws.motion import Stop
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
+from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -24,6 +25,7 @@ from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units.sentences import Said, band_words, percent, quoted, said
 
@@ -246,6 +248,44 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
             why=why, where=name,
         )  # fmt: skip
         yield replace(made, verdict=verdict(holds=not settled.short))
+
+
+def take_up_reach(found: CalculatedConveyor) -> Iterator[Check]:
+    """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
+    yield from reach(found.take_up)
+    if found.line.take_up.kind == "screw":
+        yield compared(
+            "screw_take_up", "length of a conveyor with a screw take-up", found.line.length, "at most", SCREW_LENGTH,
+            "length", source="general knowledge",
+            why=said("a screw take-up on {}: give it a weight or a winch", (found.line.length, "length")),
+        )  # fmt: skip
+
+
+def reach(duty: TakeUpDuty) -> Iterator[Check]:
+    """Travel and speed that loads ask of the take-up, where its spec gives them."""
+    unit, travel = duty.unit, duty.travel
+    if unit.travel is not None and travel is not None:
+        why = said(
+            "the take-up has {} of travel, {} are needed", (unit.travel, "length"), (travel.whole, "length")
+        )
+        yield compared(
+            "take_up_travel", "travel of the take-up", travel.whole, "at most", unit.travel, "length", why=why
+        )
+    if unit.winch is not None and duty.speed is not None:
+        why = said(
+            "the winch moves its carriage at {}, a start asks for {}: the belt slackens behind the drive meanwhile",
+            (unit.winch[0], "speed"),
+            (duty.speed, "speed"),
+        )
+        yield compared(
+            "winch_speed",
+            "speed of the winch through a start",
+            duty.speed,
+            "at most",
+            unit.winch[0],
+            "speed",
+            why=why,
+        )
 
 
 def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
@@ -859,6 +899,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling,
     motor_power,
     take_up_tension,
+    take_up_reach,
     drive_grip,
     sag,
     slack_belt,

@@ -204,7 +204,7 @@ class TakeUpUnit:
     """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
 
     `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
-    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-].
+    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-]; `travel` it has [m].
     """
 
     kind: str
@@ -215,6 +215,7 @@ class TakeUpUnit:
     reserve: float
     carriage: float = 0.0
     winch: tuple[float, float] | None = None
+    travel: float | None = None
 
     @property
     def keeps_length(self) -> bool:
@@ -688,6 +689,7 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         si(given.reserve),
         si(given.carriage_mass),
         winch,
+        _known(given.travel),
     )
 
 

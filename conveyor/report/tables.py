@@ -19,7 +19,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from conveyor.checks import Check, checks, deciding, leading
+from conveyor.checks import Check, checks, deciding, leading, reach
 from conveyor.indentation import RollContact
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.belts import BeltContacts
@@ -152,7 +152,8 @@ def _every_check(
     """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
     of_states = () if studies is None or studies.states is None else studies.states.checks
-    return (*checks(analysis), *of_cases, *of_states, *(() if further is None else further.checks))
+    together = () if studies is None or studies.cases is None else reach(studies.cases.take_up)
+    return (*checks(analysis), *together, *of_cases, *of_states, *(() if further is None else further.checks))
 
 
 def document(
@@ -717,6 +718,8 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
     duty, governed_by = take_up_of(a, studies)
     mass, travel = duty.mass, duty.travel
     mean = a.balance.settled.steady.mean(a.line.loop.length)
+    winch = duty.unit.kind == "winch"
+    screws = 0.5 * duty.unit.strands * duty.setting if duty.unit.kind == "screw" else None
     rows = [
         Figure("setting", "force", duty.setting, "cover"),
         Figure("required setting", "force", duty.needed, key="least_setting"),
@@ -724,6 +727,10 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
         Figure("strands at the take-up", "count", float(duty.unit.strands), key="strands"),
         Figure("mass of a gravity take-up", "mass", mass, key="mass"),
         Figure("pull on the rope of a winch", "force", None if mass is None else mass * a.line.gravity, key="pull"),
+        Figure("force of each of two screws", "force", screws),
+        Figure("carriage speed through a start", "speed", duty.speed if winch else None),
+        Figure("power of the winch", "power",
+               None if duty.speed is None or not winch else duty.speed * duty.unit.strands * max(duty.setting, 0.0)),
         Figure("change of mean tension by temperature", "force", duty.mean_change),
     ]  # fmt: skip
     if travel is not None:
@@ -735,6 +742,7 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
             Figure("travel, temperature of the belt", "length", travel.temperature),
             Figure("travel, reserve", "length", travel.reserve),
             Figure("travel", "length", travel.whole),
+            Figure("travel given", "length", duty.unit.travel),
         ]
     note = f"kind: {duty.unit.kind}, governed by: {governed_by.text(a.conveyor.report.units)}{_travel_note(a, duty)}"
     page = (OnPage("tensions", "Take-up"),)
