@@ -22,6 +22,7 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
+from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
@@ -700,6 +701,80 @@ def holding(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
+def drive_parts(found: CalculatedConveyor) -> Iterator[Check]:
+    """Backstops, brakes, starts an hour and sharing without control, of drives that give what they bear."""
+    motor = found.balance.frame.motor
+    for duty in found.drive_duty:
+        name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
+        if parts.backstop is not None and duty.backstop is not None:
+            why = said(
+                f'the backstop of "{name}" bears {{}}, {{}} are asked of it', (parts.backstop, "moment"),
+                (duty.backstop, "moment"),
+            )  # fmt: skip
+            yield compared(
+                "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
+                "moment", why=why, where="holding" if duty.backstop == duty.holding else "motors stalled",
+            )  # fmt: skip
+        if parts.heat is not None and duty.heat is not None:
+            why = said(
+                f'a stop leaves {{}} in the brake of "{name}", it bears {{}}',
+                (duty.heat, "energy"),
+                (parts.heat, "energy"),
+            )
+            yield compared(
+                "brake_heat",
+                f"heat of a stop in the brake, {name}",
+                duty.heat,
+                "at most",
+                parts.heat,
+                "energy",
+                why=why,
+            )
+        if parts.starts is not None and duty.allowed_starts is not None:
+            yield _starts(name, parts.starts, duty.allowed_starts)
+        if duty.shared is not None and installed is not None:
+            power = abs(motor(duty.shared))
+            why = said(
+                f'"{name}" takes {{}} where nothing but the belt couples the drives, installed: {{}}; control the '
+                "sharing, or choose motors of more slip and pulleys alike",
+                (power, "power"),
+                (installed, "power"),
+            )
+            yield compared(
+                "load_sharing", f"motor power by uncontrolled sharing, {name}", power, "at most", installed, "power",
+                why=why,
+            )  # fmt: skip
+
+
+def _starts(name: str, asked: float, allowed: float | str) -> Check:
+    subject = said(f"starts an hour, {name}")
+    if isinstance(allowed, str):
+        found = said("{}", (asked, "number"))
+        return Check("motor_starts", subject, asked, None, "number", found, said(allowed), "not checked")
+    why = said(
+        f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked for: '
+        "a coupling or an inverter"
+    )
+    made = compared("motor_starts", subject, asked, "at most", allowed, "number", why=why)
+    return replace(made, asked=said(f"at most {allowed:.2f} (NEMA MG 10)"))
+
+
+def coasting_time(found: CalculatedConveyor) -> Iterator[Check]:
+    """Without power and brakes the conveyor runs on as long as wanted; else the flywheel for it is named."""
+    wanted, stopped = found.line.coast_time, found.motions.coasting
+    if wanted is None or stopped is None:
+        return
+    inertia = coasting_flywheel(found.line, found.motions)
+    figures = () if inertia is None else ((inertia, "inertia"),)
+    cure = ": a flywheel of {} at the motors' shafts" if figures else ""
+    why = said(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
+    made = compared(
+        "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
+        found=said(f"{stopped.time:,.1f} s"),
+    )  # fmt: skip
+    yield replace(made, asked=said(f"at least {wanted:,.1f} s"))
+
+
 def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
     """The bulk stays on the belt in running, stopping and starting."""
     slip = found.motions.slip
@@ -918,6 +993,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     starting_force,
     comes_to_rest,
     holding,
+    drive_parts,
+    coasting_time,
     bulk_slip,
     penetration,
     roll_life,

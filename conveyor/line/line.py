@@ -178,11 +178,29 @@ class TransitionZone:
 
 
 @dataclass(frozen=True)
+class DriveParts:
+    """What the spec says of a drive's parts; None not given.
+
+    `motors` and their rated `rotation` [1/s], `ratio` of the gear, torque that the `backstop` bears [N m], `starts`
+    asked for [1/h], `loss` of the pulley's diameter [m], mass of the brake's `disc` [kg], `heat` it bears [J].
+    """
+
+    motors: int
+    rotation: float | None
+    ratio: float | None
+    backstop: float | None
+    starts: float | None
+    loss: float | None
+    disc: float | None
+    heat: float | None
+
+
+@dataclass(frozen=True)
 class DriveUnit:
     """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg, radius [m].
 
     `mass_given` says whether its rotating masses are the spec's, not typical of its power; `starter` and `backstop` are
-    None where the spec says nothing.
+    None where the spec says nothing, `parts` where it asks for those of no drive.
     """
 
     name: str
@@ -197,6 +215,7 @@ class DriveUnit:
     radius: float | None
     starter: StarterUnit | None = None
     backstop: bool | None = None
+    parts: DriveParts | None = None
 
 
 @dataclass(frozen=True)
@@ -289,6 +308,7 @@ class Line:
     torque_curve: tuple[tuple[float, float], ...]
     brake_delay: float
     stop_deceleration: float | None
+    coast_time: float | None
     least_friction: float
     secondary: str
     friction_factor: float
@@ -342,6 +362,7 @@ class Line:
             torque_curve=_torque_curve(drive),
             brake_delay=si(drive.brake_delay),
             stop_deceleration=_known(drive.stop_deceleration),
+            coast_time=_known(drive.coast_time),
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
@@ -630,8 +651,22 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
             radius=_radius(conveyor, pulley),
             starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
             backstop=pulley.backstop,
+            parts=_parts(pulley) if any(other.judged for other in pulleys) else None,
         )
         for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
+    )
+
+
+def _parts(pulley: DrivePulley) -> DriveParts:
+    return DriveParts(
+        motors=pulley.motors,
+        rotation=None if pulley.motor_speed is None else si(pulley.motor_speed),
+        ratio=pulley.gear_ratio,
+        backstop=_known(pulley.backstop_torque),
+        starts=pulley.starts_per_hour,
+        loss=_known(pulley.diameter_loss),
+        disc=_known(pulley.brake_disc),
+        heat=_known(pulley.brake_heat),
     )
 
 

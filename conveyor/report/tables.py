@@ -21,6 +21,7 @@ import numpy as np
 
 from conveyor.checks import Check, checks, deciding, leading, reach
 from conveyor.indentation import RollContact
+from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.belts import BeltContacts
 from conveyor.line.contacts import Contacts
@@ -29,6 +30,7 @@ from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
+from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.estimates import CemaEstimate, Classical
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.take_up import TakeUpDuty
@@ -120,6 +122,7 @@ def of_analysis(
         conditions(analysis),
         start_stop(analysis),
         brakes(analysis),
+        drive_parts(analysis, studies),
         belt_strength_table(analysis),
         pulleys(analysis),
         pulley_loads(analysis, studies),
@@ -517,9 +520,9 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
         Column("least CEMA class", "text", lambda row: row.heaviest.limits.least_class, sparse=True),
         Column("slope of the axle", "angle", attrgetter("slope"), sparse=True),
         Column("L10 life of a set", "life", attrgetter("life"), sparse=True),
-        Column("rolls turn at", "frequency", lambda row: row.closest.rotations[1]),
-        Column("belt swings from", "frequency", lambda row: row.closest.frequencies[0]),
-        Column("belt swings to", "frequency", lambda row: row.closest.frequencies[1]),
+        Column("rolls turn at", "swing", lambda row: row.closest.rotations[1]),
+        Column("belt swings from", "swing", lambda row: row.closest.frequencies[0]),
+        Column("belt swings to", "swing", lambda row: row.closest.frequencies[1]),
         Column("distance from resonance", "share", lambda row: row.closest.distance),
         Column("in section", "text", lambda row: row.closest.stretch.section),
         Column("spacing at most, against flap", "spacing",
@@ -815,6 +818,7 @@ def start_stop(a: CalculatedConveyor) -> Table:
                key="brake_for_the_deceleration_wanted"),
         Figure(f"{holder} to hold", "force", moving.brake_to_hold),
         Figure("torque to hold, at the first drive's pulley", "torque", torque, key="torque_to_hold"),
+        Figure("flywheel for the coasting time, at the motors", "inertia", coasting_flywheel(a.line, moving)),
         Figure("runaway, drives and brakes off", "acceleration", moving.runaway),
         Figure("speed at which the brakes grip", "speed", gripping),
         Figure("maximum deceleration without material slip", "acceleration", braking,
@@ -839,6 +843,49 @@ def brakes(a: CalculatedConveyor) -> Table:
     )
     rows = tuple(drive for drive in a.line.drives if drive.brake is not None)
     return Table("brakes", "Loop", "Brakes", columns, rows, (OnPage("start-stop", "Brakes"),))
+
+
+def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
+    loads = [found.drive_duty for _, found in _loads(a, studies)] if a.drive_duty else []
+    rows = [(own, [every[i] for every in loads]) for i, own in enumerate(a.drive_duty)]
+
+    def worst(of: Callable[[Iterable[Any]], Any], get: Getter) -> Getter:
+        def found(row: Any) -> float | None:
+            values = [value for duty in row[1] if isinstance(value := get(duty), float)]
+            return of(values) if values else None
+
+        return found
+
+    motor = a.balance.frame.motor
+    columns = (
+        Column("drive", "text", lambda row: row[0].drive.name),
+        Column("motors", "count", lambda row: float(row[0].parts.motors), page=None),
+        Column("pulley speed", "rotation", lambda row: row[0].rotation),
+        Column("gear ratio", "ratio", lambda row: row[0].ratio, sparse=True),
+        Column("preferred ratio", "ratio", lambda row: row[0].standard_ratio, sparse=True),
+        Column("gear size", "torque", lambda row: row[0].gear, sparse=True),
+        Column("backstop, holding", "torque", worst(max, attrgetter("holding")), sparse=True),
+        Column("backstop, motors stalled", "torque",
+               worst(max, lambda duty: None if duty.holding is None else duty.stalled), sparse=True),
+        Column("backstop size", "torque",
+               lambda row: None if (most := worst(max, attrgetter("backstop"))(row)) is None else next_preferred(most),
+               sparse=True),
+        Column("load at a motor's shaft", "inertia", worst(max, attrgetter("load_inertia")), sparse=True),
+        Column("starts an hour", "ratio", worst(min, attrgetter("allowed_starts")), sparse=True),
+        Column("heat of a stop", "heat", worst(max, attrgetter("heat")), sparse=True),
+        Column("rise of the disc", "rise", worst(max, attrgetter("disc_rise")), sparse=True),
+        Column("motor power, uncontrolled", "power",
+               worst(max, lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+    )  # fmt: skip
+    note = (
+        "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
+        "even share (general knowledge). Starts of motors switched on directly, NEMA MG 10. Uncontrolled: nothing but "
+        "the belt couples the drives."
+    )
+    heading = "Parts of the drives, all cases"
+    page = (OnPage("start-stop", heading),)
+    return Table("drive_parts", "Loop", heading, columns, tuple(rows), page, note if rows else "")
 
 
 def belt_strength_table(a: CalculatedConveyor) -> Table:
