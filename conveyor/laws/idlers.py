@@ -209,8 +209,10 @@ def resonance_distance(roll_frequency: float, *, lowest: float, highest: float) 
     ----------
     roll_frequency : float
         f_r, revolutions [1/s], positive.
-    lowest, highest : float
-        First natural frequency of the belt where its tension is lowest and highest [Hz], at least 0.
+    lowest : float
+        First natural frequency of the belt where its tension is lowest [Hz], at least 0.
+    highest : float
+        The same where it is highest [Hz], at least `lowest`.
 
     Returns
     -------

@@ -46,6 +46,31 @@ def test_next_pulley_is_the_first_that_is_large_enough():
         belt_check.next_pulley_diameter(2.1)
 
 
+# DIN 22101: groups A, B, C over 60 %, over 30 % and up to 30 % of the allowed tension [mm]
+TABLE = {
+    200: ((200, 160, 125), (160, 125, 100), (125, 125, 100)),
+    500: ((500, 400, 315), (400, 315, 250), (315, 315, 250)),
+    1400: ((1400, 1250, 1000), (1250, 1000, 800), (1000, 1000, 800)),
+    1600: ((1600, 1250, 1000), (1250, 1000, 800), (1000, 1000, 800)),
+    2000: ((2000, 1600, 1250), (1600, 1250, 1000), (1250, 1250, 1000)),
+}
+
+
+@pytest.mark.parametrize("drive", TABLE)
+def test_standard_pulleys_as_printed(drive):
+    for used, sizes in zip((0.61, 0.31, 0.3), TABLE[drive], strict=True):
+        found = [
+            belt_check.standard_pulley_diameter(drive / 1e3, group=group, utilisation=used) for group in "ABC"
+        ]
+        assert found == pytest.approx([size / 1e3 for size in sizes], rel=ROUNDING)
+
+
+def test_covers_protect_the_carcass():
+    assert belt_check.least_cover(4e-3, steel_cord=True) == 4e-3
+    assert belt_check.least_cover(10e-3, steel_cord=True) == pytest.approx(7e-3, rel=ROUNDING)
+    assert [belt_check.fall_severity(h) for h in (0.0, 0.5, 1.5)] == ["low", "medium", "high"]
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
