@@ -32,6 +32,11 @@ SOURCES = {
     "printed digits",
     "Helix shaft report": "a printed sheet of Helix's pulley shaft program (AS 1403), tail pulley CV212: resultant, "
     "bending moment, torque; printed digits",
+    "Helix delta-T reports": "printed reports of three conveyors and two take-ups: tension of the take-up's mass, "
+    "tension for the sag; printed digits",
+    "Shortt (2019), idler of 127 mm, bearings 6305": "G. Shortt, Why idlers fail, bulk-online research paper 2146, "
+    "example 1.2: ISO 281, two bearings alike; printed digits",
+    "NEMA MG 10, table 2-3": "the example of the EASA handbook, 122/50; printed digits",
     "ISO 5293:2004": "the standard's formula of the transition length, which strips of straight way come to at full "
     "trough",
     "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
