@@ -201,7 +201,9 @@ def test_safety_and_diameters():
     }  # fmt: skip
     said = told(made, found)
     assert any(w.startswith('pulley "head" is 630 mm in diameter, the carcass requires 725 mm') for w in said)
-    assert any(w.startswith("the splice requires a belt of") for w in said) == (max(duty.strength_needed.values()) > 630e3)
+    assert any(w.startswith("the splice requires a belt of") for w in said) == (
+        max(duty.strength_needed.values()) > 630e3
+    )
 
 
 @pytest.mark.parametrize("name", ["shuttle", "downhill_brakes"])
