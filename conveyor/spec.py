@@ -50,7 +50,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     """
     where = Path(path)
     if where.suffix.lower() == ".xlsx":
-        from conveyor.template.read import read_template
+        from conveyor.forms.read import read_template
 
         filled = read_template(where)
         return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
@@ -139,7 +139,7 @@ def placing(path: str | Path) -> Iterator[None]:
 
 def _placed(path: Path, location: Location) -> str:
     if path.suffix.lower() == ".xlsx":
-        from conveyor.template.read import read_template
+        from conveyor.forms.read import read_template
 
         return read_template(path).where(location)
     line, column = read_document(path).place(location)

@@ -11,10 +11,11 @@ from typing import Any, Final, NamedTuple
 
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
-from conveyor.laboratory.cells import TextGrid, TextLine
-from conveyor.laboratory.decimals import decimal_mark, is_number, why_not_a_number
+from conveyor.files.workbook import MAGIC
 from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.workbook import MAGIC, workbook_grids
+from conveyor.laboratory.grid import TextGrid, TextLine
+from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
+from conveyor.laboratory.workbook import workbook_grids
 from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
