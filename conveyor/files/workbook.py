@@ -217,6 +217,7 @@ def _on_sheet(reference: str) -> bool:
 def _sheet(sheet: Any, place: str) -> Sheet:
     """The rows that are in the file: openpyxl's own trust a stated size, and fill every gap and merged range."""
     from openpyxl.cell.read_only import ReadOnlyCell
+    from openpyxl.utils import get_column_letter
     from openpyxl.worksheet._reader import FORMULA_TAG, WorkSheetParser
 
     class Parser(WorkSheetParser):
@@ -242,8 +243,9 @@ def _sheet(sheet: Any, place: str) -> Sheet:
                 found = _found(ReadOnlyCell(sheet, **read))
                 where = (read["row"], read["column"])
                 if found is not None and cells.setdefault(where, found) is not found:
+                    cell = f"{get_column_letter(where[1])}{where[0]}"
                     raise InputError(
-                        f"{place}: sheet '{sheet.title}' has row {where[0]} twice; open and save the workbook again"
+                        f"{place}: sheet '{sheet.title}' has cell {cell} twice; open and save the workbook again"
                     )
         merged = () if parser.merged_cells is None else parser.merged_cells.mergeCell
         ranges = ((each.min_row, each.min_col, each.max_row, each.max_col) for each in merged)

@@ -202,27 +202,10 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
 
 
 def local_loss(frequency: ArrayLike, storage: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    r"""Quick look, ``E'' = (pi/2) dE'/d ln omega``, between neighbouring rows.
+    r"""Quick look, ``E'' = (pi/2) dE'/d ln omega``, between neighbouring rows: frequencies [Hz], E'' [Pa].
 
     Booij & Thoone (1982), the first of their approximations: exact where E' is a straight line in ln omega,
     too large at a peak of E'' and too small beside it.
-
-    Parameters
-    ----------
-    frequency : array_like
-        Cyclic frequency, shape `(n,)`, ascending [Hz].
-    storage : array_like
-        E' at them, shape `(n,)` [Pa].
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Geometric mean frequencies [Hz] and E'' at them [Pa], shape `(n - 1,)`.
-
-    Raises
-    ------
-    InputError
-        If shapes differ or the frequencies do not ascend.
 
     Examples
     --------

@@ -89,7 +89,7 @@ def test_a_gap_of_a_million_rows_costs_nothing(tmp_path: Path) -> None:
     ("rows", "message"),
     [
         (TABLE + row(99_999_999_999, 1.0, 2.0, 0.3), "cell or row 99999999999, beyond the last of a sheet"),
-        (row(3, 1.0, 2.0, 0.3) + TABLE, "sheet 'S' has row 3 twice; open and save the workbook again"),
+        (row(3, 1.0, 2.0, 0.3) + TABLE, "sheet 'S' has cell A3 twice; open and save the workbook again"),
         (
             TABLE + '<row r="20"><c r="ZZZ20"><v>1</v></c></row>',
             "cell or row ZZZ20, beyond the last of a sheet",
@@ -109,7 +109,9 @@ def test_rows_that_cannot_be_are_refused(tmp_path: Path, rows: str, message: str
 def test_more_cells_than_are_read_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     few = replace(laboratory.workbook.LIMITS, elements=100)
     monkeypatch.setattr(laboratory.workbook, "LIMITS", few)
-    with pytest.raises(InputError, match=r"holds more than 100 cells and other elements; .* export it as CSV"):
+    with pytest.raises(
+        InputError, match=r"holds more than 100 cells and other elements; .* export it as CSV"
+    ):
         read_dma(workbook(tmp_path, TABLE + '<row r="20">' + "<c/>" * 100 + "</row>"))
 
 
