@@ -71,13 +71,7 @@ def read_template(path: str | FilePath) -> Filled:
 
 
 def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None = None) -> Filled:
-    """Read a workbook of any model's plan, as `read_template` does that of a conveyor; or its bytes, if given.
-
-    Raises
-    ------
-    InputError
-        As `read_template`.
-    """
+    """Read a workbook of any model's plan, as `read_template` does that of a conveyor; or its bytes, if given."""
     sheets = SheetReader(str(where), sheets_of(where, content))
     plan = whole(model)
     held = sheets.content(plan)
@@ -93,14 +87,7 @@ def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None =
 
 
 def sheets_of(path: FilePath, content: bytes | None = None) -> dict[str, Sheet]:
-    """Read every sheet of a workbook, by name.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, is no workbook, is damaged, protected by a password, larger than a filled-in
-        template can be, or declares XML entities.
-    """
+    """Read every sheet of a workbook, by name."""
     read = read_sheets(_content(path) if content is None else content, str(path), LIMITS)
     return {sheet.name: sheet for sheet in read}
 

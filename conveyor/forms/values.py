@@ -102,11 +102,6 @@ def from_cells(leaf: Leaf, value: Value, unit: str | None = None) -> Any:
     """Return the plain data of a value cell and its unit cell.
 
     What a model will refuse is passed on as it stands, so that the model says what it allows.
-
-    Raises
-    ------
-    InputError
-        Value and unit contradict each other, or the cell cannot be taken for one value.
     """
     if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"got {value}, expected a finite number")

@@ -98,26 +98,7 @@ class _Head:
 
 
 def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
-    """Read a table of measurements.
-
-    Parameters
-    ----------
-    path : str or Path
-        Text with separators, or a workbook with one sheet that holds cells; the first line names columns.
-    kind : TableKind
-        What it holds.
-
-    Returns
-    -------
-    tuple of MeasuredRow
-        In their order.
-
-    Raises
-    ------
-    InputError
-        ``file:row: column: what, and what to do``, for anything that is no number, unit or column known, for a field
-        that is missing or given twice.
-    """
+    """Read a table of measurements: text, or a workbook with one sheet of cells; the first line names columns."""
     grid = _grid(Path(path), kind)
     lines = [line for line in grid.lines if not line.comment]
     if len(lines) < 2:

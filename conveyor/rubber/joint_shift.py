@@ -122,7 +122,7 @@ class JointShift:
         self.lower, self.upper = np.vstack([limits, free]).T
 
     def minimum(self, start: FloatArray) -> Placed:
-        """Alternate between stiffness, noise, weights and steps of the shifts (log10 a_T, ln b_T less a neighbour's)."""
+        """Alternate between stiffness, noise, weights and steps of log10 a_T and ln b_T less a neighbour's."""
         place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
         share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
         state = self._choose(place, weight, share)
