@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
+from conveyor.files.document import first_lines
 from conveyor.files.workbook import MAGIC, Limits, Sheet, read_sheets
 from conveyor.forms.entries import NAMED, Content, FieldEntry, Item, SheetReader, problem_of
 from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Path
@@ -21,8 +22,6 @@ from conveyor.models import Conveyor
 from conveyor.models.base import field_path
 from conveyor.models.wording import Location
 
-MOST_LINES: Final = 100
-"""Errors listed of one workbook; the rest are counted."""
 LARGEST_FILE: Final = 3_000_000
 """Bytes; a template of a thousand sections has a twentieth of it."""
 LIMITS: Final = Limits(content=10_000_000, parts=2_000, elements=150_000, expected="input workbook")
@@ -79,10 +78,7 @@ def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None =
     reader.cells[()] = held.places[plan.forms[0].name]
     data = {} if sheets.problems else reader.group(plan.root, _At(held, held.entries, (), (), None))[0]
     if sheets.problems:
-        lines = sheets.problems[:MOST_LINES]
-        if len(sheets.problems) > MOST_LINES:
-            lines = [*lines, f"{where}: and {len(sheets.problems) - MOST_LINES} more errors"]
-        raise InputError("\n".join(lines))
+        raise InputError(first_lines(sheets.problems, str, str(where)))
     return Filled(str(where), data, reader.cells)
 
 

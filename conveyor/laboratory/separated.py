@@ -48,6 +48,19 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
     return TextGrid(name, tuple(lines), (note, f"separator: {_SEPARATORS[separator]}"))
 
 
+def headed_lines(text: str) -> list[TextLine]:
+    """Lines of a table whose first one names columns and tells the separator; those that begin with # are remarks."""
+    written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
+    separator = max("\t;,", key=first.count)
+    lines = []
+    for number, line in written:
+        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+        comment = line.lstrip().startswith("#")
+        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
+    return lines
+
+
 def _separator(lines: list[str]) -> tuple[str, int]:
     """The separator, and how many cells most rows of numbers have."""
     sample = lines[:: max(1, len(lines) // _SAMPLE)]

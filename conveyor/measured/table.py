@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from conveyor.files.workbook import MAGIC
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.grid import TextGrid, TextLine
 from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
+from conveyor.laboratory.separated import headed_lines
 from conveyor.laboratory.workbook import workbook_grids
 from conveyor.units import quantity
 
@@ -127,15 +127,7 @@ def _grid(path: Path, kind: TableKind) -> TextGrid:
             )
         return filled[0]
     text, _ = decoded(data, path.name)
-    written = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
-    separator = max("\t;,", key=first.count)
-    lines = []
-    for number, line in written:
-        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-        comment = line.lstrip().startswith("#")
-        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
-    return TextGrid(path.name, tuple(lines), ())
+    return TextGrid(path.name, tuple(headed_lines(text)), ())
 
 
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
