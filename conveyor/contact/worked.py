@@ -1,5 +1,4 @@
-"""Working strain of many narrow contacts at once: what `interior` finds, where the layer forgets one roll before the
-next.
+"""Working strain of many contacts at once, as `interior` finds it, where the layer forgets a roll before the next.
 
 The sum over the harmonics of a period is then the integral over all wave numbers, and in units of the half width its
 nodes are the same for every contact: Bessel functions and turns are tables, and contacts differ in their layer, creep
@@ -29,8 +28,16 @@ Array = NDArray[np.float64]
 FORGETS: Final = 0.4
 """Thickness k h of an incompressible bonded layer up to which the next roll changes strains by less than 1e-3: four
 (h/λ)³, as of friction (`indentation.MEMORY`)."""
-_REACH: Final = 1.2  # thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4
-_GRADED: Final = (0.0, 0.02, 0.1, 0.4, 1.2)  # edges of panels in m α, where the strain rises from nothing as (m h)²
+_REACH: Final = (
+    1.2  # thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4
+)
+_GRADED: Final = (
+    0.0,
+    0.02,
+    0.1,
+    0.4,
+    1.2,
+)  # edges of panels in m α, where the strain rises from nothing as (m h)²
 _PHASE: Final = 8.0  # radians a panel at most: 8 Gauss nodes integrate its waves to 1e-6
 _GAUSS: Final = 8
 _CHUNK: Final = 8  # contacts at once: few enough for the cache
@@ -154,7 +161,7 @@ def _strains(
     losing = np.zeros(0)
     for waves, bessel in tables:
         u = waves.u
-        D, T, H, _ = confined_shapes(
+        D, T, _, _ = confined_shapes(
             thickness[:, None, None] * u,
             z[:, :, None] * u,
             np.maximum(thickness[:, None] - z, 0.0)[:, :, None] * u,
@@ -174,12 +181,14 @@ def _strains(
             square = (waves.weights / alpha[:, None]) * np.abs(pressure) ** 2
             density = (D * D + T * T) @ (square * m * creep.imag)[:, :, None]
             losing = density[:, :, 0]
-            surface = np.array([one.layer.symbol(k, one.problem.creep).imag for one, k in zip(inside, m, strict=True)])
+            surface = np.array(
+                [one.layer.symbol(k, one.problem.creep).imag for one, k in zip(inside, m, strict=True)]
+            )
             lost = square * surface
             mean = np.exp(np.sum(lost * np.log(m), axis=1) / lost.sum(axis=1))
     scale = np.array([one.scale for one in inside])[:, None, None]
     d, g = (2.0 * scale * np.concatenate(part, axis=2) for part in (difference, shear))
-    d, g = d.reshape(-1, d.shape[2]), g.reshape(-1, d.shape[2])
+    d, g = (part.reshape(-1, part.shape[2]) for part in (d, g))
     amplitude = path_amplitude(difference=d, shear=g, dilatation=np.zeros_like(d)).reshape(-1, depths)
     weighed = weights * losing
     strain = np.sum(amplitude * weighed, axis=1) / weighed.sum(axis=1)

@@ -6,6 +6,7 @@ energy; moduli are softened by the compound's strain sweeps (conveyor.rubber.equ
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -140,15 +141,17 @@ def softened_many(
     list
         In their order the covers, or why there is none.
     """
+    finely = itertools.chain([COARSE], itertools.repeat(inside))
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
+        depths, points = next(finely)  # the first strain is but a start
         problems = [
             to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
             for i, one in zip(asked, series, strict=True)
         ]
         solved = solve_many(problems, _CONTACT_RTOL)
         answered = [one for one in solved if one.status is Status.OK]
-        strained = iter(working_strains(answered, depths=inside[0], points=inside[1]))
+        strained = iter(working_strains(answered, depths=depths, points=points))
         return [
             _worked(works[i].contact, *next(strained))
             if one.status is Status.OK

@@ -156,7 +156,7 @@ def si(value: Quantity) -> float:
     >>> si(quantity("20 degC", "temperature")), si(quantity("95 %", "fraction"))
     (293.15, 0.95)
     """
-    scale = _si_scale(value.units)
+    scale = _si_scale(value._units)  # noqa: SLF001 a Unit is made, and compared, at each call of .units
     if scale is None:
         return float(value.to_base_units().magnitude)
     return float(value.magnitude * scale[0] / scale[1] + scale[2])
@@ -219,7 +219,7 @@ def same(one: Quantity, other: Quantity) -> bool:
 @cache
 def _si_scale(unit: Any) -> tuple[float, float, float] | None:
     """Factor, divisor and offset to SI, None of degrees unlike kelvin; asked of pint once for each unit."""
-    if unit == _PERCENT:
+    if _registry.Unit(unit) == _PERCENT:
         return 1.0, 100.0, 0.0
     zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
     if zero == 0.0:

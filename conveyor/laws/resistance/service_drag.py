@@ -171,7 +171,12 @@ def roll_end_cooling(roll_diameter: float, *, roll_length: float) -> float:
 
 
 def service_roll_drag(
-    roll_load: ArrayLike, *, belt_speed: float, roll_diameter: float, roll_length: float, air_temperature: float
+    roll_load: ArrayLike,
+    *,
+    belt_speed: float,
+    roll_diameter: float,
+    roll_length: float,
+    air_temperature: float,
 ) -> ServiceDrag:
     """Drag of rolls in service with usual bearings, grease and labyrinth seals that warm themselves (Palmgren).
 
