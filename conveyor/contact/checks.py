@@ -12,7 +12,7 @@ from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, of_order
+from conveyor.contact.spectral import Contact, nested, of_order
 
 Array = NDArray[np.float64]
 
@@ -35,9 +35,7 @@ class OrderErrors(NamedTuple):
 
 def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> OrderErrors:
     """Errors of friction and edges by order: `errors_of_lower` of the matrices of order n/2 and 3n/4 in `matrix`."""
-    n = matrix.shape[2]
-    half, most = (matrix[:, : order + 1, :order] for order in (n // 2, (3 * n) // 4))
-    return errors_of_lower(contact, (half, most), rho, exponent)
+    return errors_of_lower(contact, nested(matrix), rho, exponent)
 
 
 def errors_of_lower(
@@ -98,10 +96,14 @@ def relative_difference(value: Array, reference: Array) -> Array:
     return difference
 
 
-def energy_error(scene: Scene, contact: Contact) -> Array:
-    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,)."""
+def energy_error(scene: Scene, contact: Contact, beyond: float) -> Array:
+    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,).
+
+    `beyond` is what orders above those of `contact` lose, as in `energy.loss`.
+    """
     rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
-    by_loss = friction_by_loss(rule, scene.creep, contact, scene.problem.rho)
+    rho = scene.problem.rho
+    by_loss = friction_by_loss(rule, scene.creep, contact, rho) + 2.0 * rho * beyond / contact.pressure
     error: Array = np.abs(relative_difference(by_loss, contact.friction))
     return error
 

@@ -205,6 +205,8 @@ def surface_series(
         step = max(1, _CHUNK // max(int(chosen.sum()), shown))
         for i in range(0, m.size, step):
             part = m[i : i + step]
-            wave = 2.0 * weights[i : i + step] * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]) / part
+            wave = (
+                2.0 * weights[i : i + step] * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]) / part
+            )
             out[chosen] += np.real(np.exp(1j * np.multiply.outer(x[chosen], part)) @ wave)
     return out

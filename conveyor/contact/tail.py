@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,10 @@ Array = NDArray[np.float64]
 
 _BLOCK = 64
 _SEGMENT = 4096  # orders whose tables are held together
-_SMOOTH, _PLAIN = 8, 4  # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
+_SMOOTH, _PLAIN = (
+    8,
+    4,
+)  # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
 
 
 def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:
@@ -77,11 +81,13 @@ def _root(linear: Array, constant: Array | float) -> Array:
 class _Segment:
     """Blocks of `block` orders between `first` and `last` of one half width; arrays over blocks k, orders m, terms t.
 
-    `rows` are the equations of a block's own x, `up` = d I_i K_l with l the order below the block, `down` = K_i/K_n with
-    n its highest, `across` = K_l/K_n, `sign` = (-1)^i.
+    `rows` are the equations of a block's own x, `up` = d I_i K_l with l the order below the block, `down` = K_i/K_n
+    with n its highest, `across` = K_l/K_n, `sign` = (-1)^i.
     """
 
-    def __init__(self, creep: tuple[float, Array, Array], alpha: float, first: int, last: int, block: int) -> None:
+    def __init__(
+        self, creep: tuple[float, Array, Array], alpha: float, first: int, last: int, block: int
+    ) -> None:
         instantaneous, weights, times = creep
         b = alpha / times
         upper, lower = neighbour_ratios(first - 1, last, b)
@@ -95,7 +101,7 @@ class _Segment:
         self.up = weights * diagonal[:-1].reshape(shape)[:, :1] * np.cumprod(rising, axis=1)
         back = np.cumprod(falling[:, ::-1], axis=1)[:, ::-1]
         self.down = np.concatenate([back[:, 1:], np.ones_like(back[:, :1])], axis=1)
-        self.across = back[:, 0]
+        self.across: Array = back[:, 0]
         orders = v[1:].reshape(shape[:2])
         self.sign = np.where(orders % 2.0 == 0.0, 1.0, -1.0)[..., None]
         self.rows = np.zeros((*shape[:2], block))
@@ -199,7 +205,9 @@ class Tail:
         x = np.arange(1.0, self.last + 1.0) * c
         weights = self.creep.weights * self.creep.times
         falling = ik.falling(self.core)[1:, 0]
-        below = np.stack([falling[parity::2].T @ x[parity : self.core : 2] for parity in (0, 1)])  # odd, even orders
+        below = np.stack(
+            [falling[parity::2].T @ x[parity : self.core : 2] for parity in (0, 1)]
+        )  # odd, even orders
         total = 0.0
         for low, high in _segments(self.core, self.last):
             segment = _Segment((0.0, weights, self.creep.times), self.alpha, low, high, _BLOCK)
@@ -226,7 +234,7 @@ def _closing(order: int, ik: ProductIK, v: Array) -> Array:
 def _segments(core: int, last: int) -> Iterator[tuple[int, int]]:
     """Ranges of orders, of whole blocks."""
     edges = [core, *range(_SEGMENT, last, _SEGMENT), last]
-    yield from zip(edges[:-1], edges[1:], strict=True)
+    yield from pairwise(edges)
 
 
 def _eliminated(segment: _Segment, k: int, v: Array) -> tuple[Array, Array]:
