@@ -23,7 +23,18 @@ from conveyor.contact.closed_forms import (
     plane_modulus,
 )
 from conveyor.dynamics.published import harrison, lodewijks, nordell_ciozda
-from conveyor.laws import loading, power, pulley, resistance, tension, transition, waves
+from conveyor.laws import (
+    drives,
+    loading,
+    power,
+    pulley,
+    resistance,
+    roll_life,
+    take_up,
+    tension,
+    transition,
+    waves,
+)
 from conveyor.rubber.prony import PronySeries
 
 _PROTOTYPE = "Bessel-Galerkin prototype"
@@ -32,6 +43,9 @@ _HUNTER = "Hunter (1961)"
 _CONTACT = "CONTACT program"
 _ISO = "ISO 5048 worked example"
 _HELIX = "Helix shaft report"
+_HELIX_PRINTED = "Helix delta-T reports"
+_SHORTT = "Shortt (2019), idler of 127 mm, bearings 6305"
+_NEMA = "NEMA MG 10, table 2-3"
 _TRANSITION = "ISO 5293:2004"
 _LEMMON = "Lemmon (2013), finite elements"
 _IDENTITY = "J*(ω) E*(ω) = 1"
@@ -161,8 +175,8 @@ def run() -> list[ReferenceCheck]:
     Returns
     -------
     list of Check
-        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, compliance times modulus,
-        starts and stops.
+        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, roll, take-up, motor,
+        transition, compliance times modulus, starts and stops.
 
     Examples
     --------
@@ -176,6 +190,9 @@ def run() -> list[ReferenceCheck]:
         _contact_program(),
         _iso_5048(),
         _pulley_shaft(),
+        _idler_roll(),
+        _take_up_and_sag(),
+        _motor_starts(),
         _transition(),
         _compliance_identity(),
         _starts_and_stops(),
@@ -330,6 +347,42 @@ def _pulley_shaft() -> Iterator[ReferenceCheck]:
     yield _printed(_HELIX, "half resultant, start [kN]", "169.76", pull(*start) / 2e3)
     yield _printed(_HELIX, "bending moment at the hub [kN m]", "64.58", moment / 1e3)
     yield _printed(_HELIX, "torque [N m]", "1748", 0.5 * (start[1] - start[0]) * 0.874)
+
+
+def _idler_roll() -> Iterator[ReferenceCheck]:
+    """2000 t/h at 3.8 m/s on rolls of 127 mm, both bearings of the middle roll alike."""
+    bulk = loading.bulk_line_mass(2000.0 / 3.6, belt_speed=3.8)
+    rotation = resistance.roll_rotation(3.8, roll_diameter=0.127)
+    # the load of a bearing that lives so long: L10 falls with its third power
+    hours = roll_life.rating_life_hours(1e3, dynamic_rating=26e3, rotation=rotation)
+    load = 2.0 * 1e3 * (hours / 40e3) ** (1.0 / roll_life.BALL_EXPONENT)
+    yield _printed(_SHORTT, "bulk [kg/m]", "146.199", bulk)
+    yield _printed(_SHORTT, "load of the roll that lives 40,000 h [kN]", "4.680", load / 1e3)
+
+
+def _take_up_and_sag() -> Iterator[ReferenceCheck]:
+    """Take-up tension of printed masses, and tension for the sag of belt and bulk; g 9.80665 m/s²."""
+    g = 9.80665
+    for name, mass, strands, figure in (
+        ("Curragh North C3, 13 t", 13e3, 2, "63.74"), ("PC01, 17 t", 17e3, 2, "83.36"), ("BC-01, 2 t", 2e3, 2, "9.81"),
+        ("20 t on 4 strands", 20e3, 4, "49.0"), ("46.9 t on 4 strands", 46.9e3, 4, "115"),
+    ):  # fmt: skip
+        one = take_up.take_up_mass(1.0, reeving=1.0, gravity=g, strands=strands)
+        yield _printed(_HELIX_PRINTED, f"tension of the take-up, {name} [kN]", figure, mass / one / 1e3)
+    for name, line_mass, flow, speed, spacing, sag, figure in (
+        ("Curragh North C3", 30.0, 2500.0, 7.5, 5.0, 0.02, "37.57"),
+        ("PC01", 39.62, 1000.0, 5.2, 1.2, 0.015, "9.12"), ("BC-01", 11.06, 120.0, 1.0, 1.2, 0.015, "4.35"),
+    ):  # fmt: skip
+        whole = line_mass + loading.bulk_line_mass(flow / 3.6, belt_speed=speed)
+        least = tension.sag_tension(whole, spacing=spacing, relative_sag=sag, gravity=g)
+        yield _printed(_HELIX_PRINTED, f"tension for {100 * sag:g} % sag, {name} [kN]", figure, least / 1e3)
+
+
+def _motor_starts() -> Iterator[ReferenceCheck]:
+    """25 hp, 4 poles, load Wk² 50 lb ft², as the EASA handbook works it out."""
+    load = 50.0 * 0.45359237 * 0.3048**2
+    starts = drives.allowed_starts(25.0 * drives.HORSEPOWER, poles=4, load_inertia=load)
+    yield _printed(_NEMA, "starts an hour, 25 hp, 4 poles, 50 lb ft²", "2.44", starts)
 
 
 def _transition() -> Iterator[ReferenceCheck]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from conveyor.errors import RangeError
+from conveyor.laws.idlers import rated_set_load
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
@@ -25,6 +26,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _rolls_span,
         _flow_fits,
         _sets_apart,
+        _classes_exist,
         _covers_thin,
         _warm_enough,
         _feeding_fits,
@@ -109,6 +111,22 @@ def _rounded(value: Quantity, *, down: bool) -> str:
     step = 10.0 ** (math.floor(math.log10(number)) - 2)
     whole = math.floor(number / step) if down else math.ceil(number / step)
     return f"{whole * step:.6g} {unit}"
+
+
+def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A class has ratings for the belt's width, the rolls of the set and their trough."""
+    for strand, idlers in _sets(conveyor):
+        if idlers.cema_class is None:
+            continue
+        try:
+            rated_set_load(
+                idlers.cema_class,
+                belt_width=conveyor.belt_width,
+                trough_angle=si(idlers.trough_angle),
+                rolls=idlers.rolls,
+            )
+        except RangeError as error:
+            yield Problem(("idlers", strand, "cema_class"), f"{error}; give rating, of its maker, instead")
 
 
 def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:

@@ -245,10 +245,12 @@ class TakeUp(Model):
     """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
     reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
     """Travel kept beyond what is computed, over it."""
+    travel: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    """Way that the carriage has; not checked without it."""
     carriage_mass: Annotated[Mass, Bounds(ge="0 kg", le="1000 t")] = quantity("0 kg")
     """What moves with the carriage beside the weight, for scenarios."""
     winch_speed: Annotated[Speed, Bounds(gt="0 m/s", le="10 m/s")] | None = None
-    """Of the carriage on its winch, for scenarios; without it a winch keeps its pull whatever happens."""
+    """Of the carriage on its winch, checked against what a start asks for; without it a winch always keeps its pull."""
     winch_band: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(0.1, "fraction")
     """Of the tension, up and down, within which the winch rests."""
 

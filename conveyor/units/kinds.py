@@ -63,7 +63,7 @@ KINDS: dict[str, Kind] = {
     "angular frequency": Kind("an angular frequency", "rad/s", "63 rad/s", "rad/s", "rad/s"),
     "rotation": Kind("a rotational speed", "rpm", "650 rpm", "rpm", "rpm"),
     "force per rotation": Kind("a force per rotational speed", "N/rpm", "0.001 N/rpm", "N/rpm", "N/rpm"),
-    "moment": Kind("a moment", "N*m N*mm lbf*in", "0.02 N*m", "N*m", "lbf*in"),
+    "moment": Kind("a moment", "N*m kN*m MN*m N*mm lbf*in lbf*ft", "0.02 N*m", "N*m", "lbf*in"),
     "inertia": Kind("a moment of inertia", "kg*m^2 lb*ft^2", "12 kg*m^2", "kg*m^2", "lb*ft^2"),
     "bending stiffness": Kind("a bending stiffness", "N*m^2 lbf*in^2", "30 N*m^2", "N*m^2", "lbf*in^2"),
     "viscosity": Kind("a kinematic viscosity", "mm^2/s cSt m^2/s", "100 mm^2/s", "mm^2/s", "cSt"),
