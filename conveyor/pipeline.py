@@ -45,6 +45,7 @@ from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
@@ -205,6 +206,21 @@ class CalculatedConveyor:
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:
         """Loads of every pulley in every state, its shaft, bearings and lagging."""
         return pulley_duty(self.balance, self.every_state)
+
+    @cached_property
+    def landings(self) -> tuple[Landing, ...]:
+        """Impact and skirts of every loading point."""
+        return landings(self.line)
+
+    @cached_property
+    def cleanings(self) -> tuple[Cleaning, ...]:
+        """What every cleaner leaves on the belt."""
+        return cleanings(self.line)
+
+    @cached_property
+    def trajectory(self) -> Trajectory | None:
+        """The stream over the head pulley, where the spec asks for it."""
+        return trajectory(self.line)
 
     @cached_property
     def year(self) -> Year | None:
