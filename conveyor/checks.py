@@ -534,6 +534,62 @@ def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -
     return compared(key, subject, length, "at least", least, "length", why=why)
 
 
+def impact_load(found: CalculatedConveyor) -> Iterator[Check]:
+    """Where bulk falls, the sets bear what rests on them with the impact; of loading points that give the drop."""
+    for landing in found.landings:
+        point, load = landing.point, landing.load
+        if load is None:
+            continue
+        missing = "load that a set there bears (idler_rating) not given"
+        if point.lump_mass is not None and landing.lump is None:
+            missing = "spring rate for the lump (idler_stiffness) not given"
+        rating = None if point.lump_mass is not None and landing.lump is None else point.idler_rating
+        why = said(
+            f"the bulk lands on sets{quoted(point.name)} with {{}}, they bear {{}}: less drop, sets closer together "
+            "(stream) or softer (lumps), a heavier series",
+            (load, "force"),
+            (point.idler_rating or 0.0, "force"),
+        )
+        yield compared(
+            "impact_load", f"load of an impact set{quoted(point.name)}", load, "at most", rating, "force",
+            source="its maker", missing=missing, why=why,
+        )  # fmt: skip
+
+
+def skirtboards(found: CalculatedConveyor) -> Iterator[Check]:
+    """Skirtboards reach at least as far as the belt accelerates the bulk; of loading points that give their length."""
+    for landing in found.landings:
+        point = landing.point
+        if point.skirtboards is not None:
+            why = said(
+                f"the skirtboards{quoted(point.name)} end {{}} behind the place of loading, the bulk has the belt's "
+                "speed after {}: longer ones, or bulk that lands faster",
+                (point.skirtboards, "length"),
+                (landing.acceleration, "length"),
+            )
+            yield compared(
+                "skirtboards", f"length of the skirtboards{quoted(point.name)}", point.skirtboards, "at least",
+                landing.acceleration, "length", source="zone of acceleration, ISO 5048", why=why,
+            )  # fmt: skip
+
+
+def belt_cleaning(found: CalculatedConveyor) -> Iterator[Check]:
+    """The cleaners leave no more on the belt than is allowed; where the spec says what clings to it."""
+    on_belt, allowed = found.line.carryback
+    if on_belt is not None:
+        left = found.cleanings[-1].left if found.cleanings else None
+        left = on_belt if left is None else left
+        why = said(
+            "the cleaners leave {} on the belt, {} is allowed: one more, or better ones",
+            (left, "area mass"),
+            (allowed or 0.0, "area mass"),
+        )
+        yield compared(
+            "belt_cleaning", "bulk left on the belt behind its cleaners", left, "at most", allowed, "area mass",
+            missing="carryback_allowed not given", why=why,
+        )  # fmt: skip
+
+
 def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
     """The shaft of every pulley that gives its distances bears bending and torsion, and bends little at the hubs."""
     for duty in found.pulley_duty:
@@ -987,6 +1043,9 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     pulley_diameter,
     curve_radius,
     transitions,
+    impact_load,
+    skirtboards,
+    belt_cleaning,
     pulley_shaft,
     pulley_bearings,
     lagging,

@@ -47,6 +47,7 @@ from conveyor.loop.set_duty import SetDuty, set_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
@@ -217,6 +218,21 @@ class CalculatedConveyor:
     def set_duty(self) -> tuple[SetDuty, ...]:
         """Load, axles, life and flap of the idler sets whose spec asks for them."""
         return set_duty(self.balance)
+
+    @cached_property
+    def landings(self) -> tuple[Landing, ...]:
+        """Impact and skirts of every loading point."""
+        return landings(self.line)
+
+    @cached_property
+    def cleanings(self) -> tuple[Cleaning, ...]:
+        """What every cleaner leaves on the belt."""
+        return cleanings(self.line)
+
+    @cached_property
+    def trajectory(self) -> Trajectory | None:
+        """The stream over the head pulley, where the spec asks for it."""
+        return trajectory(self.line)
 
     @cached_property
     def year(self) -> Year | None:

@@ -30,6 +30,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _covers_thin,
         _warm_enough,
         _feeding_fits,
+        _discharges,
         _drives_placed,
         _inertia_reduced,
         _coefficient_holds,
@@ -196,6 +197,17 @@ def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
                 ("route", *location),
                 f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
             )
+
+
+def _discharges(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A trajectory leaves over a pulley of known diameter."""
+    route = conveyor.route
+    if route.discharge is None or route.discharge.pulley_diameter is not None:
+        return
+    usual = not route.pulleys and conveyor.calculation.not_given == "usual values"
+    if not usual and all(pulley.position != "head" for pulley in route.pulleys):
+        message = "missing: no pulley of route.pulleys stands at the head; give the diameter, or the pulley"
+        yield Problem(("route", "discharge", "pulley_diameter"), message)
 
 
 def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:

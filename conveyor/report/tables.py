@@ -57,6 +57,8 @@ from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
+from conveyor.report.transfer_tables import drawing as of_discharge
+from conveyor.report.transfer_tables import of_transfer
 from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
@@ -129,6 +131,7 @@ def of_analysis(
         pulley_states(analysis, studies),
         vertical_curves(analysis),
         transitions(analysis),
+        *of_transfer(analysis),
         convergence(analysis),
         *studied,
         what_if(analysis, studies, maximum_motor_power(analysis, studies)),
@@ -1416,6 +1419,7 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
+    yield from of_discharge(a, system)
     yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
