@@ -1,10 +1,11 @@
 """Where tension acts on the rolls and their resistance adds to the tension, until both agree.
 
-On vertical curves it presses on them; everywhere it holds a belt that gives.
+On vertical curves it presses on them, on horizontal ones it draws the belt across; everywhere it holds a belt that gives.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from conveyor.errors import NoSolutionError
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
-from conveyor.line.stretches import Strand, Stretch
+from conveyor.line.stretches import Acting, Strand, Stretch
 from conveyor.loop.tensions import MotionState
 
 Array = NDArray[np.float64]
@@ -77,14 +78,14 @@ def converged(
     if found.steps >= MOST_STEPS and not found.settled(line.rtol):
         raise NoSolutionError(
             f"tensions and what they do to the rolls do not settle in {MOST_STEPS} steps (last change {change:.2g}): "
-            "choose larger radii of vertical curves"
+            "choose larger radii of curves"
         )
     return found
 
 
 def _acting(line: Line) -> NDArray[np.bool_]:
     """Stretches whose rolls feel the tension, in loop order, shape (2n,)."""
-    curved = {section.name for section in line.sections if section.curve is not None}
+    curved = {section.name for section in line.sections if section.curved}
     return np.array([line.support == "belt" or stretch.section in curved for stretch in line.loop.stretches])
 
 
@@ -126,14 +127,43 @@ def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, 
             yield stretch, radii[stretch.section], tension
 
 
+def pull_inside(line: Line, stretch: Stretch, tension: float) -> float:
+    """What the tension draws one set's belt to the inside of a horizontal curve [N]; none on the straight."""
+    return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.radius)
+
+
+def pushed_down(line: Line, stretch: Stretch, tension: float) -> float:
+    """What it presses on one set of a horizontal curve that is vertical too [N]; negative where it lifts."""
+    return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.vertical)
+
+
+def _on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
+    pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
+    return math.copysign(curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing), pull * radius)
+
+
+def acting(line: Line, steady: MotionState) -> Acting:
+    """What the tensions of steady running do on curves."""
+    return Acting(pressing_masses(line, steady), drifts(line, steady))
+
+
+def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
+    """Drift of the belt to the inside of every horizontal curve [m]; infinite where it runs off its rolls."""
+    found = {}
+    for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True):
+        if stretch.turn is not None:
+            tension = 0.5 * float(start + end)
+            law = stretch.turn.law(pushed_down(line, stretch, tension), least=False)
+            found[stretch.section, stretch.strand] = law.drift(pull_inside(line, stretch, tension))
+    return found
+
+
 def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     """Mass per length like which tension presses on the rolls of every curve [kg/m]; negative where it lifts."""
     pressing = {}
     for stretch, radius, tension in _curve_tensions(line, steady):
-        pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
-        force = curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing)
         pressing[stretch.section, stretch.strand] = curve_belt_mass(
-            force if pull >= 0.0 else -force,
+            _on_set(line, stretch, tension, radius),
             spacing=stretch.spacing,
             inclination=stretch.inclination,
             gravity=line.gravity,
