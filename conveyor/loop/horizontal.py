@@ -73,6 +73,16 @@ class BendCheck:
     least: float | None = None
 
     @property
+    def kind(self) -> str:
+        """What curve it is."""
+        return "horizontal"
+
+    @property
+    def radius(self) -> float:
+        """As given [m]."""
+        return self.turn.radius
+
+    @property
     def farthest_in(self) -> BendState:
         """The state that drifts farthest to the inside."""
         return max(self.states, key=lambda state: (state.inside, state.least))
