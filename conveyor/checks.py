@@ -21,7 +21,7 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
-from conveyor.loop.horizontal import BendCheck, BendState
+from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.pipeline import CalculatedConveyor
@@ -407,7 +407,7 @@ def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
                 yield _radius(curve, least, fine, bad)
 
 
-def _radius(curve: CurveCheck | BendCheck, least: float, fine: str, bad: str) -> Check:
+def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: str) -> Check:
     section = quoted(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -424,9 +424,9 @@ def _radius(curve: CurveCheck | BendCheck, least: float, fine: str, bad: str) ->
     )
 
 
-def bend_edges(found: CalculatedConveyor) -> Iterator[Check]:
+def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
-    for bend in found.bends:
+    for bend in found.horizontal:
         for least, fine, bad in (
             (bend.overstress, "outer edge not overstressed", "the outer edge of the belt is overstressed"),
             (bend.buckling, "inner edge not slack", "the inner edge of the belt goes slack"),
@@ -437,7 +437,7 @@ def bend_edges(found: CalculatedConveyor) -> Iterator[Check]:
 
 def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve and state of motion the belt's edges stay on their rolls, with the wind given."""
-    for bend in found.bends:
+    for bend in found.horizontal:
         inside, outside = bend.farthest_in, bend.farthest_out
         cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
         if math.isinf(inside.least):
@@ -449,7 +449,7 @@ def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
         yield _drift(bend, outside, "outside", -outside.outside, cure)
 
 
-def _drift(bend: BendCheck, state: BendState, way: str, drift: float, cure: Said) -> Check:
+def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cure: Said) -> Check:
     room, section = bend.turn.room, quoted(bend.section)
     off = math.isinf(drift)
     how = said("runs off its rolls" if off else "drifts by {}", *(() if off else ((drift, "thickness"),)))
@@ -799,7 +799,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     splice_strength,
     pulley_diameter,
     curve_radius,
-    bend_edges,
+    horizontal_edges,
     belt_drift,
     transitions,
     pulley_shaft,

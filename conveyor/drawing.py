@@ -74,9 +74,9 @@ class AnalysisPlots:
         InputError
             The route has no horizontal curve.
         """
-        if not self.analysis.bends:
+        if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
-        return loop_plots.drift([("as given", self.analysis.bends)], system=self._in(system))
+        return loop_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""

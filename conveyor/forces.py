@@ -158,8 +158,8 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that neither rubber nor air changes [N], shape (2n,).
 
-    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main resistances; `unit_main` is the main resistance that
-    DIN 22101 gives for f = 1.
+    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
+    resistances; `unit_main` is the main resistance that DIN 22101 gives for f = 1.
     """
 
     tilt: Array
@@ -257,7 +257,9 @@ def _guidance(stretch: Stretch, _gravity: float) -> float:
 def _guiding(fixed: WithoutRubber) -> Iterator[Force]:
     if fixed.guidance is not None:
         law = "guiding friction x sine of the skew, derived"
-        yield Force("guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance")
+        yield Force(
+            "guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance"
+        )
 
 
 def _lift(stretch: Stretch, gravity: float) -> float:

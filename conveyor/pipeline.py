@@ -3,8 +3,8 @@
 spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
 
 Many variants go through it side by side: their contacts are solved together; what several of them share (a line, a
-rubber at a temperature, a cover at its working strain) is made once. On curves, and under a belt that gives, the tensions
-act on the rolls again until both agree.
+rubber at a temperature, a cover at its working strain) is made once. On curves, and under a belt that gives, the
+tensions act on the rolls again until both agree.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.frame import Frame
-from conveyor.loop.horizontal import BendCheck, bend_checks
+from conveyor.loop.horizontal import HorizontalCheck, horizontal_checks
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
@@ -203,9 +203,9 @@ class CalculatedConveyor:
         return belt_duty(self.balance, self.every_state)
 
     @cached_property
-    def bends(self) -> tuple[BendCheck, ...]:
+    def horizontal(self) -> tuple[HorizontalCheck, ...]:
         """Every horizontal curve on both strands: drift in every state, radii, tensions of the edges."""
-        return bend_checks(self.balance, self.every_state)
+        return horizontal_checks(self.balance, self.every_state)
 
     @cached_property
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:

@@ -1,8 +1,8 @@
 """Horizontal curves: what draws the belt inside, what holds it, how far it drifts on its rolls.
 
-Sources: Grimmer, Kessler, Spezielle Betrachtungen zur Gurtführung bei Gurtförderern mit Horizontalkurven (1987), Parts I
-and II, by the forms and figures that the open library eytelwein 0.1.9 gives for them; the paper itself was not read. What
-is derived here says so.
+Sources: Grimmer, Kessler, Spezielle Betrachtungen zur Gurtführung bei Gurtförderern mit Horizontalkurven (1987), Parts
+I and II, by the forms and figures that the open library eytelwein 0.1.9 gives for them; the paper itself was not read.
+What is derived here says so.
 """
 
 from __future__ import annotations
@@ -59,12 +59,15 @@ def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
 
     Notes
     -----
-    Derived: brush model of a rolling contact with parabolic pressure (as of tyres), without turning slip. ISO 5048 takes
-    the full μ at any tilt.
+    Derived: brush model of a rolling contact with parabolic pressure (as of tyres), without turning slip. ISO 5048
+    takes the full μ at any tilt.
 
     Examples
     --------
-    >>> round(guide_friction(0.5, friction=0.4, full_slip=1.0), 12), guide_friction(-2.0, friction=0.4, full_slip=1.0)
+    >>> (
+    ...     round(guide_friction(0.5, friction=0.4, full_slip=1.0), 12),
+    ...     guide_friction(-2.0, friction=0.4, full_slip=1.0),
+    ... )
     (0.35, -0.4)
     """
     require_finite(tilt=tilt)
@@ -80,8 +83,8 @@ def outward_pushes(
 ) -> tuple[float, ...]:
     """Force to the outside of the curve over the weight on each roll, from the inside roll outward.
 
-    Inside sin(λ+β) + κ cos(λ+β), middle sin β + κ_m cos β, outside -sin(λ-β) + κ cos(λ-β); the belt that slides down the
-    wings presses on the middle roll with sin(λ±β) sin λ, which κ_m adds to theirs.
+    Inside sin(λ+β) + κ cos(λ+β), middle sin β + κ_m cos β, outside -sin(λ-β) + κ cos(λ-β); the belt that slides down
+    the wings presses on the middle roll with sin(λ±β) sin λ, which κ_m adds to theirs.
 
     Parameters
     ----------
@@ -104,8 +107,8 @@ def outward_pushes(
 
     Notes
     -----
-    Grimmer, Kessler, Part II ("improved"), their load factors 1: the weight on a wing acts along the wing in full, as of a
-    belt that passes the corner without friction. Part I takes cos λ of it.
+    Grimmer, Kessler, Part II ("improved"), their load factors 1: the weight on a wing acts along the wing in full, as
+    of a belt that passes the corner without friction. Part I takes cos λ of it.
 
     Examples
     --------
@@ -123,7 +126,7 @@ def outward_pushes(
         math.sin(inside) + frictions[0] * math.cos(inside),
         -math.sin(outside) + frictions[-1] * math.cos(outside),
     )
-    if len(frictions) == 2:  # noqa: PLR2004 two rolls
+    if len(frictions) == 2:
         return wings
     middle, pressed = frictions[1], frictions[1] * math.sin(trough_angle)
     return (
@@ -173,12 +176,17 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     if drift < 0.0:
         return tuple(reversed(drifted_loads(loads[::-1], -drift, roll_length=roll_length)))
     left = loads[-1]
-    require(drift <= left.length, "drift", drift, f"at most the {left.length:.4g} m of belt on the wing are needed")
+    require(
+        drift <= left.length,
+        "drift",
+        drift,
+        f"at most the {left.length:.4g} m of belt on the wing are needed",
+    )
     over = drift / left.length
     bulk = left.bulk_force * (over * (2.0 - over) if left.shape == "triangular" else over)
     belt = left.belt_force * over
     made = [_with(left, -bulk, -belt, left.length - drift)]
-    if len(loads) == 3:  # noqa: PLR2004 three rolls
+    if len(loads) == 3:
         middle = loads[1]
         passed = drift / middle.length
         bulk_on, belt_on = middle.bulk_force * passed, middle.belt_force * passed
@@ -188,9 +196,7 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
 
 
 def _with(load: RollLoad, bulk: float, belt: float, length: float) -> RollLoad:
-    return replace(
-        load, bulk_force=load.bulk_force + bulk, belt_force=load.belt_force + belt, length=length
-    )
+    return replace(load, bulk_force=load.bulk_force + bulk, belt_force=load.belt_force + belt, length=length)
 
 
 def outward_force(loads: Sequence[RollLoad], pushes: Sequence[float]) -> float:
@@ -231,7 +237,7 @@ class DriftLaw:
     centred : float
         Force with the centred belt [N].
     inward, outward : tuple of float
-        Slope [N/m] and curvature [N/m²] over the drift's size, and the drift at which the wing that is left is bare [m].
+        Slope [N/m] and curvature [N/m²] over the drift's size, and the drift at which the wing it leaves is bare [m].
     """
 
     centred: float
@@ -318,8 +324,8 @@ def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: flo
 
     Notes
     -----
-    Derived: plane sections. The strips of a vertical curve, `vertical_curve.overstress_radius` and `buckling_radius`, hold
-    with this distance.
+    Derived: plane sections. The strips of a vertical curve, `vertical_curve.overstress_radius` and `buckling_radius`,
+    hold with this distance.
 
     Examples
     --------

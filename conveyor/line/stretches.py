@@ -12,7 +12,7 @@ from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
 from conveyor.line.set_loads import SetLoads
-from conveyor.line.turns import Bend, Turn, turn
+from conveyor.line.turns import HorizontalCurve, Turn, turn
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
 
@@ -48,12 +48,12 @@ class RouteSection:
     spacing: Mapping[Strand, float | None]
     curve: str | None
     radius: float
-    bend: Bend | None
+    horizontal: HorizontalCurve | None
 
     @property
     def curved(self) -> bool:
         """Whether tension acts on its rolls by a curve."""
-        return self.curve is not None or self.bend is not None
+        return self.curve is not None or self.horizontal is not None
 
 
 def route_sections(conveyor: Conveyor) -> tuple[RouteSection, ...]:
@@ -73,7 +73,7 @@ def _route_section(section: Section) -> RouteSection:
         },
         curve=section.curve,
         radius=section.signed_radius,
-        bend=Bend.of(section),
+        horizontal=HorizontalCurve.of(section),
     )
 
 
@@ -146,9 +146,7 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(
-    conveyor: Conveyor, sections: Sequence[RouteSection], acting: Acting
-) -> tuple[Stretch, ...]:
+def stretches(conveyor: Conveyor, sections: Sequence[RouteSection], acting: Acting) -> tuple[Stretch, ...]:
     """Both strands of every section, SI, under what tension does on curves."""
     carry, back = _Strand(conveyor, "carry", acting), _Strand(conveyor, "return", acting)
     return (
@@ -242,18 +240,16 @@ class _Strand:
             turn=turned,
         )
 
-    def _turn(
-        self, section: RouteSection, spacing: float, inclination: float, flow: float
-    ) -> Turn | None:
+    def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> Turn | None:
         """The sets on a horizontal curve."""
-        if section.bend is None:
+        if section.horizontal is None:
             return None
         weights = self.set_loads.of(
             spacing=spacing, inclination=inclination, belt_mass=self.belt_mass, bulk_mass=flow, flow_mass=flow
         )
         wind, belt = self.conveyor.ambient.wind_speed, self.conveyor.belt
         return turn(
-            section.bend,
+            section.horizontal,
             self.idlers,
             self.strand,
             weights,

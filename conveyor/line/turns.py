@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from conveyor.errors import NoSolutionError
@@ -29,7 +29,7 @@ Loads = tuple[RollLoad, ...]
 
 
 @dataclass(frozen=True)
-class Bend:
+class HorizontalCurve:
     """A horizontal curve: its side in running direction of the carry strand, radius [m], banking and skew [rad]."""
 
     side: str
@@ -38,7 +38,7 @@ class Bend:
     skew: Mapping[str, float]
 
     @classmethod
-    def of(cls, section: Section) -> Bend | None:
+    def of(cls, section: Section) -> HorizontalCurve | None:
         """Return the SI view; None on the straight."""
         if section.horizontal_curve is None or section.horizontal_radius is None:
             return None
@@ -97,20 +97,23 @@ class Turn:
         """Outward force over the weight on each roll with the full guiding friction [-]."""
         return self._pushes(1.0)
 
+    @property
+    def _slopes(self) -> tuple[float, ...]:
+        """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
+        frictionless = (0.0,) * len(self.weights)
+        return outward_pushes(frictionless, trough_angle=self.trough_angle, banking_angle=self.banking)
+
     def law(self, pressing: float, *, least: bool) -> DriftLaw:
-        """How the set holds the belt, with what a vertical curve adds to one set [N], at the least or the full friction."""
+        """How the set holds the belt, a vertical curve pressing on it [N], at the least or the full friction."""
         belt = math.fsum(load.belt_force for load in self.weights)
-        loads = tuple(
-            RollLoad(w.name, w.bulk_force, w.belt_force * (1.0 + pressing / belt), w.length, w.shape)
-            for w in self.weights
-        )
+        loads = [replace(w, belt_force=w.belt_force * (1.0 + pressing / belt)) for w in self.weights]
         return DriftLaw.of(loads, self._pushes(LEAST_GUIDANCE) if least else self.pushes)
 
     def _pushes(self, share: float) -> tuple[float, ...]:
         """The wings' own tilt pushes to the middle, the skew of the set outward; a wing's axis turns by cos λ of it."""
         turned = self.skew * math.cos(self.trough_angle)
         tilts = [self.tilt_angle + turned, turned - self.tilt_angle]
-        if len(self.weights) == 3:  # noqa: PLR2004 three rolls
+        if len(self.weights) == 3:
             tilts.insert(1, self.skew)
         friction = share * ROLL_ON_BELT_FRICTION.value
         frictions = [guide_friction(e, friction=friction, full_slip=FULL_SLIP_TILT.value) for e in tilts]
@@ -120,15 +123,14 @@ class Turn:
         """Resistance of one set's skew: what its friction pushes outward, over the angle of the set [N]."""
         if self.skew == 0.0:
             return 0.0
-        bare = outward_pushes(
-            (0.0,) * len(self.weights), trough_angle=self.trough_angle, banking_angle=self.banking
-        )
-        guided = [with_it - without for with_it, without in zip(self.pushes, bare, strict=True)]
+        guided = [with_it - without for with_it, without in zip(self.pushes, self._slopes, strict=True)]
         loads = drifted_loads(self.weights, self.drift, roll_length=self.roll_length)
         return outward_force(loads, guided) * math.sin(self.skew)
 
     def drifted(self, loads: Loads, *, where: str) -> Loads:
         """Loads of the rolls, left to right, once the belt has drifted.
+
+        The pull that the set balances there presses the belt into the inside wing and lifts it from the other.
 
         Raises
         ------
@@ -142,15 +144,18 @@ class Turn:
                 f"the belt runs off its rolls to the {way} of the horizontal curve in {where} in steady running: "
                 f"choose {cure} banking"
             )
-        inside_first = self.side == "left"
-        made = drifted_loads(
-            loads if inside_first else loads[::-1], self.drift, roll_length=self.roll_length
+        inside_first = loads if self.side == "left" else loads[::-1]
+        moved = drifted_loads(inside_first, self.drift, roll_length=self.roll_length)
+        pull, across = outward_force(moved, self.pushes), math.fsum(load.length for load in moved)
+        made = tuple(
+            replace(load, belt_force=load.belt_force + pull * load.length / across * slope)
+            for load, slope in zip(moved, self._slopes, strict=True)
         )
-        return made if inside_first else made[::-1]
+        return made if self.side == "left" else made[::-1]
 
 
 def turn(
-    bend: Bend,
+    given: HorizontalCurve,
     idlers: IdlerSet,
     strand: str,
     loads: Loads,
@@ -170,15 +175,15 @@ def turn(
             wind_speed, height=height, length=spacing, drag=WIND_DRAG.value, air_density=AIR_DENSITY
         )
     return Turn(
-        side=bend.side,
-        radius=bend.radius,
+        side=given.side,
+        radius=given.radius,
         vertical=vertical,
-        banking=bend.banking[strand],
-        skew=bend.skew[strand],
+        banking=given.banking[strand],
+        skew=given.skew[strand],
         trough_angle=trough,
         tilt_angle=si(idlers.tilt_angle),
         roll_length=si(idlers.roll.length),
-        weights=loads if bend.side == "left" else loads[::-1],
+        weights=loads if given.side == "left" else loads[::-1],
         drift=drift,
         wind=wind,
     )

@@ -1,6 +1,7 @@
 """Where tension acts on the rolls and their resistance adds to the tension, until both agree.
 
-On vertical curves it presses on them, on horizontal ones it draws the belt across; everywhere it holds a belt that gives.
+On vertical curves it presses on them, on horizontal ones it draws the belt across; everywhere it holds a belt that
+gives.
 """
 
 from __future__ import annotations

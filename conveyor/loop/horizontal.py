@@ -18,7 +18,7 @@ from conveyor.loop.tensions import MotionState
 
 
 @dataclass(frozen=True)
-class BendState:
+class DriftState:
     """A horizontal curve in a state of motion.
 
     Attributes
@@ -31,7 +31,8 @@ class BendState:
         Drift to the inside at the highest tension with the least guiding friction, at the lowest with the full one;
         with the wind the same way [m]. Negative outward, infinite where the belt runs off its rolls.
     least, most : float
-        Radii at which the belt stays on its rolls [m]: below the least it drifts too far in, above the most too far out.
+        Radii at which the belt stays on its rolls [m]: below the least it drifts too far in, above the most too far
+        out.
         Infinite where no radius is large enough, and where any is.
     """
 
@@ -45,7 +46,7 @@ class BendState:
 
 
 @dataclass(frozen=True)
-class BendCheck:
+class HorizontalCheck:
     """A horizontal curve on one strand.
 
     Attributes
@@ -54,7 +55,7 @@ class BendCheck:
         Where.
     turn : Turn
         The curve and its sets.
-    states : tuple of BendState
+    states : tuple of DriftState
         Every state of motion.
     overstress, buckling : float or None
         Least radii at which the outer edge is not overstressed, the inner one not slack [m]; infinite where none helps,
@@ -66,7 +67,7 @@ class BendCheck:
     section: str
     strand: Strand
     turn: Turn
-    states: tuple[BendState, ...]
+    states: tuple[DriftState, ...]
     overstress: float | None = None
     buckling: float | None = None
     most: float | None = None
@@ -83,17 +84,17 @@ class BendCheck:
         return self.turn.radius
 
     @property
-    def farthest_in(self) -> BendState:
+    def farthest_in(self) -> DriftState:
         """The state that drifts farthest to the inside."""
         return max(self.states, key=lambda state: (state.inside, state.least))
 
     @property
-    def farthest_out(self) -> BendState:
+    def farthest_out(self) -> DriftState:
         """The state that drifts farthest to the outside."""
         return min(self.states, key=lambda state: (state.outside, state.most))
 
 
-def bend_checks(found: Balance, states: Sequence[MotionState]) -> tuple[BendCheck, ...]:
+def horizontal_checks(found: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCheck, ...]:
     """Every horizontal curve on both strands in every state, carry strand first.
 
     Parameters
@@ -108,22 +109,22 @@ def bend_checks(found: Balance, states: Sequence[MotionState]) -> tuple[BendChec
     return tuple(check for i in order for check in _bend(line, line.loop.stretches[i], i, states))
 
 
-def _bend(line: Line, stretch: Stretch, i: int, states: Sequence[MotionState]) -> Iterator[BendCheck]:
+def _bend(line: Line, stretch: Stretch, i: int, states: Sequence[MotionState]) -> Iterator[HorizontalCheck]:
     if stretch.turn is None:
         return
     made = tuple(_state(line, stretch, stretch.turn, state, i) for state in states)
     lowest, highest = min(state.lowest for state in made), max(state.highest for state in made)
     edges = _edges(line, stretch, stretch.turn, lowest, highest)
-    yield BendCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
+    yield HorizontalCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
 
 
-def _state(line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int) -> BendState:
+def _state(line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int) -> DriftState:
     ends = float(state.starts[i]), float(state.ends[i])
     lowest, highest = max(0.0, min(ends)), max(0.0, *ends)
     weak = turn.law(pushed_down(line, stretch, highest), least=True)
     full = turn.law(pushed_down(line, stretch, lowest), least=False)
     drawn, slack = pull_inside(line, stretch, highest), pull_inside(line, stretch, lowest)
-    return BendState(
+    return DriftState(
         state=state.name,
         lowest=lowest,
         highest=highest,

@@ -260,8 +260,8 @@ def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
             )
         elif si(idlers.trough_angle) == 0.0:
             message = (
-                f'got {text(idlers.trough_angle)}, but section "{curved}" is a horizontal curve, in which nothing holds '
-                "a flat belt: take a trough"
+                f'got {text(idlers.trough_angle)}, but section "{curved}" is a horizontal curve, in which nothing '
+                "holds a flat belt: take a trough"
             )
             yield Problem(("idlers", strand, "trough_angle"), message)
 

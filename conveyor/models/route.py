@@ -134,13 +134,13 @@ class Section(Model):
             least = from_si(float(f"{si(self.length) / _MOST_TURN:.6g}"), "length", text(radius).split()[1])
             yield Problem(
                 ("horizontal_radius",),
-                f"got {text(radius)}, with which a section of {text(self.length)} turns by {math.degrees(turn):.0f} deg; "
-                f"at most 180 deg in a section: take {text(least)} or more, or a shorter section",
+                f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg, more than "
+                f"180 deg in a section: take {text(least)} or more, or a shorter section",
             )
         if side is None and radius is None:
             for name in ("carry_banking", "return_banking", "carry_skew", "return_skew"):
-                if getattr(self, name) is not None:
-                    message = f"got {text(getattr(self, name))} on the straight; give horizontal_curve and -radius, or remove it"
+                if (given := getattr(self, name)) is not None:
+                    message = f"got {text(given)} on the straight; give horizontal_curve and its radius, or remove it"
                     yield Problem((name,), message)
 
     @property

@@ -52,16 +52,17 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
         return
     slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
     yield (
-        "Horizontal curves: T - m' v² over the radius against the weights along the wings (Grimmer, Kessler 1987, Part II, "
-        "load factors 1); belt and bulk keep their place on each other as the belt drifts, and the rolls bear what then "
-        "lies over them. Each section has one drift, of its mean tension: divide long curves. Tilted and skewed rolls "
-        f"guide by friction of {friction:g} at most, reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % "
-        "is counted on; sets at the ends of a curve, where banking begins, and edge rolls are left out."
+        "Horizontal curves: T - m' v² over the radius against the weights along the wings (Grimmer, Kessler 1987, "
+        "Part II, load factors 1). Belt and bulk keep their place on each other as the belt drifts; the rolls bear "
+        "what then lies over them, and the part of the pull that is square to them. Each section has one drift, of its mean "
+        "tension: divide long curves. Tilted and skewed rolls guide by a friction of at most "
+        f"{friction:g}, reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
+        "into the banking at the ends of a curve, and edge rolls, are left out."
     )
     if conveyor.ambient.wind_speed is not None:
         yield (
-            f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across the "
-            "belt, either way; it lifts nothing, and no hood shelters."
+            f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across "
+            "the belt, either way; it lifts nothing, and no hood shelters."
         )
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from conveyor.line.line import Line
     from conveyor.line.stretches import RouteSection
     from conveyor.loop.balance import Balance
-    from conveyor.loop.horizontal import BendCheck
+    from conveyor.loop.horizontal import HorizontalCheck
     from conveyor.loop.starting import Motions
     from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor
@@ -98,7 +98,7 @@ def route_profile(
 def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
     """Steps of a section in plan (x, y) from its tail end [m], shape (k, 2), and the heading behind it [rad]."""
     level = math.sqrt(section.length**2 - section.rise**2)
-    bend = section.bend
+    bend = section.horizontal
     turned = 0.0 if bend is None else level / bend.radius * (1.0 if bend.side == "left" else -1.0)
     pieces = 1 if bend is None else _PIECES
     middles = heading + turned * (np.arange(pieces) + 0.5) / pieces
@@ -114,8 +114,10 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
         steps, heading = _drawn(section, heading)
         points = np.concatenate([[at], at + np.cumsum(steps, axis=0)])
         x, y = length(points.T)
-        label = "straight" if section.bend is None else "horizontal curve"
-        axis.plot(x, y, color="#1F4E79" if section.bend is None else "#A61C3C", linewidth=2, label=label)
+        label = "straight" if section.horizontal is None else "horizontal curve"
+        axis.plot(
+            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=2, label=label
+        )
         axis.plot(x[:1], y[:1], ".", color="0.3")
         at = points[-1]
     axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
@@ -128,7 +130,7 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
     return figure
 
 
-def drift(loads: Sequence[tuple[str, Sequence[BendCheck]]], *, system: System = "SI") -> Figure:
+def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
     """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
     bends, size = loads[0][1], unit("thickness", system)
     figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))

@@ -909,14 +909,22 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         Column("lowest at the inner edge", "strength", attrgetter("least")),
     )
     note = (
-        "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest tension, "
-        "all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off its rolls, "
-        "or no radius is too large."
+        "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
+        "its rolls, or no radius is too large."
     )
     if a.line.belt.stiffness is None:
         note += f" {_USUAL_STIFFNESS}"
     page = (OnPage("belt", "Horizontal curves"),)
-    return Table("horizontal_curves", "Loop", "Horizontal curves", columns, a.bends, page, note if a.bends else "")
+    return Table(
+        "horizontal_curves",
+        "Loop",
+        "Horizontal curves",
+        columns,
+        a.horizontal,
+        page,
+        note if a.horizontal else "",
+    )
 
 
 def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -924,8 +932,8 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     system = a.conveyor.report.units
     rows = tuple(
         (bend, label.text(system), state)
-        for label, found in (_loads(a, studies) if a.bends else ())
-        for bend in found.bends
+        for label, found in (_loads(a, studies) if a.horizontal else ())
+        for bend in found.horizontal
         for state in bend.states
     )
     columns = (
@@ -1331,7 +1339,7 @@ def drawings(
         lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
-    if a.bends:
+    if a.horizontal:
         yield Drawing(
             "plan",
             "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
@@ -1340,9 +1348,9 @@ def drawings(
         )
         yield Drawing(
             "drift",
-            "Drift of the belt in every horizontal curve, over all states of motion of a load; grey: room on the rolls.",
+            "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
             lambda: loop_plots.drift(
-                [(label.text(system), found.bends) for label, found in _loads(a, studies)], system=system
+                [(label.text(system), found.horizontal) for label, found in _loads(a, studies)], system=system
             ),
             "horizontal_curves",
         )
