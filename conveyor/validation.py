@@ -23,7 +23,7 @@ from conveyor.contact.closed_forms import (
     plane_modulus,
 )
 from conveyor.dynamics.published import harrison, lodewijks, nordell_ciozda
-from conveyor.laws import loading, power, pulley, resistance, tension, transition, waves
+from conveyor.laws import horizontal_curve, loading, power, pulley, resistance, tension, transition, waves
 from conveyor.rubber.prony import PronySeries
 
 _PROTOTYPE = "Bessel-Galerkin prototype"
@@ -33,6 +33,7 @@ _CONTACT = "CONTACT program"
 _ISO = "ISO 5048 worked example"
 _HELIX = "Helix shaft report"
 _TRANSITION = "ISO 5293:2004"
+_CURVE = "Grimmer, Kessler (1987), by eytelwein 0.1.9"
 _LEMMON = "Lemmon (2013), finite elements"
 _IDENTITY = "J*(ω) E*(ω) = 1"
 _SONG = "Song et al. (2012)"
@@ -63,6 +64,7 @@ _SHALLOW = 1e-3  # a0/R [-]: the circle differs from Hunter's parabola by its sq
 _SPARSE = 1e-3  # R/λ [-]: the neighbouring rolls act by the square of (α + ζ)
 _CLOSED_FORM_TOLERANCE = 1e-5
 _IDENTITY_TOLERANCE = 1e-12
+_CURVE_TOLERANCE = 1e-9  # ten digits given
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,8 +163,8 @@ def run() -> list[ReferenceCheck]:
     Returns
     -------
     list of Check
-        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, compliance times modulus,
-        starts and stops.
+        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, horizontal curve,
+        compliance times modulus, starts and stops.
 
     Examples
     --------
@@ -177,6 +179,7 @@ def run() -> list[ReferenceCheck]:
         _iso_5048(),
         _pulley_shaft(),
         _transition(),
+        _horizontal_curve(),
         _compliance_identity(),
         _starts_and_stops(),
     )
@@ -349,6 +352,34 @@ def _transition() -> Iterator[ReferenceCheck]:
     for where, printed, stretch in (("edge", 433.0, strips.edge), ("middle", 357.0, strips.middle)):
         here = (mean + stiff * stretch / length**2) / 1e3
         yield _close(_LEMMON, f"tension of the {where} [N/mm]", printed, here, 0.01)
+
+
+def _horizontal_curve() -> Iterator[ReferenceCheck]:
+    """Empty belt of 0.8 m that has drifted inside by 60 mm: 156.71475 N a set, 30 deg, banked by 1.46 deg."""
+    weight, wing, middle = 156.71475, 0.2425, 0.315
+    angles = {"trough_angle": math.radians(30.0), "banking_angle": math.radians(1.46)}
+    centred = [
+        loading.RollLoad("", 0.0, weight * width / 0.8, width, "uniform") for width in (wing, middle, wing)
+    ]
+    drifted = horizontal_curve.drifted_loads(centred, 0.06, roll_length=middle)
+    for name, width, load in zip(
+        ("inside", "middle", "outside"), (0.3025, 0.315, 0.1825), drifted, strict=True
+    ):
+        yield _close(_CURVE, f"belt on the {name} roll [m]", width, load.length, _IDENTITY_TOLERANCE)
+    bare = horizontal_curve.outward_pushes((0.0, 0.0, 0.0), **angles)
+    factors = (1.1, 0.9, 1.1)  # load factors of the wings and of the middle, Part II
+    weights = [k * load.force * push for k, load, push in zip(factors, drifted, bare, strict=True)]
+    for name, printed, got in zip(
+        ("inside", "middle", "outside"),
+        (34.0194976531535, 1.41499913142688, -18.7886810270471),
+        weights,
+        strict=True,
+    ):
+        yield _close(_CURVE, f"weight outward on the {name} roll [N]", printed, got, _CURVE_TOLERANCE)
+    yield _close(_CURVE, "weight outward, set [N]", 16.6458157575333, math.fsum(weights), _CURVE_TOLERANCE)
+    guided = horizontal_curve.outward_pushes((0.0, 0.70 * 0.279588668362082, 0.0), **angles)
+    force = horizontal_curve.outward_force(drifted, guided) - horizontal_curve.outward_force(drifted, bare)
+    yield _close(_CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE)
 
 
 def _compliance_identity() -> Iterator[ReferenceCheck]:

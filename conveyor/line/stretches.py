@@ -201,8 +201,9 @@ class _Strand:
         flow = self.full if self.carrying and section.loaded else 0.0
         flow *= self.flow_shares[section.name]
         pressing = self.acting.pressing.get((section.name, self.strand), 0.0)
-        where = f'section "{section.name}", {self.strand}'
-        belt_on_rolls, bulk_on_rolls = roll_masses(self.belt_mass, flow, pressing, where=where)
+        belt_on_rolls, bulk_on_rolls = roll_masses(
+            self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
+        )
         length = section.length
         rise = section.rise if self.carrying else -section.rise
         inclination = math.asin(rise / length)
@@ -215,7 +216,7 @@ class _Strand:
         )
         turned = self._turn(section, spacing, inclination, flow)
         if turned is not None:
-            loads = turned.drifted(loads, where=where)
+            loads = turned.drifted(loads)
         least = sag_tension(
             self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
         )

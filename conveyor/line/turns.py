@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from conveyor.errors import NoSolutionError
 from conveyor.laws.horizontal_curve import (
     AIR_DENSITY,
     FULL_SLIP_TILT,
@@ -127,23 +126,11 @@ class Turn:
         loads = drifted_loads(self.weights, self.drift, roll_length=self.roll_length)
         return outward_force(loads, guided) * math.sin(self.skew)
 
-    def drifted(self, loads: Loads, *, where: str) -> Loads:
+    def drifted(self, loads: Loads) -> Loads:
         """Loads of the rolls, left to right, once the belt has drifted.
 
         The pull that the set balances there presses the belt into the inside wing and lifts it from the other.
-
-        Raises
-        ------
-        NoSolutionError
-            The belt runs off its rolls.
         """
-        if math.isinf(self.drift):
-            way = "inside" if self.drift > 0.0 else "outside"
-            cure = "a larger horizontal_radius or more" if self.drift > 0.0 else "less"
-            raise NoSolutionError(
-                f"the belt runs off its rolls to the {way} of the horizontal curve in {where} in steady running: "
-                f"choose {cure} banking"
-            )
         inside_first = loads if self.side == "left" else loads[::-1]
         moved = drifted_loads(inside_first, self.drift, roll_length=self.roll_length)
         pull, across = outward_force(moved, self.pushes), math.fsum(load.length for load in moved)

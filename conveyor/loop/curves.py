@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
+from conveyor.laws.horizontal_curve import DriftLaw
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
 from conveyor.line.stretches import Acting, Strand, Stretch
@@ -149,14 +150,38 @@ def acting(line: Line, steady: MotionState) -> Acting:
 
 
 def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
-    """Drift of the belt to the inside of every horizontal curve [m]; infinite where it runs off its rolls."""
+    """Drift of the belt to the inside of every horizontal curve [m].
+
+    Raises
+    ------
+    NoSolutionError
+        The belt runs off its rolls.
+    """
     found = {}
     for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True):
         if stretch.turn is not None:
             tension = 0.5 * float(start + end)
             law = stretch.turn.law(pushed_down(line, stretch, tension), least=False)
-            found[stretch.section, stretch.strand] = law.drift(pull_inside(line, stretch, tension))
+            pull = pull_inside(line, stretch, tension)
+            drift = law.drift(pull)
+            if math.isinf(drift):
+                raise _runs_off(stretch, stretch.turn.radius, pull, law)
+            found[stretch.section, stretch.strand] = drift
     return found
+
+
+def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw) -> NoSolutionError:
+    """What to say of a belt that nothing holds in its curve; on the radius named a bare wing would just hold it."""
+    most = law.force(law.inward[-1])
+    way, cure = "outside", "less banking or skew"
+    if pull > law.centred:
+        way, cure = "inside", "more banking or a deeper trough"
+        if most > 0.0:
+            cure = f"a horizontal_radius well above {radius * pull / most:.4g} m, or {cure}"
+    return NoSolutionError(
+        f'the belt runs off its rolls to the {way} of the horizontal curve in section "{stretch.section}", '
+        f"{stretch.strand}, in steady running: choose {cure}"
+    )
 
 
 def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:

@@ -54,9 +54,9 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
     yield (
         "Horizontal curves: T - m' v² over the radius against the weights along the wings (Grimmer, Kessler 1987, "
         "Part II, load factors 1). Belt and bulk keep their place on each other as the belt drifts; the rolls bear "
-        "what then lies over them, and the part of the pull that is square to them. Each section has one drift, of its mean "
-        "tension: divide long curves. Tilted and skewed rolls guide by a friction of at most "
-        f"{friction:g}, reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
+        "what then lies over them, and the part of the pull that is square to them. Each section has one drift, of its "
+        f"mean tension: divide long curves. Tilted and skewed rolls guide by a friction of at most {friction:g}, "
+        f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
         "into the banking at the ends of a curve, and edge rolls, are left out."
     )
     if conveyor.ambient.wind_speed is not None:
