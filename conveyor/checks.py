@@ -23,6 +23,7 @@ from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
 from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
@@ -486,7 +487,7 @@ def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
                 yield _radius(curve, least, fine, bad)
 
 
-def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
+def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: str) -> Check:
     section = quoted(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -501,6 +502,47 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
         if helps
         else replace(made, verdict="FAIL", why=said(words + "no radius helps", (curve.radius, "length")))
     )
+
+
+def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
+    for bend in found.horizontal:
+        for least, fine, bad in (
+            (bend.overstress, "outer edge not overstressed", "the outer edge of the belt is overstressed"),
+            (bend.buckling, "inner edge not slack", "the inner edge of the belt goes slack"),
+        ):
+            if least is not None:
+                yield _radius(bend, least, fine, bad)
+
+
+def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve and state of motion the belt's edges stay on their rolls, with the wind given."""
+    for bend in found.horizontal:
+        inside, outside = bend.farthest_in, bend.farthest_out
+        cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
+        if math.isinf(inside.least):
+            cure = said("no radius helps: more banking, a deeper trough or less wind")
+        yield _drift(bend, inside, "inside", inside.inside, cure)
+        cure = said("less banking or skew")
+        if 0.0 < outside.most < math.inf:
+            cure = said("less banking or skew, or a radius of at most {}", (outside.most, "length"))
+        yield _drift(bend, outside, "outside", -outside.outside, cure)
+
+
+def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cure: Said) -> Check:
+    room, section = bend.turn.room, quoted(bend.section)
+    off = math.isinf(drift)
+    how = said("runs off its rolls" if off else "drifts by {}", *(() if off else ((drift, "thickness"),)))
+    why = Said(
+        f'section "{section}", {bend.strand}: the belt {how.words} to the {way} of the horizontal curve in the state '
+        f'"{quoted(state.state)}", {{}} are left on its rolls; {cure.words}',
+        (*how.figures, (room, "thickness"), *cure.figures),
+    )
+    made = compared(
+        "belt_drift", f"drift to the {way}, {section}, {bend.strand}", drift, "at most", room, "thickness",
+        source="end of the roll", found=how if off else None, why=why, where=state.state,
+    )  # fmt: skip
+    return replace(made, calculated=None) if off else made
 
 
 def transitions(found: CalculatedConveyor) -> Iterator[Check]:
@@ -534,6 +576,62 @@ def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -
         (least, "length"),
     )
     return compared(key, subject, length, "at least", least, "length", why=why)
+
+
+def impact_load(found: CalculatedConveyor) -> Iterator[Check]:
+    """Where bulk falls, the sets bear what rests on them with the impact; of loading points that give the drop."""
+    for landing in found.landings:
+        point, load = landing.point, landing.load
+        if load is None:
+            continue
+        missing = "load that a set there bears (idler_rating) not given"
+        if point.lump_mass is not None and landing.lump is None:
+            missing = "spring rate for the lump (idler_stiffness) not given"
+        rating = None if point.lump_mass is not None and landing.lump is None else point.idler_rating
+        why = said(
+            f"the bulk lands on sets{quoted(point.name)} with {{}}, they bear {{}}: less drop, sets closer together "
+            "(stream) or softer (lumps), a heavier series",
+            (load, "force"),
+            (point.idler_rating or 0.0, "force"),
+        )
+        yield compared(
+            "impact_load", f"load of an impact set{quoted(point.name)}", load, "at most", rating, "force",
+            source="its maker", missing=missing, why=why,
+        )  # fmt: skip
+
+
+def skirtboards(found: CalculatedConveyor) -> Iterator[Check]:
+    """Skirtboards reach at least as far as the belt accelerates the bulk; of loading points that give their length."""
+    for landing in found.landings:
+        point = landing.point
+        if point.skirtboards is not None:
+            why = said(
+                f"the skirtboards{quoted(point.name)} end {{}} behind the place of loading, the bulk has the belt's "
+                "speed after {}: longer ones, or bulk that lands faster",
+                (point.skirtboards, "length"),
+                (landing.acceleration, "length"),
+            )
+            yield compared(
+                "skirtboards", f"length of the skirtboards{quoted(point.name)}", point.skirtboards, "at least",
+                landing.acceleration, "length", source="zone of acceleration, ISO 5048", why=why,
+            )  # fmt: skip
+
+
+def belt_cleaning(found: CalculatedConveyor) -> Iterator[Check]:
+    """The cleaners leave no more on the belt than is allowed; where the spec says what clings to it."""
+    on_belt, allowed = found.line.carryback
+    if on_belt is not None:
+        left = found.cleanings[-1].left if found.cleanings else None
+        left = on_belt if left is None else left
+        why = said(
+            "the cleaners leave {} on the belt, {} is allowed: one more, or better ones",
+            (left, "area mass"),
+            (allowed or 0.0, "area mass"),
+        )
+        yield compared(
+            "belt_cleaning", "bulk left on the belt behind its cleaners", left, "at most", allowed, "area mass",
+            missing="carryback_allowed not given", why=why,
+        )  # fmt: skip
 
 
 def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
@@ -989,7 +1087,12 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_temperature,
     pulley_diameter,
     curve_radius,
+    horizontal_edges,
+    belt_drift,
     transitions,
+    impact_load,
+    skirtboards,
+    belt_cleaning,
     pulley_shaft,
     pulley_bearings,
     lagging,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
-from conveyor.laws.belt import Condition, least_cover
+from conveyor.laws.belt import Condition, fall_severity, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
@@ -96,7 +96,9 @@ class LoadingPoint:
 
     `section` is the number of the section that is fed, `comes_with` of that whose bulk lands: the same of fresh bulk,
     the one before of a tripper, whose `lift` is how high it raises the bulk [m], before the drives at `before`.
-    `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
+    `skirtboards` are as long as they stand, their seals drag with `seal_drag` [m, N/m]; the bulk falls `drop_height`
+    on sets `idler_spacing` apart, lumps of `lump_mass` on springs [m, kg, N/m]; `idler_rating` is what a set bears [N];
+    None not given. `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
     """
 
     name: str
@@ -113,19 +115,39 @@ class LoadingPoint:
     skirt_friction: float
     lift: float | None
     before: Spot
+    skirtboards: float | None
+    seal_drag: float
+    drop_height: float | None
+    lump_mass: float | None
+    idler_stiffness: float | None
+    idler_spacing: float | None
+    idler_rating: float | None
     assumed: bool = False
 
 
 @dataclass(frozen=True)
 class Scraper:
-    """A cleaner or several alike: width [m], area that touches the belt [m²], pressure [Pa], friction [-]."""
+    """A cleaner or several alike: width [m], touching area [m²], pressure [Pa], friction and share taken off [-]."""
 
+    kind: str | None
     count: int
     width: float
     area: float
     pressure: float
     friction: float
+    efficiency: float
     assumed: bool = False
+
+
+@dataclass(frozen=True)
+class HeadDischarge:
+    """Where the bulk leaves: slope of the belt [rad], diameter of the pulley, depth of the fall [m], frictions [-]."""
+
+    diameter: float
+    slope: float
+    drop: float
+    friction: float
+    sliding_friction: float
 
 
 @dataclass(frozen=True)
@@ -281,6 +303,8 @@ class Line:
         Secondary resistances one by one, or by the length coefficient.
     support, rtol, softened, flexure_share
         How the contacts are calculated; whether rubber is softened by its strain; share of flexure where it is one [-].
+    carryback : tuple of float or None
+        Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
     flexure_source : str
         What the flexure rests on, in words.
     """
@@ -294,6 +318,8 @@ class Line:
     gravity: float
     loading: tuple[LoadingPoint, ...]
     scrapers: tuple[Scraper, ...]
+    carryback: tuple[float | None, float | None]
+    discharge: HeadDischarge | None
     ploughs: tuple[PloughBlade, ...]
     pulleys: tuple[BendPulley, ...]
     transitions: tuple[TransitionZone, ...]
@@ -348,6 +374,8 @@ class Line:
             gravity=si(calculation.gravity),
             loading=_loading_points(conveyor, places),
             scrapers=_scrapers(conveyor),
+            carryback=(_known(conveyor.route.carryback), _known(conveyor.route.carryback_allowed)),
+            discharge=_discharge(conveyor),
             ploughs=_ploughs(conveyor, places),
             pulleys=_pulleys(conveyor, places),
             transitions=_transitions(conveyor),
@@ -391,8 +419,8 @@ class Line:
 
     @property
     def tension_acts(self) -> bool:
-        """Whether tension changes what the rolls feel: on a vertical curve, or by a belt that gives."""
-        return self.support == "belt" or any(section.curve for section in self.sections)
+        """Whether tension changes what the rolls feel: on a curve, or by a belt that gives."""
+        return self.support == "belt" or any(section.curved for section in self.sections)
 
     @property
     def length(self) -> float:
@@ -480,13 +508,15 @@ def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
     belt = conveyor.belt
     if belt.wear is None:
         return ()
+    feeding = conveyor.route.feeding
+    drop = 0.0 if feeding is None or feeding.drop_height is None else si(feeding.drop_height)
     least = least_cover(si(belt.carcass.thickness), steel_cord=belt.carcass.kind == "steel cord")
     wear = wear_addition(
         lump=si(belt.wear.lump),
         density=si(conveyor.material.density),
         round_time=2.0 * conveyor.route.length / si(belt.speed),
         abrasiveness=belt.wear.abrasiveness,
-        loading=belt.wear.severity,
+        loading=belt.wear.loading or fall_severity(drop),
     )
     return (
         CoverNeed("top", si(belt.top_cover.thickness), least, wear),
@@ -524,7 +554,29 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: boo
         skirt_friction=point.skirt_friction,
         lift=lift,
         before=before,
+        skirtboards=_known(point.skirtboards),
+        seal_drag=_given(point.seal_drag, 0.0),
+        drop_height=_known(point.drop_height),
+        lump_mass=_known(point.lump_mass),
+        idler_stiffness=_known(point.idler_stiffness),
+        idler_spacing=_known(point.idler_spacing),
+        idler_rating=_known(point.idler_rating),
         assumed=assumed,
+    )
+
+
+def _discharge(conveyor: Conveyor) -> HeadDischarge | None:
+    """Over the first pulley at the head, where its diameter is not given."""
+    given, last = conveyor.route.discharge, conveyor.route.sections[-1]
+    if given is None:
+        return None
+    at_head = (pulley.diameter for pulley in usual.pulleys(conveyor)[0] if pulley.position == "head")
+    return HeadDischarge(
+        diameter=si(given.pulley_diameter or next(at_head)),
+        slope=math.asin(last.rise / si(last.length)) if given.slope is None else si(given.slope),
+        drop=si(given.drop),
+        friction=given.friction,
+        sliding_friction=given.friction if given.sliding_friction is None else given.sliding_friction,
     )
 
 
@@ -537,11 +589,13 @@ def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
     cleaners, assumed = usual.cleaners(conveyor)
     return tuple(
         Scraper(
+            kind=cleaner.kind,
             count=cleaner.count,
             width=si(cleaner.width),
             area=si(cleaner.width) * si(cleaner.thickness),
             pressure=si(cleaner.pressure),
             friction=cleaner.friction,
+            efficiency=si(cleaner.efficiency),
             assumed=assumed,
         )
         for cleaner in cleaners

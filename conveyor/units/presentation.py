@@ -58,7 +58,8 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
         "torque": _Kind("N m", ",.0f"), "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
         "inertia": _Kind("kg m²", ",.2f"),
-        "conveyed": _Kind("t", ",.0f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
+        "conveyed": _Kind("t", ",.0f"), "area mass": _Kind("kg/m²", ".3f"), "carryback": _Kind("kg/h", ",.1f"),
+        "specific energy": _Kind("kWh/(t km)", ".4f"),
     },
     "US": {
         **_SAME,
@@ -71,6 +72,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
         "inertia": _Kind("lb ft²", ",.1f"),
         "carbon dioxide": _Kind("metric ton", ",.0f"), "conveyed": _Kind("short ton", ",.0f"),
+        "area mass": _Kind("lb/ft²", ".4f"), "carryback": _Kind("lb/h", ",.1f"),
         "specific energy": _Kind("kWh/(short ton mile)", ".4f"),
     },
 }  # fmt: skip

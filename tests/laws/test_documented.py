@@ -10,6 +10,7 @@ import pytest
 from conveyor.contact import closed_forms
 from conveyor.laws import belt as belt_check
 from conveyor.laws import (
+    discharge,
     drives,
     idlers,
     loading,
@@ -18,6 +19,7 @@ from conveyor.laws import (
     roll_life,
     take_up,
     tension,
+    transfer,
     vertical_curve,
 )
 from conveyor.laws import energy as energy_laws
@@ -26,7 +28,7 @@ from conveyor.laws import motion as motion_laws
 WITHOUT_UNIT = {"minima", "carcass"}  # a mapping whose text states the unit; a name
 MODULES = (
     loading, resistance, tension, power, closed_forms, take_up, motion_laws, vertical_curve, roll_life,
-    energy_laws, belt_check, drives, idlers,
+    energy_laws, belt_check, drives, idlers, discharge, transfer,
 )  # fmt: skip
 
 

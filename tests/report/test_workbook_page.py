@@ -112,7 +112,7 @@ def _of_a_rare_spec():
         cases=(slow, warm),
         route=route,
         uncertainty=drawn,
-        belt=line.belt.replace(carcass=splice, wear={"lump": "4 in", "drop": "3 ft"}),
+        belt=line.belt.replace(carcass=splice, wear={"lump": "4 in", "loading": "medium"}),
         drive=line.drive.replace(**parts, further_drives=(second,)),
         scenarios=(fails,),
     )
