@@ -12,6 +12,7 @@ import numpy as np
 from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.fitting.described import add_shift, as_fitted, mega, of_series, strain_of
+from conveyor.fitting.findings import check_findings
 from conveyor.fitting.laying import (
     kelvin_of,
     laid_out,
@@ -24,7 +25,6 @@ from conveyor.fitting.laying import (
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.findings import check_findings
 from conveyor.laboratory.read import read_answered
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
