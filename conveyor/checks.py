@@ -254,8 +254,10 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
 
 def take_up_reach(found: CalculatedConveyor) -> Iterator[Check]:
     """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
-    yield from reach(found.take_up)
-    if found.line.take_up.kind == "screw":
+    unit = found.line.take_up
+    if unit.travel is not None or unit.winch is not None:
+        yield from reach(found.take_up)
+    if unit.kind == "screw":
         yield compared(
             "screw_take_up", "length of a conveyor with a screw take-up", found.line.length, "at most", SCREW_LENGTH,
             "length", source="general knowledge",
@@ -955,6 +957,7 @@ def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
         worst, rating = max(rated, key=lambda pair: pair[0].limits.load / pair[1])
         limits = worst.limits
         of_class = "" if limits.cema_class is None else f"CEMA class {limits.cema_class}"
+        of_class += ", general knowledge" if limits.cema_class == "E" else ""
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
         why = said(
             f"{strand} sets in {quoted(worst.stretch.section)} bear {{}}, they are rated for {{}}{cure}",

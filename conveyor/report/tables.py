@@ -1511,6 +1511,14 @@ def drawings(
         lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
         "distinct_rolls",
     )
+    if any(duty.limits.flap_margin is not None for duty in a.set_duty):
+        yield Drawing(
+            "flap",
+            "Natural frequencies of the belt between the idlers in steady running, and rotation of the rolls with the "
+            "distance wanted.",
+            lambda: loop_plots.flap_diagram(a, system=system),
+            "idler_sets",
+        )
     strands = compounds_by_strand(conveyor)
     worked = {compound.name: compound for compound in strands.values()}
     for k, (name, compound) in enumerate(worked.items(), start=1):
