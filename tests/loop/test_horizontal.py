@@ -90,7 +90,7 @@ def test_the_drift_holds_the_pull_of_the_mean_tension(found):
         law = turn.law(0.0, least=False)
         assert law.force(turn.drift) == pytest.approx(inward, rel=1e-5)  # tensions of the last step
         weight = math.fsum(load.force for load in turn.weights)
-        slopes = turn._slopes
+        slopes = turn.slopes
         lengths = [load.length for load in (stretch.loads if turn.side == "left" else stretch.loads[::-1])]
         normal = inward * sum(s * n for s, n in zip(slopes, lengths, strict=True)) / sum(lengths)
         assert math.fsum(load.force for load in stretch.loads) == pytest.approx(weight + normal, rel=1e-5)
