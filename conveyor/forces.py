@@ -35,6 +35,7 @@ from conveyor.laws.resistance import (
     slope_resistance,
     steel_cord_wrap_resistance,
 )
+from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.places import Spot
 from conveyor.line.strands import Strands
@@ -303,6 +304,12 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             certain=certain, spot=point.spot, place=point.place, assumed=point.assumed, bulk=bulk,
         )  # fmt: skip
 
+    length = acceleration_length(
+        belt_speed=line.speed,
+        initial_speed=point.speed,
+        belt_friction=point.belt_friction,
+        gravity=line.gravity,
+    )
     if point.lift is not None and point.flow > 0.0:
         bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
         yield Force(
@@ -320,12 +327,6 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             certain=True,
             bulk=point.comes_with,
         )
-        length = acceleration_length(
-            belt_speed=line.speed,
-            initial_speed=point.speed,
-            belt_friction=point.belt_friction,
-            gravity=line.gravity,
-        )
         zone = acceleration_skirt_resistance(
             volume_flow=point.flow / line.density,
             bulk_density=line.density,
@@ -339,6 +340,13 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         yield force(
             "loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f", bulk=point.comes_with
         )
+    if point.seal_drag > 0.0:
+        boards = point.skirtboards or length + point.skirt_length
+        drag = skirt_seal_resistance(boards, drag_per_length=point.seal_drag)
+        yield Force(
+            "skirt_seals", f"seals of the skirts{point.name}", "special", drag, "seal_drag x length of the skirts",
+            spot=point.spot, place=point.place,
+        )  # fmt: skip
     if point.flow_beyond == 0.0:
         return
     # the bulk that lies there already rubs on the skirts of a later feeding point too

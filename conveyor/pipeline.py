@@ -40,12 +40,15 @@ from conveyor.line.stretches import STRANDS, Acting, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
+from conveyor.loop.drive_duty import DriveDuty, drive_duty
 from conveyor.loop.frame import Frame
 from conveyor.loop.horizontal import HorizontalCheck, horizontal_checks
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
+from conveyor.loop.set_duty import SetDuty, set_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Conveyor
 from conveyor.rubber import PronySeries
@@ -211,6 +214,31 @@ class CalculatedConveyor:
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:
         """Loads of every pulley in every state, its shaft, bearings and lagging."""
         return pulley_duty(self.balance, self.every_state)
+
+    @cached_property
+    def drive_duty(self) -> tuple[DriveDuty, ...]:
+        """Gear, backstop, brake, starts and sharing of the drives whose spec asks for them."""
+        return drive_duty(self.balance, self.motions)
+
+    @cached_property
+    def set_duty(self) -> tuple[SetDuty, ...]:
+        """Load, axles, life and flap of the idler sets whose spec asks for them."""
+        return set_duty(self.balance)
+
+    @cached_property
+    def landings(self) -> tuple[Landing, ...]:
+        """Impact and skirts of every loading point."""
+        return landings(self.line)
+
+    @cached_property
+    def cleanings(self) -> tuple[Cleaning, ...]:
+        """What every cleaner leaves on the belt."""
+        return cleanings(self.line)
+
+    @cached_property
+    def trajectory(self) -> Trajectory | None:
+        """The stream over the head pulley, where the spec asks for it."""
+        return trajectory(self.line)
 
     @cached_property
     def year(self) -> Year | None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from conveyor.errors import RangeError
+from conveyor.laws.idlers import rated_set_load
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
@@ -25,9 +26,11 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _rolls_span,
         _flow_fits,
         _sets_apart,
+        _classes_exist,
         _covers_thin,
         _warm_enough,
         _feeding_fits,
+        _discharges,
         _drives_placed,
         _inertia_reduced,
         _coefficient_holds,
@@ -112,6 +115,22 @@ def _rounded(value: Quantity, *, down: bool) -> str:
     return f"{whole * step:.6g} {unit}"
 
 
+def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A class has ratings for the belt's width, the rolls of the set and their trough."""
+    for strand, idlers in _sets(conveyor):
+        if idlers.cema_class is None:
+            continue
+        try:
+            rated_set_load(
+                idlers.cema_class,
+                belt_width=conveyor.belt_width,
+                trough_angle=si(idlers.trough_angle),
+                rolls=idlers.rolls,
+            )
+        except RangeError as error:
+            yield Problem(("idlers", strand, "cema_class"), f"{error}; give rating, of its maker, instead")
+
+
 def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Also where a section has its own spacing, rolls of neighbouring sets do not overlap."""
     for i, section in enumerate(conveyor.route.sections):
@@ -179,6 +198,17 @@ def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
                 ("route", *location),
                 f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
             )
+
+
+def _discharges(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A trajectory leaves over a pulley of known diameter."""
+    route = conveyor.route
+    if route.discharge is None or route.discharge.pulley_diameter is not None:
+        return
+    usual = not route.pulleys and conveyor.calculation.not_given == "usual values"
+    if not usual and all(pulley.position != "head" for pulley in route.pulleys):
+        message = "missing: no pulley of route.pulleys stands at the head; give the diameter, or the pulley"
+        yield Problem(("route", "discharge", "pulley_diameter"), message)
 
 
 def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
