@@ -1511,7 +1511,11 @@ def drawings(
             "drift",
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
             lambda: loop_plots.drift(
-                [(label.text(system), found.horizontal) for label, found in _loads(a, studies)], system=system
+                [
+                    (label.text(system).removeprefix("load state "), found.horizontal)
+                    for label, found in _loads(a, studies)
+                ],
+                system=system,
             ),
             "horizontal_curves",
         )
