@@ -131,6 +131,7 @@ def of_analysis(
         pulley_states(analysis, studies),
         vertical_curves(analysis),
         horizontal_curves(analysis),
+        curve_edges(analysis),
         drift_states(analysis, studies),
         transitions(analysis),
         *of_transfer(analysis),
@@ -1047,24 +1048,16 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         Column("skew", "angle", attrgetter("turn.skew")),
         Column("drift, steady", "thickness", attrgetter("turn.drift")),
         Column("farthest inside", "thickness", attrgetter("farthest_in.inside")),
-        Column("inside in the state", "text", attrgetter("farthest_in.state")),
         Column("farthest outside", "thickness", attrgetter("farthest_out.outside")),
-        Column("outside in the state", "text", attrgetter("farthest_out.state")),
         Column("room on the rolls", "thickness", attrgetter("turn.room")),
         Column("minimum against drift", "length", lambda row: max(s.least for s in row.states)),
         Column("maximum against drift", "length", lambda row: min(s.most for s in row.states)),
-        Column("minimum against overstress", "length", attrgetter("overstress")),
-        Column("minimum against a slack edge", "length", attrgetter("buckling")),
-        Column("highest at the outer edge", "strength", attrgetter("most")),
-        Column("lowest at the inner edge", "strength", attrgetter("least")),
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
         "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
         "its rolls, or no radius is too large."
     )
-    if a.line.belt.stiffness is None:
-        note += f" {_USUAL_STIFFNESS}"
     page = (OnPage("belt", "Horizontal curves"),)
     return Table(
         "horizontal_curves",
@@ -1075,6 +1068,23 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         page,
         note if a.horizontal else "",
     )
+
+
+def curve_edges(a: CalculatedConveyor) -> Table:
+    """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("minimum against overstress", "length", attrgetter("overstress")),
+        Column("minimum against a slack edge", "length", attrgetter("buckling")),
+        Column("highest at the outer edge", "strength", attrgetter("most")),
+        Column("lowest at the inner edge", "strength", attrgetter("least")),
+    )
+    rows = tuple(curve for curve in a.horizontal if curve.most is not None)
+    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
+    heading = "Edges of the belt in horizontal curves"
+    return Table("curve_edges", "Loop", heading, columns, rows, (OnPage("belt", heading),), note)
 
 
 def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1501,7 +1511,11 @@ def drawings(
             "drift",
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
             lambda: loop_plots.drift(
-                [(label.text(system), found.horizontal) for label, found in _loads(a, studies)], system=system
+                [
+                    (label.text(system).removeprefix("load state "), found.horizontal)
+                    for label, found in _loads(a, studies)
+                ],
+                system=system,
             ),
             "horizontal_curves",
         )
