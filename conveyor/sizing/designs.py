@@ -9,7 +9,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Final
 
 import numpy as np
@@ -423,21 +423,28 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
 
 
 def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
-    """Motors that the worst loading is likely to ask for, so that one calculation of the loads mostly does.
+    """Class and motors that the worst loading is likely to ask for, so that calculating the loads once mostly does.
 
     Bulk is left out where the belt alone pulls harder; its friction is taken in proportion to the load.
     """
     one, chosen = design.coldest, design.chosen
-    more = 0.0
-    for stretch in one.stretches[: one.line.count]:
-        bulk = stretch.stretch.bulk_mass / stretch.stretch.line_mass
-        more += max(0.0, -bulk * (stretch.total - stretch.forces["idler_rotation"]))
-    force = one.balance.forces.total
-    most = max(_powers(one)) * (1.0 + more / force) if force > 0.0 else 0.0
-    if most * task.rules.motor_reserve > task.largest_motor:
+    steady = one.balance.forces.total
+    if steady <= 0.0:
         return chosen
-    motor = next_motor(most, reserve=task.rules.motor_reserve)
-    return replace(chosen, motors=tuple(max(motor, each) for each in chosen.motors))
+    more = 0.0
+    for of in one.stretches[: one.line.count]:
+        bulk = of.stretch.bulk_mass / of.stretch.line_mass
+        more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
+    motor = next_motor(
+        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve),
+        reserve=task.rules.motor_reserve,
+    )
+    needed = partial(_needed, choice=design.choice, tension=_tension([one]) + more)
+    carcass = next(
+        (each for each in task.carcasses[design.choice.kind] if needed(each) <= each.strength), chosen.carcass
+    )
+    covers, motors = task.covers(design.choice, carcass), (motor,) * len(chosen.motors)
+    return Chosen(carcass, *covers, motors, chosen.brake, settling=False)
 
 
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
