@@ -23,6 +23,7 @@ from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
 from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
@@ -484,7 +485,7 @@ def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
                 yield _radius(curve, least, fine, bad)
 
 
-def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
+def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: str) -> Check:
     section = quoted(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -499,6 +500,47 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
         if helps
         else replace(made, verdict="FAIL", why=said(words + "no radius helps", (curve.radius, "length")))
     )
+
+
+def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
+    for bend in found.horizontal:
+        for least, fine, bad in (
+            (bend.overstress, "outer edge not overstressed", "the outer edge of the belt is overstressed"),
+            (bend.buckling, "inner edge not slack", "the inner edge of the belt goes slack"),
+        ):
+            if least is not None:
+                yield _radius(bend, least, fine, bad)
+
+
+def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve and state of motion the belt's edges stay on their rolls, with the wind given."""
+    for bend in found.horizontal:
+        inside, outside = bend.farthest_in, bend.farthest_out
+        cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
+        if math.isinf(inside.least):
+            cure = said("no radius helps: more banking, a deeper trough or less wind")
+        yield _drift(bend, inside, "inside", inside.inside, cure)
+        cure = said("less banking or skew")
+        if 0.0 < outside.most < math.inf:
+            cure = said("less banking or skew, or a radius of at most {}", (outside.most, "length"))
+        yield _drift(bend, outside, "outside", -outside.outside, cure)
+
+
+def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cure: Said) -> Check:
+    room, section = bend.turn.room, quoted(bend.section)
+    off = math.isinf(drift)
+    how = said("runs off its rolls" if off else "drifts by {}", *(() if off else ((drift, "thickness"),)))
+    why = Said(
+        f'section "{section}", {bend.strand}: the belt {how.words} to the {way} of the horizontal curve in the state '
+        f'"{quoted(state.state)}", {{}} are left on its rolls; {cure.words}',
+        (*how.figures, (room, "thickness"), *cure.figures),
+    )
+    made = compared(
+        "belt_drift", f"drift to the {way}, {section}, {bend.strand}", drift, "at most", room, "thickness",
+        source="end of the roll", found=how if off else None, why=why, where=state.state,
+    )  # fmt: skip
+    return replace(made, calculated=None) if off else made
 
 
 def transitions(found: CalculatedConveyor) -> Iterator[Check]:
@@ -1042,6 +1084,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_temperature,
     pulley_diameter,
     curve_radius,
+    horizontal_edges,
+    belt_drift,
     transitions,
     impact_load,
     skirtboards,

@@ -74,6 +74,22 @@ class AnalysisPlots:
             raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
         return transfer_tables.picture(self.analysis, system=self._in(system))
 
+    def plan(self, *, system: System | None = None) -> Figure:
+        """The route from above, with its horizontal curves."""
+        return loop_plots.plan(self.analysis.line, system=self._in(system))
+
+    def drift(self, *, system: System | None = None) -> Figure:
+        """Drift of the belt in every horizontal curve, over all states of motion.
+
+        Raises
+        ------
+        InputError
+            The route has no horizontal curve.
+        """
+        if not self.analysis.horizontal:
+            raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
+        return loop_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
+
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
         return analysis_plots.pressure_under_rolls(self.analysis.contacts, system=self._in(system))

@@ -159,11 +159,12 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that neither rubber nor air changes [N], shape (2n,).
 
-    `flexure` is None where it is a share of the other main resistances; `unit_main` is the main resistance that
-    DIN 22101 gives for f = 1.
+    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
+    resistances; `unit_main` is the main resistance that DIN 22101 gives for f = 1.
     """
 
     tilt: Array
+    guidance: Array | None
     lift: Array
     unit_main: Array
     flexure: Array | None
@@ -175,8 +176,10 @@ def without_rubber(strands: Strands) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
 
+    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strands.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
+        guidance=each(_guidance) if skewed else None,
         lift=each(_lift),
         unit_main=each(_unit_main),
         flexure=each(_flexure) if strands.flexes else None,
@@ -220,6 +223,7 @@ def along_the_belt(
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
         Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
+        *_guiding(fixed),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
     )
 
@@ -244,6 +248,19 @@ def _tilt(stretch: Stretch, gravity: float) -> float:
         tilt_angle=stretch.tilt_angle,
         gravity=gravity,
     )
+
+
+def _guidance(stretch: Stretch, _gravity: float) -> float:
+    """Resistance of sets that are skewed to steer the belt out of a horizontal curve [N]."""
+    return 0.0 if stretch.turn is None else stretch.sets * stretch.turn.guidance()
+
+
+def _guiding(fixed: WithoutRubber) -> Iterator[Force]:
+    if fixed.guidance is not None:
+        law = "guiding friction x sine of the skew, derived"
+        yield Force(
+            "guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance"
+        )
 
 
 def _lift(stretch: Stretch, gravity: float) -> float:

@@ -26,6 +26,7 @@ from conveyor.dynamics.published import harrison, lodewijks, nordell_ciozda
 from conveyor.laws import (
     discharge,
     drives,
+    horizontal_curve,
     loading,
     power,
     pulley,
@@ -50,6 +51,7 @@ _HELIX_PRINTED = "Helix delta-T reports"
 _SHORTT = "Shortt (2019), idler of 127 mm, bearings 6305"
 _NEMA = "NEMA MG 10, table 2-3"
 _TRANSITION = "ISO 5293:2004"
+_CURVE = "Grimmer, Kessler (1987), by eytelwein 0.1.9"
 _LEMMON = "Lemmon (2013), finite elements"
 _CEMA_TRANSITION = "CEMA, transition"
 _SECTION = "ISO 5048, cross-section"
@@ -85,6 +87,7 @@ _SHALLOW = 1e-3  # a0/R [-]: the circle differs from Hunter's parabola by its sq
 _SPARSE = 1e-3  # R/λ [-]: the neighbouring rolls act by the square of (α + ζ)
 _CLOSED_FORM_TOLERANCE = 1e-5
 _IDENTITY_TOLERANCE = 1e-12
+_CURVE_TOLERANCE = 1e-9  # ten digits given
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +187,7 @@ def run() -> list[ReferenceCheck]:
     -------
     list of Check
         In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, roll, take-up, motor,
-        transition, printed designs, transfer, compliance times modulus, starts and stops.
+        transition, horizontal curve, printed designs, transfer, compliance times modulus, starts and stops.
 
     Examples
     --------
@@ -204,6 +207,7 @@ def run() -> list[ReferenceCheck]:
         _transition(),
         _printed_designs(),
         _transfer(),
+        _horizontal_curve(),
         _compliance_identity(),
         _starts_and_stops(),
     )
@@ -461,6 +465,34 @@ def _transfer() -> Iterator[ReferenceCheck]:
         yield _printed(_CKIT, f"width of the bulk on the pulley [mm], belt {width} mm", printed, got)
     stream = transfer.stream_impact(1.0 / 3.6, drop_height=1.0, gravity=9.81)
     yield _printed(_RULMECA, "t/h √m over the impact [1/kgf]", "8", 9.81 / stream)
+
+
+def _horizontal_curve() -> Iterator[ReferenceCheck]:
+    """Empty belt of 0.8 m that has drifted inside by 60 mm: 156.71475 N a set, 30 deg, banked by 1.46 deg."""
+    weight, wing, middle = 156.71475, 0.2425, 0.315
+    angles = {"trough_angle": math.radians(30.0), "banking_angle": math.radians(1.46)}
+    centred = [
+        loading.RollLoad("", 0.0, weight * width / 0.8, width, "uniform") for width in (wing, middle, wing)
+    ]
+    drifted = horizontal_curve.drifted_loads(centred, 0.06, roll_length=middle)
+    for name, width, load in zip(
+        ("inside", "middle", "outside"), (0.3025, 0.315, 0.1825), drifted, strict=True
+    ):
+        yield _close(_CURVE, f"belt on the {name} roll [m]", width, load.length, _IDENTITY_TOLERANCE)
+    bare = horizontal_curve.outward_pushes((0.0, 0.0, 0.0), **angles)
+    factors = (1.1, 0.9, 1.1)  # load factors of the wings and of the middle, Part II
+    weights = [k * load.force * push for k, load, push in zip(factors, drifted, bare, strict=True)]
+    for name, printed, got in zip(
+        ("inside", "middle", "outside"),
+        (34.0194976531535, 1.41499913142688, -18.7886810270471),
+        weights,
+        strict=True,
+    ):
+        yield _close(_CURVE, f"weight outward on the {name} roll [N]", printed, got, _CURVE_TOLERANCE)
+    yield _close(_CURVE, "weight outward, set [N]", 16.6458157575333, math.fsum(weights), _CURVE_TOLERANCE)
+    guided = horizontal_curve.outward_pushes((0.0, 0.70 * 0.279588668362082, 0.0), **angles)
+    force = horizontal_curve.outward_force(drifted, guided) - horizontal_curve.outward_force(drifted, bare)
+    yield _close(_CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE)
 
 
 def _compliance_identity() -> Iterator[ReferenceCheck]:

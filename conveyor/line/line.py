@@ -419,8 +419,8 @@ class Line:
 
     @property
     def tension_acts(self) -> bool:
-        """Whether tension changes what the rolls feel: on a vertical curve, or by a belt that gives."""
-        return self.support == "belt" or any(section.curve for section in self.sections)
+        """Whether tension changes what the rolls feel: on a curve, or by a belt that gives."""
+        return self.support == "belt" or any(section.curved for section in self.sections)
 
     @property
     def length(self) -> float:

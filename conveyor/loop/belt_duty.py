@@ -239,7 +239,7 @@ def _drive_diameter(line: Line) -> float | None:
 
 
 def _pulleys(found: Balance) -> Iterator[PulleyCheck]:
-    line, allowed = found.line, _allowed(found.line)
+    line, allowed = found.line, allowed_tension(found.line)
     drive = _drive_diameter(line)
     if drive is None:
         return
@@ -300,8 +300,8 @@ def _strips(
 
     None where stiffness or trough are not known.
     """
-    middle, width = _middle(stretch, line.belt.width), line.belt.width
-    allowed, stiffness = _allowed(line), line.belt.tensile_stiffness
+    middle, width = middle_belt(stretch, line.belt.width), line.belt.width
+    allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None or middle is None:
         return None, None, None, None
     trough = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
@@ -325,13 +325,13 @@ def _strips(
     return over, slack, most, least
 
 
-def _allowed(line: Line) -> float | None:
+def allowed_tension(line: Line) -> float | None:
     """Tension per width that the belt is rated for [N/m]; None without strength and rating."""
     belt = line.belt
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
-def _middle(stretch: Stretch, width: float) -> float | None:
+def middle_belt(stretch: Stretch, width: float) -> float | None:
     """Belt on the middle roll [m]; None for four and five rolls, which have no rule."""
     return {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
 
@@ -344,7 +344,7 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
     else:
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
     lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
-    middle, rated, stiffness = _middle(stretch, width), _allowed(line), line.belt.tensile_stiffness
+    middle, rated, stiffness = middle_belt(stretch, width), allowed_tension(line), line.belt.tensile_stiffness
     if middle is None or rated is None or stiffness is None:
         missing = (
             "no rule for four and five rolls" if middle is None else

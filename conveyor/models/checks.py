@@ -36,6 +36,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _coefficient_holds,
         _flexure_applies,
         _belt_gives,
+        _curves_hold,
     )
     return [problem for check in checks for problem in check(conveyor)]
 
@@ -272,6 +273,27 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
                 f"has the poisson_ratio {cover.compound.poisson_ratio:g}: the covers of calculation.support "
                 '"belt" are incompressible; set it to 0.5, or take the support "confined"',
             )
+
+
+def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """In a horizontal curve only the wings of a trough hold the belt; more than three rolls have no law."""
+    curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
+    if curved is None:
+        return
+    for strand, idlers in _sets(conveyor):
+        if idlers.rolls not in {2, 3}:
+            yield Problem(
+                ("idlers", strand, "rolls"),
+                f'got {idlers.rolls}, but section "{curved}" is a horizontal curve, in which '
+                f"{'nothing holds a flat belt' if idlers.rolls == 1 else 'the drift is known for 2 and 3 rolls only'}: "
+                "take sets of 2 or 3 rolls",
+            )
+        elif si(idlers.trough_angle) == 0.0:
+            message = (
+                f'got {text(idlers.trough_angle)}, but section "{curved}" is a horizontal curve, in which nothing '
+                "holds a flat belt: take a trough"
+            )
+            yield Problem(("idlers", strand, "trough_angle"), message)
 
 
 def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:

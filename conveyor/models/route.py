@@ -37,6 +37,7 @@ from conveyor.units import (
     Speed,
     SpringRate,
     Thickness,
+    from_si,
     quantity,
     si,
     text,
@@ -44,6 +45,9 @@ from conveyor.units import (
 
 Friction = Annotated[Number, Field(gt=0, le=2)]
 Position = Literal["head", "tail", "carry", "return"]
+Banking = Annotated[Angle, Bounds(ge="0 deg", le="20 deg")]
+Skew = Annotated[Angle, Bounds(ge="0 deg", le="5 deg")]
+_MOST_TURN = math.pi  # [rad], a section that turns by more comes back beside itself
 _TURNED = math.radians(90.0)  # wrap from which bulk cannot stay on a belt that lies round a pulley
 SHARE_SUM_TOLERANCE = 1e-9
 """Shares are typed as decimals; anything coarser is a slip."""
@@ -62,7 +66,7 @@ def position_problem(position: str, section: str | None) -> list[Problem]:
 
 
 class Section(Model):
-    """A straight part of the route, both strands; its lift or its slope, up in running direction positive."""
+    """A part of the route, both strands; its lift or its slope, up in running direction positive."""
 
     name: Name
     """Each its own; feeding, drives and pulleys may name it."""
@@ -82,10 +86,22 @@ class Section(Model):
     """Vertical curve: convex over a hill, concave through a valley; straight without."""
     curve_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
     """Radius of the vertical curve; lift or slope are those of its chord."""
+    horizontal_curve: Literal["left", "right"] | None = None
+    """Horizontal curve, to the left or right in running direction of the carry strand; straight without."""
+    horizontal_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
+    """Radius of the horizontal curve."""
+    carry_banking: Banking | None = None
+    """Angle by which the carry sets are raised on the inside of the horizontal curve."""
+    return_banking: Banking | None = None
+    """Angle by which the return sets are raised on the inside of the horizontal curve."""
+    carry_skew: Skew | None = None
+    """Angle in plan by which the carry sets are turned to steer the belt out of the horizontal curve."""
+    return_skew: Skew | None = None
+    """Angle in plan by which the return sets are turned to steer the belt out of the horizontal curve."""
 
     @model_validator(mode="after")
     def _one_slope(self) -> Self:
-        problems = self._curve_problems()
+        problems = [*self._curve_problems(), *self._horizontal_problems()]
         if self.lift is not None and self.slope is not None:
             problems.append(
                 Problem(
@@ -111,6 +127,25 @@ class Section(Model):
         return [
             Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")
         ]
+
+    def _horizontal_problems(self) -> Iterator[Problem]:
+        side, radius = self.horizontal_curve, self.horizontal_radius
+        if (side is None) != (radius is None):
+            missing, given = ("horizontal_curve", "horizontal_radius")[:: 1 if side is None else -1]
+            message = f"missing: {given} is given; a horizontal curve needs both, or remove {given}"
+            yield Problem((missing,), message)
+        elif radius is not None and (turn := si(self.length) / si(radius)) > _MOST_TURN:
+            least = from_si(float(f"{si(self.length) / _MOST_TURN:.6g}"), "length", text(radius).split()[1])
+            yield Problem(
+                ("horizontal_radius",),
+                f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg, more than "
+                f"180 deg in a section: take {text(least)} or more, or a shorter section",
+            )
+        if side is None and radius is None:
+            for name in ("carry_banking", "return_banking", "carry_skew", "return_skew"):
+                if (given := getattr(self, name)) is not None:
+                    message = f"got {text(given)} on the straight; give horizontal_curve and its radius, or remove it"
+                    yield Problem((name,), message)
 
     @property
     def signed_radius(self) -> float:

@@ -130,6 +130,8 @@ def of_analysis(
         pulley_loads(analysis, studies),
         pulley_states(analysis, studies),
         vertical_curves(analysis),
+        horizontal_curves(analysis),
+        drift_states(analysis, studies),
         transitions(analysis),
         *of_transfer(analysis),
         convergence(analysis),
@@ -149,7 +151,7 @@ def of_analysis(
     kept = tuple(part for part in parts if not part.empty)
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     shown = () if further is None else further.drawings
-    return Contents(about, kept, system, (*drawings(analysis, system), *drawn, *shown))
+    return Contents(about, kept, system, (*drawings(analysis, system, studies), *drawn, *shown))
 
 
 def _every_check(
@@ -1034,6 +1036,72 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page, note)
 
 
+def horizontal_curves(a: CalculatedConveyor) -> Table:
+    """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("to the", "text", attrgetter("turn.side")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("banking", "angle", attrgetter("turn.banking")),
+        Column("skew", "angle", attrgetter("turn.skew")),
+        Column("drift, steady", "thickness", attrgetter("turn.drift")),
+        Column("farthest inside", "thickness", attrgetter("farthest_in.inside")),
+        Column("inside in the state", "text", attrgetter("farthest_in.state")),
+        Column("farthest outside", "thickness", attrgetter("farthest_out.outside")),
+        Column("outside in the state", "text", attrgetter("farthest_out.state")),
+        Column("room on the rolls", "thickness", attrgetter("turn.room")),
+        Column("minimum against drift", "length", lambda row: max(s.least for s in row.states)),
+        Column("maximum against drift", "length", lambda row: min(s.most for s in row.states)),
+        Column("minimum against overstress", "length", attrgetter("overstress")),
+        Column("minimum against a slack edge", "length", attrgetter("buckling")),
+        Column("highest at the outer edge", "strength", attrgetter("most")),
+        Column("lowest at the inner edge", "strength", attrgetter("least")),
+    )
+    note = (
+        "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
+        "its rolls, or no radius is too large."
+    )
+    if a.line.belt.stiffness is None:
+        note += f" {_USUAL_STIFFNESS}"
+    page = (OnPage("belt", "Horizontal curves"),)
+    return Table(
+        "horizontal_curves",
+        "Loop",
+        "Horizontal curves",
+        columns,
+        a.horizontal,
+        page,
+        note if a.horizontal else "",
+    )
+
+
+def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a horizontal curve, strand, case and state: tensions, drift, radii."""
+    system = a.conveyor.report.units
+    rows = tuple(
+        (bend, label.text(system), state)
+        for label, found in (_loads(a, studies) if a.horizontal else ())
+        for bend in found.horizontal
+        for state in bend.states
+    )
+    columns = (
+        Column("section", "text", lambda row: row[0].section),
+        Column("strand", "text", lambda row: row[0].strand),
+        Column("case", "text", itemgetter(1)),
+        Column("state", "text", lambda row: row[2].state),
+        Column("lowest tension", "force", lambda row: row[2].lowest),
+        Column("highest tension", "force", lambda row: row[2].highest),
+        Column("farthest inside", "thickness", lambda row: row[2].inside),
+        Column("farthest outside", "thickness", lambda row: row[2].outside),
+        Column("minimum against drift", "length", lambda row: row[2].least),
+        Column("maximum against drift", "length", lambda row: row[2].most),
+    )
+    heading = "Drift in horizontal curves in every case and state"
+    return Table("drift_states", "States", heading, columns, rows, printed=False)
+
+
 def transitions(a: CalculatedConveyor) -> Table:
     """One row a transition that the spec gives: its length beside the least ones, tensions of its strips."""
     columns = (
@@ -1398,7 +1466,9 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
+def drawings(
+    a: CalculatedConveyor, system: System, studies: CalculatedStudies | None = None
+) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
@@ -1420,6 +1490,21 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         "section_ends",
     )
     yield from of_discharge(a, system)
+    if a.horizontal:
+        yield Drawing(
+            "plan",
+            "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
+            lambda: loop_plots.plan(a.line, system=system),
+            "sections",
+        )
+        yield Drawing(
+            "drift",
+            "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
+            lambda: loop_plots.drift(
+                [(label.text(system), found.horizontal) for label, found in _loads(a, studies)], system=system
+            ),
+            "horizontal_curves",
+        )
     yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
