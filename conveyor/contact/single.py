@@ -27,7 +27,7 @@ from conveyor.contact.spectral import Contact
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
-DENSE = 128  # order beyond which a core is closed by a tail
+DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
 _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
