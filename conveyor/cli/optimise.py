@@ -11,7 +11,7 @@ import typer
 from conveyor.cli.app import say
 from conveyor.cli.session import Session, command
 from conveyor.cli.study import said, spec_of
-from conveyor.cli.workers import Scheduler, Workers, executor_of
+from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
 
 if TYPE_CHECKING:
     from conveyor.studies.designs import Design
@@ -40,6 +40,7 @@ def optimise(
     scheduler: Scheduler = None,
 ) -> None:
     """Search the best design within limits; stopped, it goes on from FILE.answers beside the spec it writes."""
+    begin(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.files import marks
     from conveyor.studies.campaign import Answers, Campaign

@@ -14,7 +14,7 @@ import typer
 from conveyor.cli.app import WebPage, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
-from conveyor.cli.workers import Scheduler, Workers, executor_of
+from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
 from conveyor.files import marks
 from conveyor.printable import printable
 
@@ -68,6 +68,7 @@ def study(
     scheduler: Scheduler = None,
 ) -> None:
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
+    begin(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.report import campaigning, designing
     from conveyor.studies import campaign as running
