@@ -45,13 +45,14 @@ def optimise(
     from conveyor.files import marks
     from conveyor.studies.campaign import Answers, Campaign
     from conveyor.studies.optimise import optimise as search
-    from conveyor.study_file import read_search
+    from conveyor.study_file import named, read_search
 
     plan = read_search(plan_file)
     spec = plan_file.parent / plan.base
     line = session.read(spec)
     system = session.system(line)
-    campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
+    with named(plan_file):
+        campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     to = session.outputs(plan_file, spec)
     to.file("--output", output, ".yaml", ".yml", kind=marks.TO_FILL_IN)
     with ExitStack() as stack:
