@@ -22,7 +22,7 @@ from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, NEVER, unit
-from conveyor.units.sentences import celsius
+from conveyor.units.sentences import celsius, degrees
 
 if TYPE_CHECKING:
     from conveyor.models import Operation
@@ -436,9 +436,9 @@ def compounds(comparison: CalculatedComparison) -> Table:
         Column("compound", "text", attrgetter("name")),
         Column("kind", "text", attrgetter("kind")),
         Column("strain", "text", lambda compound: compound.strain or "not stated"),
-        Column("origin", "text", attrgetter("source.origin")),
+        Column("origin", "text", lambda c: degrees(c.source.origin)),
         Column("licence", "text", attrgetter("source.licence")),
-        Column("unknown", "text", lambda c: "; ".join(c.missing) or "nothing listed"),
+        Column("unknown", "text", lambda c: degrees("; ".join(c.missing)) or "nothing listed"),
     )
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 

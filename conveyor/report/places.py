@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 from openpyxl.cell.cell import Cell, MergedCell
 from openpyxl.styles import Alignment
@@ -70,7 +70,7 @@ class TablePlace:
         return f"{first}{self.header}:{last}{self.last}"
 
 
-def _centred(kept: Alignment) -> Alignment:
+def _centred(kept: Any) -> Alignment:
     """An alignment at half height."""
     return Alignment(
         horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="center"

@@ -83,7 +83,9 @@ def uncertainty(page: Page) -> None:
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
         swing = place.column("swing")
-        chart = charts.bars(page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing)
+        chart = charts.bars(
+            page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing
+        )
         page.sheet.add_chart(chart, f"{get_column_letter(place.first_column)}{place.last + 4}")
 
 

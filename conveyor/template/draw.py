@@ -113,7 +113,7 @@ class Book:
                 key="Referred to by",
                 kind="text",
                 required=True,
-                doc="Write this where a compound is asked for.",
+                doc="Write this where a compound is to be given.",
             )
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         sheet.sheet_properties.outlinePr.summaryBelow = False
