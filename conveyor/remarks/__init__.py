@@ -151,7 +151,7 @@ def _strain(found: CalculatedConveyor) -> Iterator[Said]:
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
                 held = (factors.nearest(found.temperature), "temperature")
                 yield said(
-                    f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: what they change at {{}} '
+                    f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: the factors at {{}} '
                     "are used",
                     *reached,
                     (found.temperature, "temperature"),
