@@ -80,7 +80,7 @@ def test_us_units(line):
 @pytest.mark.parametrize(
     ("part", "change", "subject", "warned"),
     [
-        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor needs"),
+        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor requires"),
         # motors of known power would give their rated force to break away
         (
             "drive",
