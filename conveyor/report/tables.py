@@ -1266,7 +1266,7 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         "profile",
         "Profile of the route from the tail, with feeding points, drives and take-up.",
         lambda: loop_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
-        "sections",
+        "key-figures",
     )
     yield Drawing(
         "tensions",
