@@ -237,6 +237,7 @@ class Page:
         last = min([max(rows), *(here[key].header - 3 for key in here.keys() - printed.keys())])
         columns = [self._last_printed(key, place) for key, place in printed.items()]
         columns += [column + _CHART_SPAN for _, column in corners]
+        columns += [cells.max_col for cells in self.sheet.merged_cells.ranges if cells.min_row <= last]
         if len(printed) < len(here) or columns:
             self.sheet.print_area = f"A1:{get_column_letter(max([*columns, _LEAST_SPAN]))}{max(1, last)}"
         return last

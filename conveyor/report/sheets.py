@@ -106,7 +106,7 @@ def rubber(page: Page) -> None:
     charted, row = row, row + CHART_ROWS
     tables = [f"{name}_{strand}" for strand in strands for name in ("moduli", "prony")]
     places = page.stacked(tables, row)
-    for strand, corner in zip(strands, ("A", "G"), strict=False):
+    for strand, corner in zip(strands, ("A", "E"), strict=False):
         name, moduli = contents[f"known_{strand}"].heading.rpartition(" (")[0], places[f"moduli_{strand}"]
         chart = charts.moduli(sheet, name, moduli, contents.system)
         charts.sized(chart, _NARROW)
@@ -127,7 +127,7 @@ def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, 
         row += 1
         put(sheet.cell(row, 1), name, GREY)
         sheet.cell(row, 1).alignment = Alignment(vertical="top")
-        _across(sheet, row, 2, value, columns=10)
+        _across(sheet, row, 2, value, columns=8)
     return row + 2
 
 
