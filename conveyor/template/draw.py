@@ -60,9 +60,10 @@ HOW_TO: Final = (
 )
 
 
-_RARE: Final = frozenset(
-    {"Further feeding", "Ploughs", "Train", "Torque curve", "Further drives", "Scenarios", "Events"}
-)
+_RARE: Final = frozenset({
+    "Further feeding", "Ploughs", "Fill", "Train", "Torque curve", "Further drives", "Starter fill", "Correlations",
+    "Scenarios", "Events", "Starter fill 2",
+})  # fmt: skip
 """Lists that few conveyors have: their sheets are hidden while they are empty."""
 _WIDE: Final = 16  # columns of a list that one page shows legibly
 
