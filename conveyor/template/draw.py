@@ -61,9 +61,10 @@ HOW_TO: Final = (
 )
 
 
-_RARE: Final = frozenset(
-    {"Further feeding", "Ploughs", "Train", "Torque curve", "Further drives", "Scenarios", "Events"}
-)
+_RARE: Final = frozenset({
+    "Further feeding", "Ploughs", "Fill", "Train", "Torque curve", "Further drives", "Starter fill", "Correlations",
+    "Scenarios", "Events", "Starter fill 2",
+})  # fmt: skip
 """Lists that few conveyors have: their sheets are hidden while they are empty."""
 _WIDE: Final = 16  # columns of a list that one page shows legibly
 
@@ -115,7 +116,7 @@ class Book:
                 key="Referred to by",
                 kind="text",
                 required=True,
-                doc="Write this where a compound is asked for.",
+                doc="Write this where a compound is to be given.",
             )
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         sheet.sheet_properties.outlinePr.summaryBelow = False
