@@ -37,6 +37,9 @@ SOURCES = {
     "NEMA MG 10, table 2-3": "the example of the EASA handbook, 122/50; printed digits",
     "ISO 5293:2004": "the standard's formula of the transition length, which strips of straight way come to at full "
     "trough",
+    "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur Gurtführung "
+    "bei Gurtförderern mit Horizontalkurven: their worked belt as the tests of the open library eytelwein keep it, to "
+    "ten and more digits; the paper itself was not read",
     "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
     "table 3: belt of 1600 mm, 600 kN, 13.0 m; strength, stiffness and rolls are inferred, so 1 % is allowed",
     "CEMA, transition": "L = 0.707 sqrt(E/Δσ (s² + z²)), the edge's own way, as lectured at Newcastle (Belt conveying, "

@@ -118,7 +118,7 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
         x, y = length(points.T)
         label = "straight" if section.horizontal is None else "horizontal curve"
         axis.plot(
-            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=2, label=label
+            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=3, label=label
         )
         axis.plot(x[:1], y[:1], ".", color="0.3")
         at = points[-1]
