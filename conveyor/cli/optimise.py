@@ -87,7 +87,7 @@ def optimise(
 
     def show() -> None:
         say(*(f"{path}: {value}" for path, value in found.design.changes.items()), figures)
-        more = "stopped at the most that were asked for: the best may be better still"
+        more = "stopped at the limit of designs: a better one may exist"
         end = "settled" if found.settled else more
         say(f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}")
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, special
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.bessel import bessel_j, enough_orders
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layer_shapes import Shapes, confined_shapes, free_shapes, half_space_shapes
 from conveyor.contact.layers import Confined, Creep, Free, HalfSpace
@@ -59,9 +59,9 @@ class _Strip:
 
     def amplitude(self, m: Array) -> ComplexArray:
         """p̃̂_m about the strip's centre, ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m (spectral.py)."""
-        v = np.arange(1, self.c.size + 1)
-        signed = 0.5 * v * self.c * np.where((v - 1) % 4 < 2, 1.0, -1.0)
-        table = bessel_j(self.c.size, m * self.alpha)
+        v = np.arange(1, enough_orders(m * self.alpha, self.c.size) + 1)
+        signed = 0.5 * v * self.c[: v.size] * np.where((v - 1) % 4 < 2, 1.0, -1.0)
+        table = bessel_j(v.size, m * self.alpha)
         out = np.empty(m.shape, dtype=complex)
         out.real = signed[::2] @ table[1::2]  # (-i)^{v-1} is real for odd v, imaginary for even
         out.imag = -(signed[1::2] @ table[2::2])

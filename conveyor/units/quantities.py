@@ -440,6 +440,7 @@ Inertia = Annotated[Quantity, Measure("inertia")]
 Density = Annotated[Quantity, Measure("density")]
 Force = Annotated[Quantity, Measure("force")]
 LineForce = Annotated[Quantity, Measure("line force")]
+SpringRate = Annotated[Quantity, Measure("spring rate")]
 Pressure = Annotated[Quantity, Measure("pressure")]
 Modulus = Pressure
 Time = Annotated[Quantity, Measure("time")]
