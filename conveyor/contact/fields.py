@@ -80,8 +80,10 @@ class SpectralFields:
         out = np.zeros(x.shape)
         for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self.contact.c, strict=True):
             s = (x - centre) / alpha
-            angle = np.arccos(np.clip(s, -1.0, 1.0))
-            out += np.where(np.abs(s) < 1.0, np.sin(np.multiply.outer(angle, v)) @ c, 0.0)
+            inside = np.abs(s) < 1.0
+            angle = np.arccos(s[inside])
+            parts = np.array_split(angle, 1 + angle.size * v.size // _CHUNK)
+            out[inside] += np.concatenate([np.sin(np.multiply.outer(part, v)) @ c for part in parts])
         return out
 
     def outside(self, x: Array, reach: float = SERIES_REACH) -> Array:
