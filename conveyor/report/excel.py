@@ -26,7 +26,7 @@ FRONT: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
-    "Results": sheets.single,
+    "Results": sheets.beside,
     "Given": sheets.inputs,
     "Inputs": sheets.single,
     "Sections": sheets.wide,
@@ -35,10 +35,11 @@ SHEETS: Final = {
     "Tension diagram": sheets.tensions,
     "Tensions": sheets.single,
     "States": sheets.stacked,
-    "Loop": sheets.stacked,
+    "Loop": sheets.beside,
+    "Transfer": sheets.transfer,
     "Load cases": sheets.cases,
     "Case checks": sheets.single,
-    "Duty": sheets.stacked,
+    "Duty": sheets.beside,
     "Scenarios": sheets.stacked,
     "Histories": sheets.single,
     "Uncertainty": sheets.uncertainty,
@@ -59,14 +60,21 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Scenarios", "Histories", "Uncertainty")
+_WHERE_ASKED: Final = (
+    "Transfer",
+    "Load cases",
+    "Case checks",
+    "Duty",
+    "Scenarios",
+    "Histories",
+    "Uncertainty",
+)
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
-    "Results",
     "Given",
     "Resistances",
     "Tension diagram",
-    "Loop",
+    "Transfer",
     "Load cases",
     "Rubber",
     CHECKS_AND_NOTES,
