@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.circle import slope_expansion
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
 from conveyor.contact.quadrature import CHECK, build_rule
@@ -60,9 +61,10 @@ def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: 
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
     n = matrix.shape[2]
+    slopes = slope_expansion(contact.alpha, contact.eps, rho, (3 * n) // 4 + 2)
     change = []
     for order in (n // 2, (3 * n) // 4):
-        lower = of_order(matrix, order, contact, rho)
+        lower = of_order(matrix[:, : order + 1, :order], slopes, contact, rho)
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)

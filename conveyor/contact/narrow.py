@@ -50,7 +50,7 @@ from conveyor.contact.stack import Stack, kind, stacked
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_SEARCH = 8
+_SEARCH = 10
 _ROUGH = 1e-9  # relative error of eccentricities on the way
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
