@@ -11,10 +11,10 @@ from typing import Any, Final
 from pydantic import BaseModel
 from ruamel.yaml import YAML
 
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.starter.values import KINDS as STARTERS
 from conveyor.starter.values import values
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.units.kinds import KINDS
 
 Example = str | float | bool | Sequence[Any]

@@ -24,15 +24,7 @@ Scheduler = Annotated[
 
 @contextmanager
 def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
-    """Processes of this machine, or a cluster; this process alone where one is enough.
-
-    Raises
-    ------
-    InputError
-        No cluster answers, or the package for it is missing.
-    ConveyorError
-        A worker of the cluster was lost again and again with the same points.
-    """
+    """Processes of this machine, or a cluster; this process alone where one is enough."""
     if scheduler is None:
         from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context

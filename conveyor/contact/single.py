@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from conveyor.contact.checks import (
+    OrderErrors,
     Sign,
     by_energy,
     energy_error,
+    errors_of_lower,
     may_touch_elsewhere,
-    order_errors,
     overlaps,
     sign,
 )
@@ -19,31 +22,46 @@ from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import penetration
+from conveyor.contact.spectral import Contact
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
+DENSE = 128  # order beyond which a core is closed by a tail
+_CORE, _WIDEST_CORE = 64, 512
+_FIRST_TAIL, _LONGEST_TAIL = 512, 1 << 17
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
 
-def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
-    """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α."""
-    found = _converged(scene, rtol)
+@dataclass(frozen=True)
+class Near:
+    """Where a contact is found whose edge layers ask for orders beyond `DENSE`: ln α and d ln p̃_m/d ln α."""
+
+    log_alpha: float
+    slope: float
+
+
+def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcome | None:
+    """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
+
+    `near` is where order `DENSE` did not suffice.
+    """
+    found = _converged(scene, rtol, near)
     if found is None:
         return None
-    state, error, energy, edges = found
-    contact, rho = state.contact, scene.problem.rho
+    state, contact, error, energy, edges = found
+    rho = scene.problem.rho
     pressing = sign(contact, rtol)
     if pressing is Sign.PULLING:
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
     depth = None
-    if may_touch_elsewhere(contact, rho)[0]:
-        depth = float(penetration(scene.rule(alpha), scene.creep, contact, rho)[0])
-        if overlaps(scene, contact, depth):
-            return None
+    elsewhere = bool(may_touch_elsewhere(contact, rho)[0])
+    if elsewhere or state.system.tail is not None:
+        depth = scene.depth_of(state.system, state.contact)
+    if elsewhere and depth is not None and overlaps(scene, contact, depth):
+        return None
     estimate = max(error, ROUNDING)
     return Outcome(
         status=Status.OK if estimate <= rtol else Status.NOT_CONVERGED,
@@ -58,7 +76,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
             edge_error=edges,
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
-        order=state.order,
+        order=int(contact.c.shape[1]),
         remarks=remarks(pressing),
     )
 
@@ -68,28 +86,48 @@ def remarks(pressing: Sign) -> tuple[str, ...]:
     return (EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
-def _converged(scene: Scene, rtol: float) -> tuple[State, float, float, float] | None:
+def _converged(
+    scene: Scene, rtol: float, near: Near | None
+) -> tuple[State, Contact, float, float, float] | None:
     """Raise the order until the estimate meets rtol, then close the load and check the energy."""
-    search = LoadSearch(scene.target, *guess(scene))
+    search = LoadSearch(scene.target, *(guess(scene) if near is None else (near.log_alpha, near.slope)))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
-    n = ORDERS[0]
+    n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
     while True:
-        state = carry(scene, search, n, tolerance)
+        state = carry(scene, search, n, tolerance, last)
         if state is None:
             return None
         exponent = search.exponent if scene.depth is None else None
-        by_order = order_errors(state.contact, state.matrix, scene.problem.rho, exponent)
+        pairs = [
+            errors_of_lower(state.contact, lower, scene.problem.rho, exponent) for lower in state.system.lower
+        ]
+        by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
-        if error <= rtol or n == ORDERS[-1]:
+        following = _next(n, last, [float(pair.friction[0]) for pair in pairs], rtol)
+        if error <= rtol or following is None:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
-            energy = energy_error(scene, state.contact)
+            contact = state.system.whole(state.contact)
+            energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
-            decided = n >= SIGN_ORDER or sign(state.contact, rtol) is not Sign.UNDECIDED
-            settled = error <= rtol and decided
-            if settled or n == ORDERS[-1]:
-                return state, error, float(energy[0]), float(by_order.edges[0])
-        n = next_order(n, error, rtol)
+            decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
+            if (error <= rtol and decided) or following is None:
+                return state, contact, error, float(energy[0]), float(by_order.edges[0])
+        n, last = following
         search.renew()
+
+
+def _next(n: int, last: int, errors: list[float], rtol: float) -> tuple[int, int] | None:
+    """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both."""
+    if last == n:
+        following = next_order(n, errors[0], rtol)
+        return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
+    core, tail = errors
+    wider, longer = n < _WIDEST_CORE, last < _LONGEST_TAIL
+    if wider and (core > max(tail, rtol) or not longer):
+        return 2 * n, max(last, 8 * n)
+    if longer and core <= rtol:
+        return n, 4 * last
+    return (n, 4 * last) if longer and tail > rtol else None

@@ -170,6 +170,13 @@ def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contac
     return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
 
 
+def nested(matrix: Array) -> tuple[Array, Array]:
+    """The matrices of half and of three quarters of the order, leading blocks of the whole one."""
+    n = matrix.shape[2]
+    half, most = (matrix[:, : order + 1, :order] for order in (n // 2, (3 * n) // 4))
+    return half, most
+
+
 def of_order(lower: Array, slopes: Array, contact: Contact, rho: Array | float) -> Contact:
     """Contacts by the matrices of a lower order, shape (b, n+1, n), at the half widths of those of a higher one.
 

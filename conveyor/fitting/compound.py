@@ -24,8 +24,8 @@ from conveyor.fitting.laying import (
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.answered import read_answered
 from conveyor.laboratory.findings import check_findings
+from conveyor.laboratory.read import read_answered
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,

@@ -36,6 +36,7 @@ SHEETS: Final = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.stacked,
+    "Transfer": sheets.transfer,
     "Load cases": sheets.cases,
     "Case checks": sheets.single,
     "Duty": sheets.stacked,
@@ -59,7 +60,15 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Scenarios", "Histories", "Uncertainty")
+_WHERE_ASKED: Final = (
+    "Transfer",
+    "Load cases",
+    "Case checks",
+    "Duty",
+    "Scenarios",
+    "Histories",
+    "Uncertainty",
+)
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
     "Results",
@@ -67,6 +76,7 @@ _PORTRAIT: Final = (
     "Resistances",
     "Tension diagram",
     "Loop",
+    "Transfer",
     "Load cases",
     "Rubber",
     CHECKS_AND_NOTES,

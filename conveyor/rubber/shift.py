@@ -24,18 +24,7 @@ MAX_DECADES = 100.0
 
 
 def celsius(temperature: float) -> str:
-    """Write a temperature for a message.
-
-    Parameters
-    ----------
-    temperature : float
-        Absolute temperature [K].
-
-    Returns
-    -------
-    str
-        The temperature with its unit [degC].
-    """
+    """Write a temperature [K] for a message."""
     return f"{temperature - zero_Celsius:.2f} degC"
 
 

@@ -7,11 +7,11 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, Final, Literal
 
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout
+from conveyor.forms.limits import like, limits_like
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.starter.values import LEFT_OUT, OPTIONAL, Kind, in_units, read
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
-from conveyor.template.limits import like, limits_like
 from conveyor.units import System
 from conveyor.units.kinds import KINDS as QUANTITIES
 from conveyor.units.misreadings import on_one_line

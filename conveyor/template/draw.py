@@ -16,12 +16,12 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.forms.entries import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
+from conveyor.forms.layout import FieldGroup, Leaf
+from conveyor.forms.limits import in_system
+from conveyor.forms.plan import FieldColumn, Form, ListSheet, Row, label
 from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, print_set_up, put
-from conveyor.template.entries import KEY, NAMED, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
 from conveyor.template.fill import FilledSheets
-from conveyor.template.layout import FieldGroup, Leaf
-from conveyor.template.limits import in_system
-from conveyor.template.plan import FieldColumn, Form, ListSheet, Row, label
 from conveyor.template.rules import Rules, default_text, said
 from conveyor.units import System
 

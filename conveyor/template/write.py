@@ -12,12 +12,12 @@ from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import save, writable
+from conveyor.forms.read import read_filled
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
 from conveyor.starter.values import values
 from conveyor.template.draw import Book
 from conveyor.template.fill import filled
-from conveyor.template.read import read_filled
 from conveyor.units import System
 
 _MADE: Final = Path("template.xlsx")

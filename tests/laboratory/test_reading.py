@@ -10,10 +10,10 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.laboratory import read_dma
-from conveyor.laboratory.decimals import decimal_mark, why_not_a_number
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.groups import duplicate_runs, temperature_groups
 from conveyor.laboratory.names import meaning
+from conveyor.laboratory.numbers import decimal_mark, why_not_a_number
 
 FILES = Path(__file__).parent / "files"
 

@@ -10,7 +10,7 @@ import pytest
 from conveyor.checks import checks
 from conveyor.errors import NoSolutionError
 from conveyor.line.strands import Strands
-from conveyor.line.stretches import roll_masses
+from conveyor.line.stretches import Acting, roll_masses
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
 from conveyor.loop.curves import converged, pressing_masses
 from conveyor.pipeline import calculate
@@ -67,7 +67,7 @@ def test_tension_and_loads_agree_within_the_bound(hill):
     assert hill.balance.tensions.largest == pytest.approx(
         finer.balance.tensions.largest, rel=found.bound + 1e-6
     )
-    again = Strands.of(fine, pressing_masses(finer.line, finer.balance.settled.steady))
+    again = Strands.of(fine, Acting(pressing_masses(finer.line, finer.balance.settled.steady)))
     assert _borne(again) == pytest.approx(_borne(finer.line), rel=1e-6)
 
 
@@ -94,7 +94,7 @@ def test_a_relieved_belt_keeps_the_sum_of_its_loads():
     assert roll_masses(20.0, 80.0, 7.0, where="dip") == (27.0, 80.0)
     with pytest.raises(NoSolutionError, match=r"the belt lifts off in dip: .*choose a larger curve_radius"):
         roll_masses(20.0, 0.0, -20.0, where="dip")
-    assert Strands.of(curved(VALLEY), {("dip", "carry"): -30.0}).stretches[1].bulk_mass > 0.0
+    assert Strands.of(curved(VALLEY), Acting({("dip", "carry"): -30.0})).stretches[1].bulk_mass > 0.0
 
 
 def test_a_sharp_valley_lifts_the_belt_and_says_so():
