@@ -1,6 +1,6 @@
 """One strip by its half width, many scenes at once, without a Python loop over scenes.
 
-Stacked linear algebra and the short rules: the half width is found at order 8 and closed at the order that meets rtol.
+Stacked linear algebra and the short rules: the half width is found at a low order and closed at the order that meets rtol.
 What is not found this way (loads near the roll's half circle, extremely thin layers) or is not one strip is left to the
 other ways.
 """
@@ -52,15 +52,16 @@ Index = NDArray[np.int_]
 
 _SEARCH = 10
 _ROUGH = 1e-9  # relative error of eccentricities on the way
-_SAMPLES, RANGE = 4, 0.25  # half widths sampled at order 8, to both sides of the guess in ln α
+_SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
 _OUTSIDE = 1.3  # of that range: farther, the guess was wrong
 ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
-_NEWTON_STEPS = 3  # of the nearly straight cubic; every move goes on from the last
+_NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last step leaves its square
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
-# times the mismatch of load and what order 8 is off by: what a contact carried to its load by order 8 misses of friction
-# (seen: 1 in the median, 4 to 30 in 99 % of scenes), and of its edges, over its half width (0.3 and 40 to 70)
+# times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
+# friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
+_CUT = 0.03  # of a cubic's last coefficient: what the cubic itself is off by between its points
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
 _WIDE_CHUNK = 16  # wide ones have several times the nodes
@@ -202,7 +203,7 @@ def _points() -> tuple[Array, Array]:
 class Search:
     """Half widths on their way to the load, one scene a row.
 
-    At order 8 the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher order
+    At a low order the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher order
     it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and the
     contact there as soon as it is near.
     """
@@ -250,8 +251,11 @@ class Search:
         for _ in range(_NEWTON_STEPS):
             rise = _slope(cubic, t)
             rising = rise > 0.0
+            last = t
             t = np.where(rising, t - (_value(cubic, t) - wanted) / np.where(rising, rise, 1.0), _OUTSIDE)
             t = np.clip(t, -_OUTSIDE, _OUTSIDE)
+            if (np.abs(t - last) <= _LAST_STEP).all():
+                break
         self.place[rows] = t
         self.alive[rows] &= np.abs(t) < _OUTSIDE
 
@@ -291,7 +295,7 @@ class Search:
         return contact, matrix, miss, ik
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
-        """Contacts just evaluated, carried to their loads as those of order 8 go; what that may miss of friction."""
+        """Contacts just evaluated, carried to their loads as those of the low order go; what that may miss of friction."""
         here, there = self._from[rows], self.place[rows]
         load, shift, drag = self.load[rows], self.shift[rows], self.drag[rows]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
@@ -301,8 +305,8 @@ class Search:
         alpha = contact.alpha * wider
         eps = wider * contact.eps + alpha * (_value(shift, there) - _value(shift, here))
         log_mu = np.log(np.abs(np.where(lossy, contact.friction, 1.0)))
-        off = np.abs(np.where(lossy, log_mu - _value(drag, here), 0.0))
-        off += np.abs(self.group.target[rows] + miss - _value(load, here))
+        off = np.where(lossy, np.abs(log_mu - _value(drag, here)) + _CUT * np.abs(drag[:, 3]), 0.0)
+        off += np.abs(self.group.target[rows] + miss - _value(load, here)) + _CUT * np.abs(load[:, 3])
         met = Contact(
             alpha,
             eps,
