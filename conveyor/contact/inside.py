@@ -13,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft, special
+from scipy import special
 
 from conveyor.contact.bessel import bessel_j, enough_orders
 from conveyor.contact.creep import CreepSpectrum
@@ -194,7 +194,8 @@ def _strips(solution: ContactSolution) -> list[_Strip]:
     for low, high in solution.patches:
         centre, half = 0.5 * (low + high), 0.5 * (high - low)
         values = solution.pressure(centre + half * np.cos(angle))
-        c = fft.dst(values, type=1) / (terms + 1)
+        odd = np.concatenate([[0.0], values, [0.0], -values[::-1]])
+        c = -np.fft.rfft(odd).imag[1 : terms + 1] / (terms + 1)
         rho = solution.problem.rho
-        out.append(_Strip(rho * centre, rho * half, np.asarray(c, dtype=np.float64)))
+        out.append(_Strip(rho * centre, rho * half, c))
     return out

@@ -99,14 +99,13 @@ def full_rule(rule: Rule) -> ShortRule:
 class _Window:
     """What does not depend on the scene: places in the window and their interpolation to K coarse nodes."""
 
-    integers: Array
+    inner: Array  # integers, then the panels' nodes
     ramp: Array  # χ at the integers
-    panels: Array
     measure: Array
     rest: Array  # 1-χ at the panels' nodes
     end: float
     coarse: Array
-    spread: Array  # (unit + integers + panels, K)
+    spread: Array  # (unit + inner, K)
     legendre: Array  # Legendre moments to weights on [0, 1]
     unit: Array
     unit_spread: Array  # weights times values on [0, 1] to those nodes
@@ -157,9 +156,8 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
         special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
     )
     return _Window(
-        integers=integers,
+        inner=np.concatenate([integers, panels]),
         ramp=0.5 * special.erfc((integers - centre) / width),
-        panels=panels,
         measure=measure,
         rest=0.5 * special.erfc((centre - panels) / width),
         end=end,
@@ -193,32 +191,29 @@ def short_rule(
     steps = 4.0 if cap == WIDEST else 16.0
     count = int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
     window = _window(grade, count, cap)
-    inner = np.concatenate([window.integers, window.panels])
-    j = creeps.compliance(inner[None, :])
-    symbol = layers.symbol(inner[None, :], j)
-    cut = window.integers.size
-    fine = np.empty((half_width.size, window.spread.shape[0]), dtype=complex)
+    beyond, measure = _beyond(layers.reach(grade.depth), half_width, grade, window.end)
+    inner = np.broadcast_to(window.inner, (half_width.size, window.inner.size))
+    m = np.concatenate([inner, beyond], axis=1)
+    j = creeps.compliance(m)
+    symbol = layers.symbol(m, j)
+    cut, end = window.ramp.size, window.inner.size
     unit = _unit_weights(creeps, window) if like is None else like.unit
-    first = unit.shape[1]
-    fine[:, :first] = -unit
-    fine[:, first : first + cut] = window.ramp * symbol[:, :cut]
-    fine[:, first + cut :] = window.measure * (window.rest * symbol[:, cut:] - j[:, cut:])
-    weights = np.asarray((fine @ window.spread) / window.coarse, dtype=np.complex128)
+    panels = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
+    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], panels], axis=1)
+    weights = (fine @ window.spread) / window.coarse
+    outside = measure * (symbol[:, end:] - j[:, end:]) / beyond
     nodes = np.broadcast_to(window.coarse, weights.shape)
-    beyond = _beyond(layers, creeps, half_width, grade, window.end)
-    if beyond is not None:
-        nodes = np.concatenate([nodes, beyond[0]], axis=1)
-        weights = np.concatenate([weights, beyond[1]], axis=1)
-    return ShortRule(nodes, weights, half_width, unit, cap)
+    return ShortRule(
+        np.concatenate([nodes, beyond], axis=1),
+        np.concatenate([weights, outside], axis=1),
+        half_width,
+        unit,
+        cap,
+    )
 
 
-def _beyond(
-    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, end: float
-) -> tuple[Array, ComplexArray] | None:
-    """Panels from the window's end to the layer's reach, S - j; scenes with fewer panels get empty ones."""
-    reach = layers.reach(grade.depth)
-    if float(reach.max()) <= end:
-        return None
+def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[Array, Array]:
+    """Panels from the window's end to the layer's reach; scenes with fewer panels get empty ones."""
     longest = grade.phase / (2.0 * half_width)
     growth = math.expm1(grade.stretch)
     edges = [np.full(half_width.size, end)]
@@ -227,10 +222,8 @@ def _beyond(
     x, gauss = _gauss(grade.points)
     bounds = np.stack(edges, axis=1)
     half = 0.5 * np.diff(bounds, axis=1)[:, :, None]
-    m = (bounds[:, :-1, None] + half * (x + 1.0)).reshape(half_width.size, -1)
-    measure = (half * gauss).reshape(half_width.size, -1)
-    j = creeps.compliance(m)
-    return m, measure * (layers.symbol(m, j) - j) / m
+    shape = half_width.size, half.shape[1] * grade.points
+    return (bounds[:, :-1, None] + half * (x + 1.0)).reshape(shape), (half * gauss).reshape(shape)
 
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:

@@ -132,7 +132,7 @@ def equilibrium(
     near = reach < _NEAR
     near_eps = np.where(near, eps, 0.0)
     near_alpha = np.where(near, alpha, 0.5 * radius)
-    slope, c, step = _balanced(matrix, near_alpha, near_eps, radius)
+    slope, c, step = _balanced(matrix, slope_expansion(near_alpha, near_eps, radius, n + 2))
     place = near_eps + step
     # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
     left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
@@ -147,10 +147,9 @@ def equilibrium(
     return contact
 
 
-def _balanced(matrix: Array, alpha: Array, eps: Array, radius: Array) -> tuple[Array, Array, Array]:
+def _balanced(matrix: Array, slopes: Array) -> tuple[Array, Array, Array]:
     """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step."""
     n = matrix.shape[2]
-    slopes = slope_expansion(alpha, eps, radius, n + 2)
     answers = np.linalg.solve(matrix[:, 1:], slopes[:, 1 : n + 1])
     miss, rise, bend = ((matrix[:, :1] @ answers)[:, 0] - slopes[:, 0]).T
     step = -miss / rise
@@ -178,15 +177,14 @@ def nested(matrix: Array) -> tuple[Array, Array]:
     return half, most
 
 
-def of_order(lower: Array, contact: Contact, rho: Array | float) -> Contact:
+def of_order(lower: Array, slopes: Array, contact: Contact, rho: Array | float) -> Contact:
     """Contacts by the matrices of a lower order, shape (b, n+1, n), at the half widths of those of a higher one.
 
-    To second order in the shift of the eccentricity.
+    To second order in the shift of the eccentricity; `slopes` is their `slope_expansion`.
     """
-    radius = np.zeros(contact.alpha.shape) + rho
-    slope, c, step = _balanced(lower, contact.alpha, contact.eps, radius)
-    found = pressed(c, slope, (contact.alpha, contact.eps + step), radius)
-    inside = (contact.alpha + np.abs(found.eps) < radius) & (found.pressure > 0.0)
+    slope, c, step = _balanced(lower, slopes[:, : lower.shape[2] + 2])
+    found = pressed(c, slope, (contact.alpha, contact.eps + step), rho)
+    inside = (contact.alpha + np.abs(found.eps) < rho) & (found.pressure > 0.0)
     return replace(found, inside=inside)
 
 
