@@ -16,13 +16,18 @@ import numpy as np
 from conveyor.laws.belt import RATED_START
 from conveyor.laws.motion import Stop
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
+from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
+from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.horizontal import DriftState, HorizontalCheck
+from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units.sentences import Said, band_words, percent, quoted, said
 
@@ -251,6 +256,46 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
         yield replace(made, verdict=verdict(holds=not settled.short))
 
 
+def take_up_reach(found: CalculatedConveyor) -> Iterator[Check]:
+    """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
+    unit = found.line.take_up
+    if unit.travel is not None or unit.winch is not None:
+        yield from reach(found.take_up)
+    if unit.kind == "screw":
+        yield compared(
+            "screw_take_up", "length of a conveyor with a screw take-up", found.line.length, "at most", SCREW_LENGTH,
+            "length", source="general knowledge",
+            why=said("a screw take-up on {}: give it a weight or a winch", (found.line.length, "length")),
+        )  # fmt: skip
+
+
+def reach(duty: TakeUpDuty) -> Iterator[Check]:
+    """Travel and speed that loads ask of the take-up, where its spec gives them."""
+    unit, travel = duty.unit, duty.travel
+    if unit.travel is not None and travel is not None:
+        why = said(
+            "the take-up has {} of travel, {} are needed", (unit.travel, "length"), (travel.whole, "length")
+        )
+        yield compared(
+            "take_up_travel", "travel of the take-up", travel.whole, "at most", unit.travel, "length", why=why
+        )
+    if unit.winch is not None and duty.speed is not None:
+        why = said(
+            "the winch moves its carriage at {}, a start asks for {}: the belt slackens behind the drive meanwhile",
+            (unit.winch[0], "speed"),
+            (duty.speed, "speed"),
+        )
+        yield compared(
+            "winch_speed",
+            "speed of the winch through a start",
+            duty.speed,
+            "at most",
+            unit.winch[0],
+            "speed",
+            why=why,
+        )
+
+
 def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
     """The belt does not slip on any drive, in running, starting and stopping."""
     for state in every_state(found.balance, found.motions):
@@ -368,19 +413,53 @@ def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
 
 
 def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
-    """The belt is as strong as its splice asks for."""
+    """The belt is as strong as its splice asks for: by mean tension, by the strips that are longest, by starts."""
     duty, strength = found.belt_duty, found.line.belt.strength
-    if duty.safety_steady is None or duty.strength_needed is None or strength is None:
+    if strength is None:
         return
-    why = said(
-        "the splice requires a belt of {} (DIN 22101:2002, factors general knowledge), given: {}",
-        (duty.strength_needed, "belt strength"),
-        (strength, "belt strength"),
-    )
-    yield compared(
-        "splice_strength", "belt strength for the splice", strength, "at least", duty.strength_needed,
-        "belt strength", source="DIN 22101:2002", why=why,
-    )  # fmt: skip
+    for what, needed in duty.strength_needed.items():
+        why = said(
+            f"the splice requires a belt of {{}} ({what}; DIN 22101:2002, factors general knowledge), given: {{}}",
+            (needed, "belt strength"),
+            (strength, "belt strength"),
+        )
+        name = "belt strength for the splice" + ("" if what == "steady" else f", {what}")
+        yield compared(
+            "splice_strength", name, strength, "at least", needed, "belt strength", source="DIN 22101:2002", why=why,
+        )  # fmt: skip
+
+
+def cover_thickness(found: CalculatedConveyor) -> Iterator[Check]:
+    """The covers protect the carcass and outlast the bulk; where the spec says how it wears them."""
+    for cover in found.line.belt.covers:
+        least = cover.least + cover.wear
+        why = said(
+            f"the {cover.cover} cover is {{}}, {{}} over the carcass and {{}} for wear are needed (DIN 22101 "
+            "by points, general knowledge)",
+            *((value, "thickness") for value in (cover.thickness, cover.least, cover.wear)),
+        )
+        yield compared(
+            "cover_thickness", f"thickness of the {cover.cover} cover", cover.thickness, "at least", least, "thickness",
+            source="DIN 22101", why=why,
+        )  # fmt: skip
+
+
+def belt_temperature(found: CalculatedConveyor) -> Iterator[Check]:
+    """The covers stay within the temperatures that the belt's maker allows, as far as given."""
+    relations: tuple[Relation, Relation] = ("at least", "at most")
+    for limit, relation in zip(found.line.belt.bears, relations, strict=True):
+        if limit is None:
+            continue
+        end = "lowest" if relation == "at least" else "highest"
+        why = said(
+            "the covers are at {}, the belt bears {} " + relation,
+            (found.temperature, "temperature"),
+            (limit, "temperature"),
+        )
+        yield compared(
+            "belt_temperature", f"{end} temperature of the covers", found.temperature, relation, limit, "temperature",
+            why=why,
+        )  # fmt: skip
 
 
 def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
@@ -391,6 +470,8 @@ def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
             size = ", standard size {}"
             figures.append((pulley.next_size, "thickness"))
         name, group = quoted(pulley.name), f"DIN 22101, group {pulley.group}"
+        if pulley.utilisation is not None:
+            group += f" at {percent(pulley.utilisation)} of the allowed tension"
         words = f'pulley "{name}" is {{}} in diameter, the carcass requires {{}}{size} ({group})'
         yield compared(
             "pulley_diameter", f"diameter, {name} pulley", pulley.diameter, "at least", pulley.least, "thickness",
@@ -410,7 +491,7 @@ def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
                 yield _radius(curve, least, fine, bad)
 
 
-def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
+def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: str) -> Check:
     section = quoted(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -425,6 +506,47 @@ def _radius(curve: CurveCheck, least: float, fine: str, bad: str) -> Check:
         if helps
         else replace(made, verdict="FAIL", why=said(words + "no radius helps", (curve.radius, "length")))
     )
+
+
+def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
+    for bend in found.horizontal:
+        for least, fine, bad in (
+            (bend.overstress, "outer edge not overstressed", "the outer edge of the belt is overstressed"),
+            (bend.buckling, "inner edge not slack", "the inner edge of the belt goes slack"),
+        ):
+            if least is not None:
+                yield _radius(bend, least, fine, bad)
+
+
+def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
+    """In every horizontal curve and state of motion the belt's edges stay on their rolls, with the wind given."""
+    for bend in found.horizontal:
+        inside, outside = bend.farthest_in, bend.farthest_out
+        cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
+        if math.isinf(inside.least):
+            cure = said("no radius helps: more banking, a deeper trough or less wind")
+        yield _drift(bend, inside, "inside", inside.inside, cure)
+        cure = said("less banking or skew")
+        if 0.0 < outside.most < math.inf:
+            cure = said("less banking or skew, or a radius of at most {}", (outside.most, "length"))
+        yield _drift(bend, outside, "outside", -outside.outside, cure)
+
+
+def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cure: Said) -> Check:
+    room, section = bend.turn.room, quoted(bend.section)
+    off = math.isinf(drift)
+    how = said("runs off its rolls" if off else "drifts by {}", *(() if off else ((drift, "thickness"),)))
+    why = Said(
+        f'section "{section}", {bend.strand}: the belt {how.words} to the {way} of the horizontal curve in the state '
+        f'"{quoted(state.state)}", {{}} are left on its rolls; {cure.words}',
+        (*how.figures, (room, "thickness"), *cure.figures),
+    )
+    made = compared(
+        "belt_drift", f"drift to the {way}, {section}, {bend.strand}", drift, "at most", room, "thickness",
+        source="end of the roll", found=how if off else None, why=why, where=state.state,
+    )  # fmt: skip
+    return replace(made, calculated=None) if off else made
 
 
 def transitions(found: CalculatedConveyor) -> Iterator[Check]:
@@ -458,6 +580,62 @@ def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -
         (least, "length"),
     )
     return compared(key, subject, length, "at least", least, "length", why=why)
+
+
+def impact_load(found: CalculatedConveyor) -> Iterator[Check]:
+    """Where bulk falls, the sets bear what rests on them with the impact; of loading points that give the drop."""
+    for landing in found.landings:
+        point, load = landing.point, landing.load
+        if load is None:
+            continue
+        missing = "load that a set there bears (idler_rating) not given"
+        if point.lump_mass is not None and landing.lump is None:
+            missing = "spring rate for the lump (idler_stiffness) not given"
+        rating = None if point.lump_mass is not None and landing.lump is None else point.idler_rating
+        why = said(
+            f"the bulk lands on sets{quoted(point.name)} with {{}}, they bear {{}}: less drop, sets closer together "
+            "(stream) or softer (lumps), a heavier series",
+            (load, "force"),
+            (point.idler_rating or 0.0, "force"),
+        )
+        yield compared(
+            "impact_load", f"load of an impact set{quoted(point.name)}", load, "at most", rating, "force",
+            source="its maker", missing=missing, why=why,
+        )  # fmt: skip
+
+
+def skirtboards(found: CalculatedConveyor) -> Iterator[Check]:
+    """Skirtboards reach at least as far as the belt accelerates the bulk; of loading points that give their length."""
+    for landing in found.landings:
+        point = landing.point
+        if point.skirtboards is not None:
+            why = said(
+                f"the skirtboards{quoted(point.name)} end {{}} behind the place of loading, the bulk has the belt's "
+                "speed after {}: longer ones, or bulk that lands faster",
+                (point.skirtboards, "length"),
+                (landing.acceleration, "length"),
+            )
+            yield compared(
+                "skirtboards", f"length of the skirtboards{quoted(point.name)}", point.skirtboards, "at least",
+                landing.acceleration, "length", source="zone of acceleration, ISO 5048", why=why,
+            )  # fmt: skip
+
+
+def belt_cleaning(found: CalculatedConveyor) -> Iterator[Check]:
+    """The cleaners leave no more on the belt than is allowed; where the spec says what clings to it."""
+    on_belt, allowed = found.line.carryback
+    if on_belt is not None:
+        left = found.cleanings[-1].left if found.cleanings else None
+        left = on_belt if left is None else left
+        why = said(
+            "the cleaners leave {} on the belt, {} is allowed: one more, or better ones",
+            (left, "area mass"),
+            (allowed or 0.0, "area mass"),
+        )
+        yield compared(
+            "belt_cleaning", "bulk left on the belt behind its cleaners", left, "at most", allowed, "area mass",
+            missing="carryback_allowed not given", why=why,
+        )  # fmt: skip
 
 
 def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
@@ -627,6 +805,80 @@ def holding(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
+def drive_parts(found: CalculatedConveyor) -> Iterator[Check]:
+    """Backstops, brakes, starts an hour and sharing without control, of drives that give what they bear."""
+    motor = found.balance.frame.motor
+    for duty in found.drive_duty:
+        name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
+        if parts.backstop is not None and duty.backstop is not None:
+            why = said(
+                f'the backstop of "{name}" bears {{}}, {{}} are asked of it', (parts.backstop, "moment"),
+                (duty.backstop, "moment"),
+            )  # fmt: skip
+            yield compared(
+                "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
+                "moment", why=why, where="holding" if duty.backstop == duty.holding else "motors stalled",
+            )  # fmt: skip
+        if parts.heat is not None and duty.heat is not None:
+            why = said(
+                f'a stop leaves {{}} in the brake of "{name}", it bears {{}}',
+                (duty.heat, "energy"),
+                (parts.heat, "energy"),
+            )
+            yield compared(
+                "brake_heat",
+                f"heat of a stop in the brake, {name}",
+                duty.heat,
+                "at most",
+                parts.heat,
+                "energy",
+                why=why,
+            )
+        if parts.starts is not None and duty.allowed_starts is not None:
+            yield _starts(name, parts.starts, duty.allowed_starts)
+        if duty.shared is not None and installed is not None:
+            power = abs(motor(duty.shared))
+            why = said(
+                f'"{name}" takes {{}} where nothing but the belt couples the drives, installed: {{}}; control the '
+                "sharing, or choose motors of more slip and pulleys alike",
+                (power, "power"),
+                (installed, "power"),
+            )
+            yield compared(
+                "load_sharing", f"motor power by uncontrolled sharing, {name}", power, "at most", installed, "power",
+                why=why,
+            )  # fmt: skip
+
+
+def _starts(name: str, asked: float, allowed: float | str) -> Check:
+    subject = said(f"starts an hour, {name}")
+    if isinstance(allowed, str):
+        found = said("{}", (asked, "number"))
+        return Check("motor_starts", subject, asked, None, "number", found, said(allowed), "not checked")
+    why = said(
+        f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked for: '
+        "a coupling or an inverter"
+    )
+    made = compared("motor_starts", subject, asked, "at most", allowed, "number", why=why)
+    return replace(made, asked=said(f"at most {allowed:.2f} (NEMA MG 10)"))
+
+
+def coasting_time(found: CalculatedConveyor) -> Iterator[Check]:
+    """Without power and brakes the conveyor runs on as long as wanted; else the flywheel for it is named."""
+    wanted, stopped = found.line.coast_time, found.motions.coasting
+    if wanted is None or stopped is None:
+        return
+    inertia = coasting_flywheel(found.line, found.motions)
+    figures = () if inertia is None else ((inertia, "inertia"),)
+    cure = ": a flywheel of {} at the motors' shafts" if figures else ""
+    why = said(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
+    made = compared(
+        "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
+        found=said(f"{stopped.time:,.1f} s"),
+    )  # fmt: skip
+    yield replace(made, asked=said(f"at least {wanted:,.1f} s"))
+
+
 def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
     """The bulk stays on the belt in running, stopping and starting."""
     slip = found.motions.slip
@@ -700,6 +952,81 @@ def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
+def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
+    """No set bears more than it is rated for; of sets that give a class or a rating."""
+    for strand, duties in _sets_of_strands(found):
+        rated = [(duty, duty.limits.rating) for duty in duties if duty.limits.rating is not None]
+        if not rated:
+            continue
+        worst, rating = max(rated, key=lambda pair: pair[0].limits.load / pair[1])
+        limits = worst.limits
+        of_class = "" if limits.cema_class is None else f"CEMA class {limits.cema_class}"
+        of_class += ", general knowledge" if limits.cema_class == "E" else ""
+        cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
+        why = said(
+            f"{strand} sets in {quoted(worst.stretch.section)} bear {{}}, they are rated for {{}}{cure}",
+            (limits.load, "force"),
+            (rating, "force"),
+        )
+        yield compared(
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force",
+            source=of_class, why=why, where=worst.stretch.section,
+        )  # fmt: skip
+
+
+def roll_axle(found: CalculatedConveyor) -> Iterator[Check]:
+    """The axles of the rolls bend no more at their bearings than these bear; of axles that are given."""
+    for strand, duties in _sets_of_strands(found):
+        axles = [(duty.limits.axle, duty.stretch.section) for duty in duties if duty.limits.axle is not None]
+        if not axles:
+            continue
+        axle, section = max(axles, key=lambda of: of[0].slope / of[0].allowed)
+        why = said(
+            f"the axle of the {axle.roll} roll, {strand}, {quoted(section)}, slopes by {{}} at its bearings, they bear "
+            "{}: a thicker axle, a closer spacing",
+            (axle.slope, "angle"),
+            (axle.allowed, "angle"),
+        )
+        yield compared(
+            "roll_axle", f"slope of the axle at its bearings, {strand} rolls", axle.slope, "at most", axle.allowed,
+            "angle", why=why, where=f"{axle.roll}, {section}",
+        )  # fmt: skip
+
+
+def belt_flap(found: CalculatedConveyor) -> Iterator[Check]:
+    """The rolls' rotation stays off the belt's natural frequencies between sets; where a distance is asked for."""
+    for strand, duties in _sets_of_strands(found):
+        asked = [duty for duty in duties if duty.limits.flap_margin is not None]
+        if not asked:
+            continue
+        worst = min(asked, key=lambda duty: duty.distance)
+        cure, figures = "; a higher tension", list[tuple[float, str]]()
+        if worst.still_spacing is not None and worst.still_diameter is not None:
+            cure = "; sets at most {} apart, or rolls of at least {}, keep it still"
+            figures = [(worst.still_spacing, "length"), (worst.still_diameter, "thickness")]
+        why = said(
+            f"the belt may flap on its {strand} sets in {quoted(worst.stretch.section)}: rolls turn at "
+            f"{_band(worst.rotations)} Hz, the belt swings at {_band(worst.frequencies)} Hz and twice that{cure}",
+            *figures,
+        )
+        made = compared(
+            "belt_flap", f"distance from resonance of belt and rolls, {strand}", worst.distance, "at least",
+            worst.limits.flap_margin, "fraction", found=said(percent(worst.distance)), why=why,
+            where=worst.stretch.section,
+        )  # fmt: skip
+        yield replace(made, asked=said(f"at least {percent(worst.limits.flap_margin or 0.0)}"))
+
+
+def _band(ends: tuple[float, float]) -> str:
+    """Both ends of a band in words, an even one once."""
+    return " to ".join(dict.fromkeys(f"{end:.3g}" for end in ends))
+
+
+def _sets_of_strands(found: CalculatedConveyor) -> Iterator[tuple[Strand, list[SetDuty]]]:
+    for strand in STRANDS:
+        yield strand, [duty for duty in found.set_duty if duty.stretch.strand == strand]
+
+
 def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
     for strand, compound in compounds_by_strand(found.conveyor).items():
@@ -752,6 +1079,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling,
     motor_power,
     take_up_tension,
+    take_up_reach,
     drive_grip,
     sag,
     slack_belt,
@@ -759,17 +1087,29 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_rating,
     belt_breakage,
     splice_strength,
+    cover_thickness,
+    belt_temperature,
     pulley_diameter,
     curve_radius,
+    horizontal_edges,
+    belt_drift,
     transitions,
+    impact_load,
+    skirtboards,
+    belt_cleaning,
     pulley_shaft,
     pulley_bearings,
     lagging,
     starting_force,
     comes_to_rest,
     holding,
+    drive_parts,
+    coasting_time,
     bulk_slip,
     penetration,
     roll_life,
+    set_rating,
+    roll_axle,
+    belt_flap,
     rubber_coverage,
 )

@@ -13,7 +13,7 @@ from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
-from conveyor.report import analysis_plots, loop_plots, plots
+from conveyor.report import analysis_plots, loop_plots, plots, transfer_tables
 from conveyor.report.tables import boundaries
 from conveyor.studies.compared import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
@@ -55,12 +55,44 @@ class AnalysisPlots:
         found = self.analysis
         return loop_plots.tension_diagram(found.balance, found.motions, system=self._in(system))
 
+    def flap(self, *, system: System | None = None) -> Figure:
+        """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
+        return loop_plots.flap_diagram(self.analysis, system=self._in(system))
+
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
         return loop_plots.route_profile(
             conveyor, self.analysis.line, boundaries(self.analysis.line), system=self._in(system)
         )
+
+    def trajectory(self, *, system: System | None = None) -> Figure:
+        """The stream over the head pulley, to scale.
+
+        Raises
+        ------
+        InputError
+            The spec does not ask for it, or nothing arrives at the head.
+        """
+        if self.analysis.trajectory is None:
+            raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
+        return transfer_tables.picture(self.analysis, system=self._in(system))
+
+    def plan(self, *, system: System | None = None) -> Figure:
+        """The route from above, with its horizontal curves."""
+        return loop_plots.plan(self.analysis.line, system=self._in(system))
+
+    def drift(self, *, system: System | None = None) -> Figure:
+        """Drift of the belt in every horizontal curve, over all states of motion.
+
+        Raises
+        ------
+        InputError
+            The route has no horizontal curve.
+        """
+        if not self.analysis.horizontal:
+            raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
+        return loop_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
@@ -134,7 +166,9 @@ class AnalysisPlots:
             "resistances": self.resistances(system=system),
             "tensions": self.tensions(system=system),
             "profile": self.profile(system=system),
+            **({} if self.analysis.trajectory is None else {"trajectory": self.trajectory(system=system)}),
             "pressure": self.pressure(system=system),
+            **({"flap": self.flap(system=system)} if self.analysis.set_duty else {}),
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),

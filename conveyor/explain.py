@@ -1,17 +1,41 @@
-"""From pydantic's errors to lines a designer can act on: field, what was given, what is allowed."""
+"""A model from a file; pydantic's errors as lines a designer can act on: field, what was given, what is allowed."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from conveyor.files.document import MOST_LINES, Document, Fault
+from conveyor.errors import InputError
+from conveyor.files.document import MOST_LINES, Document, Fault, listing, read_document
 from conveyor.models.base import field_path, real_errors
 from conveyor.models.wording import Location, message
 
+M = TypeVar("M", bound=BaseModel)
 
-def findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:
+
+def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = None) -> M:
+    """Read a model from a YAML or JSON file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
+    """
+    document = read_document(path)
+    found = list(document.findings)
+    try:
+        read = model.model_validate(document.data, context=None if context is None else dict(context))
+    except ValidationError as error:
+        found = _findings(error, model, document)
+    if found:
+        raise InputError(listing(document.path, found))
+    return read
+
+
+def _findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:
     """Return every error of a validation in the file's order, with its place; the first say what is wrong."""
     found = list(document.findings)
     known = {finding.field for finding in found}

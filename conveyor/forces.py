@@ -35,6 +35,7 @@ from conveyor.laws.resistance import (
     slope_resistance,
     steel_cord_wrap_resistance,
 )
+from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.places import Spot
 from conveyor.line.strands import Strands
@@ -158,11 +159,12 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that neither rubber nor air changes [N], shape (2n,).
 
-    `flexure` is None where it is a share of the other main resistances; `unit_main` is the main resistance that
-    DIN 22101 gives for f = 1.
+    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
+    resistances; `unit_main` is the main resistance that DIN 22101 gives for f = 1.
     """
 
     tilt: Array
+    guidance: Array | None
     lift: Array
     unit_main: Array
     flexure: Array | None
@@ -174,8 +176,10 @@ def without_rubber(strands: Strands) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
 
+    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strands.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
+        guidance=each(_guidance) if skewed else None,
         lift=each(_lift),
         unit_main=each(_unit_main),
         flexure=each(_flexure) if strands.flexes else None,
@@ -219,6 +223,7 @@ def along_the_belt(
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
         Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
+        *_guiding(fixed),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
     )
 
@@ -243,6 +248,19 @@ def _tilt(stretch: Stretch, gravity: float) -> float:
         tilt_angle=stretch.tilt_angle,
         gravity=gravity,
     )
+
+
+def _guidance(stretch: Stretch, _gravity: float) -> float:
+    """Resistance of sets that are skewed to steer the belt out of a horizontal curve [N]."""
+    return 0.0 if stretch.turn is None else stretch.sets * stretch.turn.guidance()
+
+
+def _guiding(fixed: WithoutRubber) -> Iterator[Force]:
+    if fixed.guidance is not None:
+        law = "guiding friction x sine of the skew, derived"
+        yield Force(
+            "guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance"
+        )
 
 
 def _lift(stretch: Stretch, gravity: float) -> float:
@@ -286,6 +304,12 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             certain=certain, spot=point.spot, place=point.place, assumed=point.assumed, bulk=bulk,
         )  # fmt: skip
 
+    length = acceleration_length(
+        belt_speed=line.speed,
+        initial_speed=point.speed,
+        belt_friction=point.belt_friction,
+        gravity=line.gravity,
+    )
     if point.lift is not None and point.flow > 0.0:
         bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
         yield Force(
@@ -303,12 +327,6 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             certain=True,
             bulk=point.comes_with,
         )
-        length = acceleration_length(
-            belt_speed=line.speed,
-            initial_speed=point.speed,
-            belt_friction=point.belt_friction,
-            gravity=line.gravity,
-        )
         zone = acceleration_skirt_resistance(
             volume_flow=point.flow / line.density,
             bulk_density=line.density,
@@ -322,6 +340,13 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         yield force(
             "loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f", bulk=point.comes_with
         )
+    if point.seal_drag > 0.0:
+        boards = point.skirtboards or length + point.skirt_length
+        drag = skirt_seal_resistance(boards, drag_per_length=point.seal_drag)
+        yield Force(
+            "skirt_seals", f"seals of the skirts{point.name}", "special", drag, "seal_drag x length of the skirts",
+            spot=point.spot, place=point.place,
+        )  # fmt: skip
     if point.flow_beyond == 0.0:
         return
     # the bulk that lies there already rubs on the skirts of a later feeding point too

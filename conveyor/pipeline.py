@@ -3,14 +3,15 @@
 spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
 
 Many variants go through it side by side: their contacts are solved together; what several of them share (a line, a
-rubber at a temperature, a cover at its working strain) is made once. On vertical curves, and under a belt that gives,
-the tensions act on the rolls again until both agree.
+rubber at a temperature, a cover at its working strain) is made once. On curves, and under a belt that gives, the
+tensions act on the rolls again until both agree.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
@@ -36,17 +37,21 @@ from conveyor.line.covers import (
 )
 from conveyor.line.line import Line
 from conveyor.line.strands import Strands
-from conveyor.line.stretches import STRANDS, Pressing, Strand, Stretch
+from conveyor.line.stretches import STRANDS, Acting, Strand, Stretch
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
-from conveyor.loop.curves import Convergence, converged, pressing_masses, pulls
+from conveyor.loop.curves import Convergence, acting, converged, pulls
+from conveyor.loop.drive_duty import DriveDuty, drive_duty
 from conveyor.loop.frame import Frame
+from conveyor.loop.horizontal import HorizontalCheck, horizontal_checks
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
+from conveyor.loop.set_duty import SetDuty, set_duty
 from conveyor.loop.starting import Motions, every_state, motions
 from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
-from conveyor.models import Conveyor
+from conveyor.models import Calculation, Conveyor, RubberCompound
 from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
@@ -202,9 +207,39 @@ class CalculatedConveyor:
         return belt_duty(self.balance, self.every_state)
 
     @cached_property
+    def horizontal(self) -> tuple[HorizontalCheck, ...]:
+        """Every horizontal curve on both strands: drift in every state, radii, tensions of the edges."""
+        return horizontal_checks(self.balance, self.every_state)
+
+    @cached_property
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:
         """Loads of every pulley in every state, its shaft, bearings and lagging."""
         return pulley_duty(self.balance, self.every_state)
+
+    @cached_property
+    def drive_duty(self) -> tuple[DriveDuty, ...]:
+        """Gear, backstop, brake, starts and sharing of the drives whose spec asks for them."""
+        return drive_duty(self.balance, self.motions)
+
+    @cached_property
+    def set_duty(self) -> tuple[SetDuty, ...]:
+        """Load, axles, life and flap of the idler sets whose spec asks for them."""
+        return set_duty(self.balance)
+
+    @cached_property
+    def landings(self) -> tuple[Landing, ...]:
+        """Impact and skirts of every loading point."""
+        return landings(self.line)
+
+    @cached_property
+    def cleanings(self) -> tuple[Cleaning, ...]:
+        """What every cleaner leaves on the belt."""
+        return cleanings(self.line)
+
+    @cached_property
+    def trajectory(self) -> Trajectory | None:
+        """The stream over the head pulley, where the spec asks for it."""
+        return trajectory(self.line)
 
     @cached_property
     def year(self) -> Year | None:
@@ -296,7 +331,7 @@ def calculate_many(
         loaded: dict[int, _Loaded] = {}
         for i, step in going.items():
             try:
-                loaded[i] = shared.loaded(variants[i], step.pressing)
+                loaded[i] = shared.loaded(variants[i], step.acting)
             except (NoSolutionError, RangeError, InputError) as error:
                 refused[i] = error
             told(len(variants) - len(going), len(loaded))
@@ -328,9 +363,9 @@ def calculate_many(
 
 @dataclass(frozen=True, eq=False)
 class _Step:
-    """Where the iteration of a variant stands: what presses on its curves, what holds its belt, the result before."""
+    """Where the iteration of a variant stands: what acts on its curves, what holds its belt, the result before."""
 
-    pressing: Pressing = field(default_factory=dict)
+    acting: Acting = field(default_factory=Acting)
     pulls: Array | None = None
     before: Balance | None = None
     convergence: Convergence | None = None
@@ -340,7 +375,7 @@ class _Step:
         """The next step; its tensions are those found."""
         line, steady = found.line, found.balance.settled.steady
         held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
-        return cls(pressing_masses(line, steady), held, found.balance, found.convergence)
+        return cls(acting(line, steady), held, found.balance, found.convergence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -353,9 +388,25 @@ class _Loaded:
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
 
 
-def _strands(conveyor: Conveyor, pressing: Pressing) -> tuple[Strands, WithoutRubber]:
+def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
+    """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
+    found: Anchors = []
+    softened = conveyor.calculation.strain != "off"
+    for compound in compounds if _anchored(conveyor.calculation) else ():
+        if compound.tests:
+            with suppress(NoSolutionError, RangeError, InputError):
+                _once(found, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    return found
+
+
+def _anchored(calculation: Calculation) -> bool:
+    """Whether tests of compounds set the level of their indentation."""
+    return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
+
+
+def _strands(conveyor: Conveyor, on_curves: Acting) -> tuple[Strands, WithoutRubber]:
     """The strands of a conveyor and the forces that its load alone decides."""
-    strands = Strands.of(conveyor, pressing)
+    strands = Strands.of(conveyor, on_curves)
     return strands, without_rubber(strands)
 
 
@@ -437,13 +488,13 @@ class _Shared:
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 self._running[self._first(work)] = cover
 
-    def loaded(self, variant: Variant, pressing: Pressing) -> _Loaded:
-        """The line of a variant under what presses on its curves, and its covers before its rolls work them.
+    def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
+        """The line of a variant under what acts on its curves, and its covers before its rolls work them.
 
         Raises
         ------
         NoSolutionError
-            The belt lifts off on a concave curve.
+            The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
         RangeError
             A compound is not known at the belt's temperature.
         InputError
@@ -452,7 +503,7 @@ class _Shared:
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
-        loaded = self._prepared(given, dict(pressing))
+        loaded = self._prepared(given, on_curves)
         covers = covers_of(given, rubber, self._levels(given, at))
         return replace(
             loaded,
@@ -462,10 +513,11 @@ class _Shared:
             },
         )
 
-    def _prepared(self, given: Conveyor, pressing: Pressing) -> _Loaded:
+    def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
         """The line of a spec; lines of one belt and load, in any air and under any drives, share their strands."""
         parts = (given.belt, given.idlers, given.material, given.route, given.calculation)
-        strands, fixed = _once(self._strands, parts, (pressing,), partial(_strands, given, pressing))
+        scene = (on_curves, given.ambient.wind_speed)
+        strands, fixed = _once(self._strands, parts, scene, partial(_strands, given, on_curves))
         air = given.air_temperature if given.idlers.drag_follows_air else None
         return _once(self._lines, (strands, given.drive), (air,), partial(_loaded, given, strands, fixed))
 
@@ -490,7 +542,7 @@ class _Shared:
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
         calculation = conveyor.calculation
-        anchored = calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
+        anchored = _anchored(calculation)
         softened = calculation.strain != "off"
         found: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import difflib
-import io
 import os
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.explain import findings
-from conveyor.files.document import listing, read_document
+from conveyor.explain import read_model
+from conveyor.files.document import read_document, yaml_text
 from conveyor.files.shelves import ENVIRONMENT, SUFFIXES, built_in, files, folders
 from conveyor.models.compound import RubberCompound
 
@@ -108,14 +105,7 @@ def read_compound(path: Path) -> RubberCompound:
 @lru_cache(maxsize=256)
 def _read_once(path: Path, _changed: int, _size: int) -> RubberCompound:
     """Read a file, once for each state of it: models are frozen and may be shared."""
-    document = read_document(path)
-    try:
-        read = RubberCompound.model_validate(document.data)
-    except ValidationError as error:
-        raise InputError(listing(document.path, findings(error, RubberCompound, document))) from None
-    if document.findings:
-        raise InputError(listing(document.path, document.findings))
-    return read
+    return read_model(RubberCompound, path)
 
 
 def resolver(
@@ -148,7 +138,6 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
     heading : str
         A comment for the first line, without ``#``.
     """
-    from ruamel.yaml import YAML
     from ruamel.yaml.comments import CommentedMap, CommentedSeq
 
     def laid(value: Any) -> Any:
@@ -164,11 +153,8 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
             return row
         return value
 
-    writer = YAML(typ="rt", pure=True)
-    writer.width = 100_000  # one row of a table is one line
-    stream = io.StringIO()
-    writer.dump(laid(compound.as_data()), stream)
-    return (f"# {heading}\n" if heading else "") + stream.getvalue()
+    written = yaml_text(laid(compound.as_data()), width=100_000)  # one row of a table is one line
+    return (f"# {heading}\n" if heading else "") + written
 
 
 def _short(items: list[Any]) -> bool:

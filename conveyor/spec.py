@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -16,8 +15,8 @@ from pydantic import ValidationError
 from conveyor import shelf
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.explain import findings
-from conveyor.files.document import MOST_LINES, listing, read_document
+from conveyor.explain import read_model
+from conveyor.files.document import first_lines, read_document, yaml_text
 from conveyor.models import Conveyor
 from conveyor.models.base import field_path, real_errors
 from conveyor.models.wording import Location, message
@@ -50,7 +49,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     """
     where = Path(path)
     if where.suffix.lower() == ".xlsx":
-        from conveyor.template.read import read_template
+        from conveyor.forms.read import read_template
 
         filled = read_template(where)
         return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
@@ -60,17 +59,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
         raise InputError(
             f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"'
         )
-    document = read_document(where)
-    context = {"compound": shelf.resolver(extra=shelves, base=where.parent)}
-    found = list(document.findings)
-    conveyor = None
-    try:
-        conveyor = Conveyor.model_validate(document.data, context=context)
-    except ValidationError as error:
-        found = findings(error, Conveyor, document)
-    if conveyor is None or found:
-        raise InputError(listing(document.path, found))
-    return conveyor
+    return read_model(Conveyor, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
 
 
 @checked
@@ -102,14 +91,13 @@ def from_data(
             dict(data), context={"compound": shelf.resolver(extra=shelves, base=base)}
         )
     except ValidationError as error:
-        lines, items = [], real_errors(error)
-        for item in items[:MOST_LINES]:
+
+        def line(item: Any) -> str:
             location: Location = tuple(item["loc"])
             place = "" if where is None else where(location) + " "
-            lines.append(f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}")
-        if len(items) > MOST_LINES:
-            lines.append(f"and {len(items) - MOST_LINES} more errors")
-        raise InputError("\n".join(lines)) from None
+            return f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}"
+
+        raise InputError(first_lines(real_errors(error), line)) from None
 
 
 @contextmanager
@@ -139,7 +127,7 @@ def placing(path: str | Path) -> Iterator[None]:
 
 def _placed(path: Path, location: Location) -> str:
     if path.suffix.lower() == ".xlsx":
-        from conveyor.template.read import read_template
+        from conveyor.forms.read import read_template
 
         return read_template(path).where(location)
     line, column = read_document(path).place(location)
@@ -149,13 +137,7 @@ def _placed(path: Path, location: Location) -> str:
 @checked
 def dump(conveyor: Conveyor) -> str:
     """Return a spec (YAML) that `load` reads back to an equal conveyor; compounds are written out."""
-    from ruamel.yaml import YAML
-
-    writer = YAML(typ="rt", pure=True)
-    writer.width = 110
-    stream = io.StringIO()
-    writer.dump(conveyor.as_data(), stream)
-    return stream.getvalue()
+    return yaml_text(conveyor.as_data(), width=110)
 
 
 def fingerprint(conveyor: Conveyor) -> str:

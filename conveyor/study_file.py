@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import csv
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Final, TypeVar
-
-from pydantic import ValidationError
+from typing import Final, TypeVar
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.explain import findings
+from conveyor.explain import read_model
 from conveyor.files.content import file_content
-from conveyor.files.document import listing, read_document
 from conveyor.laboratory.encoding import decoded
-from conveyor.models.base import Model
+from conveyor.laboratory.separated import headed_lines
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import DUTY, HOURS, SearchPlan, StudyPlan, Value, VariedSpec, hours_of
 
@@ -24,7 +21,6 @@ LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
 _HEAD: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
 Given = TypeVar("Given", bound=VariedSpec)
-Read = TypeVar("Read", bound=Model)
 
 
 def read_plan(path: str | Path) -> StudyPlan:
@@ -35,12 +31,12 @@ def read_plan(path: str | Path) -> StudyPlan:
     InputError
         A file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
     """
-    return _with_states(_read(StudyPlan, Path(path)), Path(path))
+    return _with_states(read_model(StudyPlan, Path(path)), Path(path))
 
 
 def read_search(path: str | Path) -> SearchPlan:
     """Read what `conveyor optimise` searches; as `read_plan`."""
-    return _with_states(_read(SearchPlan, Path(path)), Path(path))
+    return _with_states(read_model(SearchPlan, Path(path)), Path(path))
 
 
 def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> SizingDuty:
@@ -52,21 +48,22 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
         As `read_plan`.
     """
     where = Path(path)
-    return _read(SizingDuty, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
+    return read_model(SizingDuty, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
 
 
-def _read(model: type[Read], path: Path, context: dict[str, Any] | None = None) -> Read:
-    """A model from a file."""
-    document = read_document(path)
-    found = list(document.findings)
-    read = None
+@contextmanager
+def named(path: str | Path) -> Iterator[None]:
+    """Name the file of a plan in what refuses it later: a field, a figure or a compound that its spec does not know.
+
+    Raises
+    ------
+    InputError
+        As it was raised, with the file.
+    """
     try:
-        read = model.model_validate(document.data, context=context)
-    except ValidationError as error:
-        found = findings(error, model, document)
-    if read is None or found:
-        raise InputError(listing(document.path, found))
-    return read
+        yield
+    except InputError as error:
+        raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
 
 
 def _with_states(plan: Given, path: Path) -> Given:
@@ -90,20 +87,18 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
         It cannot be read, or a cell is empty or of another kind.
     """
     text, _ = decoded(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    separator = max("\t;,", key=lines[0].count) if lines else ","
-    head, *rows = csv.reader(lines, delimiter=separator, skipinitialspace=True) if lines else ([],)
-    heads = [_HEAD.fullmatch(name) for name in head]
-    if not rows or not all(heads):
+    lines = [line for line in headed_lines(text) if not line.comment]
+    heads = [_HEAD.fullmatch(name) for line in lines[:1] for name in line.cells]
+    if len(lines) < 2 or not all(heads):
         raise InputError(
             f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
         )
     named = [(one[1], one[2] or "") for one in heads if one is not None]
     found: dict[tuple[Value, ...], float] = {}
-    for number, row in enumerate(rows, start=2):
-        if len(row) != len(named) or not all(cell.strip() for cell in row):
+    for number, cells, *_ in lines[1:]:
+        if len(cells) != len(named) or not all(cells):
             raise InputError(f"{path}: row {number}: expected {len(named)} cells, none of them empty")
-        given = {name: _cell(cell.strip(), unit) for cell, (name, unit) in zip(row, named, strict=True)}
+        given = {name: _cell(cell, unit) for cell, (name, unit) in zip(cells, named, strict=True)}
         time = hours_of(given.pop(HOURS, 1.0))
         if time is None:
             raise InputError(f"{path}: row {number}: hours: expected a time above 0")

@@ -23,7 +23,22 @@ from conveyor.contact.closed_forms import (
     plane_modulus,
 )
 from conveyor.dynamics.published import harrison, lodewijks, nordell_ciozda
-from conveyor.laws import loading, power, pulley, resistance, tension, transition, waves
+from conveyor.laws import (
+    discharge,
+    drives,
+    horizontal_curve,
+    loading,
+    power,
+    pulley,
+    resistance,
+    roll_life,
+    take_up,
+    tension,
+    transfer,
+    transition,
+    waves,
+)
+from conveyor.laws.belt import belt_safety
 from conveyor.rubber.prony import PronySeries
 
 _PROTOTYPE = "Bessel-Galerkin prototype"
@@ -32,8 +47,17 @@ _HUNTER = "Hunter (1961)"
 _CONTACT = "CONTACT program"
 _ISO = "ISO 5048 worked example"
 _HELIX = "Helix shaft report"
+_HELIX_PRINTED = "Helix delta-T reports"
+_SHORTT = "Shortt (2019), idler of 127 mm, bearings 6305"
+_NEMA = "NEMA MG 10, table 2-3"
 _TRANSITION = "ISO 5293:2004"
+_CURVE = "Grimmer, Kessler (1987), by eytelwein 0.1.9"
 _LEMMON = "Lemmon (2013), finite elements"
+_CEMA_TRANSITION = "CEMA, transition"
+_SECTION = "ISO 5048, cross-section"
+_SIDEWINDER = "Conveyor C-1.1 report"
+_CKIT = "ckit.co.za, trajectories"
+_RULMECA = "Rulmeca, impact rollers"
 _IDENTITY = "J*(ω) E*(ω) = 1"
 _SONG = "Song et al. (2012)"
 _NORDELL = "Nordell and Ciozda (1984), measured"
@@ -63,6 +87,7 @@ _SHALLOW = 1e-3  # a0/R [-]: the circle differs from Hunter's parabola by its sq
 _SPARSE = 1e-3  # R/λ [-]: the neighbouring rolls act by the square of (α + ζ)
 _CLOSED_FORM_TOLERANCE = 1e-5
 _IDENTITY_TOLERANCE = 1e-12
+_CURVE_TOLERANCE = 1e-9  # ten digits given
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,8 +186,8 @@ def run() -> list[ReferenceCheck]:
     Returns
     -------
     list of Check
-        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, transition, compliance times modulus,
-        starts and stops.
+        In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, roll, take-up, motor,
+        transition, horizontal curve, printed designs, transfer, compliance times modulus, starts and stops.
 
     Examples
     --------
@@ -176,7 +201,13 @@ def run() -> list[ReferenceCheck]:
         _contact_program(),
         _iso_5048(),
         _pulley_shaft(),
+        _idler_roll(),
+        _take_up_and_sag(),
+        _motor_starts(),
         _transition(),
+        _printed_designs(),
+        _transfer(),
+        _horizontal_curve(),
         _compliance_identity(),
         _starts_and_stops(),
     )
@@ -332,6 +363,42 @@ def _pulley_shaft() -> Iterator[ReferenceCheck]:
     yield _printed(_HELIX, "torque [N m]", "1748", 0.5 * (start[1] - start[0]) * 0.874)
 
 
+def _idler_roll() -> Iterator[ReferenceCheck]:
+    """2000 t/h at 3.8 m/s on rolls of 127 mm, both bearings of the middle roll alike."""
+    bulk = loading.bulk_line_mass(2000.0 / 3.6, belt_speed=3.8)
+    rotation = resistance.roll_rotation(3.8, roll_diameter=0.127)
+    # the load of a bearing that lives so long: L10 falls with its third power
+    hours = roll_life.rating_life_hours(1e3, dynamic_rating=26e3, rotation=rotation)
+    load = 2.0 * 1e3 * (hours / 40e3) ** (1.0 / roll_life.BALL_EXPONENT)
+    yield _printed(_SHORTT, "bulk [kg/m]", "146.199", bulk)
+    yield _printed(_SHORTT, "load of the roll that lives 40,000 h [kN]", "4.680", load / 1e3)
+
+
+def _take_up_and_sag() -> Iterator[ReferenceCheck]:
+    """Take-up tension of printed masses, and tension for the sag of belt and bulk; g 9.80665 m/s²."""
+    g = 9.80665
+    for name, mass, strands, figure in (
+        ("Curragh North C3, 13 t", 13e3, 2, "63.74"), ("PC01, 17 t", 17e3, 2, "83.36"), ("BC-01, 2 t", 2e3, 2, "9.81"),
+        ("20 t on 4 strands", 20e3, 4, "49.0"), ("46.9 t on 4 strands", 46.9e3, 4, "115"),
+    ):  # fmt: skip
+        one = take_up.take_up_mass(1.0, reeving=1.0, gravity=g, strands=strands)
+        yield _printed(_HELIX_PRINTED, f"tension of the take-up, {name} [kN]", figure, mass / one / 1e3)
+    for name, line_mass, flow, speed, spacing, sag, figure in (
+        ("Curragh North C3", 30.0, 2500.0, 7.5, 5.0, 0.02, "37.57"),
+        ("PC01", 39.62, 1000.0, 5.2, 1.2, 0.015, "9.12"), ("BC-01", 11.06, 120.0, 1.0, 1.2, 0.015, "4.35"),
+    ):  # fmt: skip
+        whole = line_mass + loading.bulk_line_mass(flow / 3.6, belt_speed=speed)
+        least = tension.sag_tension(whole, spacing=spacing, relative_sag=sag, gravity=g)
+        yield _printed(_HELIX_PRINTED, f"tension for {100 * sag:g} % sag, {name} [kN]", figure, least / 1e3)
+
+
+def _motor_starts() -> Iterator[ReferenceCheck]:
+    """25 hp, 4 poles, load Wk² 50 lb ft², as the EASA handbook works it out."""
+    load = 50.0 * 0.45359237 * 0.3048**2
+    starts = drives.allowed_starts(25.0 * drives.HORSEPOWER, poles=4, load_inertia=load)
+    yield _printed(_NEMA, "starts an hour, 25 hp, 4 poles, 50 lb ft²", "2.44", starts)
+
+
 def _transition() -> Iterator[ReferenceCheck]:
     """The standard's formula where the pulley is level with the middle roll; a belt of 1600 mm by finite elements."""
     wing, lam, stiffness, induced = 0.4, math.radians(35.0), 72e6, 40e3
@@ -340,6 +407,19 @@ def _transition() -> Iterator[ReferenceCheck]:
     expected = wing * math.sqrt(stiffness / induced * (1.0 - math.cos(lam)))
     got = math.sqrt(stiffness * (found.edge - found.middle) / induced)
     yield _close(_TRANSITION, "length [m], 1.2 m, 35 deg, ΔT 40 N/mm", expected, got, _IDENTITY_TOLERANCE)
+    for depth in (1.0, 0.5):  # of the trough, from the pulley to its edge: z = h, z = h/2
+        found = transition.transition_stretch(
+            1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=1.0 - depth
+        )
+        raised = (1.0 - depth) * wing * math.sin(lam)
+        expected = math.sqrt(0.5 * stiffness / induced) * math.hypot(
+            wing * (1.0 - math.cos(lam)), depth * wing * math.sin(lam)
+        )
+        # the middle rises to the pulley, too: its own way is counted from it
+        edge = found.edge - found.middle + 0.5 * raised**2
+        got = math.sqrt(stiffness * edge / induced)
+        name = f"length [m], 1.2 m, 35 deg, pulley at {depth:g} of the trough"
+        yield _close(_CEMA_TRANSITION, name, expected, got, _IDENTITY_TOLERANCE)
     # ST2500 by its safety of 5.79 at 432 N/mm, 72 times that as stiffness, rolls of 600 mm at 45 deg by the 8 widths
     # of CEMA; none of them printed, so that a hundredth is allowed
     mean, stiff, length = 600e3 / 1.6, 72.0 * 2.5e6, 13.0
@@ -349,6 +429,70 @@ def _transition() -> Iterator[ReferenceCheck]:
     for where, printed, stretch in (("edge", 433.0, strips.edge), ("middle", 357.0, strips.middle)):
         here = (mean + stiff * stretch / length**2) / 1e3
         yield _close(_LEMMON, f"tension of the {where} [N/mm]", printed, here, 0.01)
+
+
+def _printed_designs() -> Iterator[ReferenceCheck]:
+    """Figures of cross-section, power and belt that other programs and examples print."""
+    section = loading.cross_section(
+        1.03, middle_roll_length=0.436, trough_angle=math.radians(45.0), surcharge_angle=math.radians(20.0)
+    )
+    yield _printed(_SECTION, "heap above the water line [m²]", "0.0445", section.top)
+    yield _printed(_SECTION, "below the water line [m²]", "0.1357", section.bottom)
+    for name, force, speed, printed in (
+        ("Curragh", 506.64, 7.5, 3799.82),
+        ("PC01", 297.71, 5.2, 1548.12),
+        ("BC-01", 11.07, 1.0, 11.07),
+    ):
+        # half a unit of the printed tension
+        got = power.belt_power(1e3 * force, belt_speed=speed) / 1e3
+        yield _close(
+            _HELIX_PRINTED, f"power at the belt [kW], {name}", printed, got, 0.005 / force + 0.005 / printed
+        )
+    for state, force, printed in (("running", 88.3, 16.98), ("momentary", 127.0, 11.83)):
+        got = belt_safety(1e3 * force, nominal_strength=1250e3, belt_width=1.2)
+        digit = 0.05 if force < 100.0 else 0.5
+        yield _close(
+            _SIDEWINDER, f"safety of the belt [-], {state}", printed, got, digit / force + 0.005 / printed
+        )
+
+
+def _transfer() -> Iterator[ReferenceCheck]:
+    """Width of the bulk on the head pulley, and the impact of a stream."""
+    for width, printed in (
+        (350, "265.5"), (400, "310"), (450, "354.5"), (500, "400"), (600, "500"), (1200, "1100"), (2100, "2000"),
+    ):  # fmt: skip
+        got = 1e3 * discharge.width_on_pulley(width / 1e3)
+        yield _printed(_CKIT, f"width of the bulk on the pulley [mm], belt {width} mm", printed, got)
+    stream = transfer.stream_impact(1.0 / 3.6, drop_height=1.0, gravity=9.81)
+    yield _printed(_RULMECA, "t/h √m over the impact [1/kgf]", "8", 9.81 / stream)
+
+
+def _horizontal_curve() -> Iterator[ReferenceCheck]:
+    """Empty belt of 0.8 m that has drifted inside by 60 mm: 156.71475 N a set, 30 deg, banked by 1.46 deg."""
+    weight, wing, middle = 156.71475, 0.2425, 0.315
+    angles = {"trough_angle": math.radians(30.0), "banking_angle": math.radians(1.46)}
+    centred = [
+        loading.RollLoad("", 0.0, weight * width / 0.8, width, "uniform") for width in (wing, middle, wing)
+    ]
+    drifted = horizontal_curve.drifted_loads(centred, 0.06, roll_length=middle)
+    for name, width, load in zip(
+        ("inside", "middle", "outside"), (0.3025, 0.315, 0.1825), drifted, strict=True
+    ):
+        yield _close(_CURVE, f"belt on the {name} roll [m]", width, load.length, _IDENTITY_TOLERANCE)
+    bare = horizontal_curve.outward_pushes((0.0, 0.0, 0.0), **angles)
+    factors = (1.1, 0.9, 1.1)  # load factors of the wings and of the middle, Part II
+    weights = [k * load.force * push for k, load, push in zip(factors, drifted, bare, strict=True)]
+    for name, printed, got in zip(
+        ("inside", "middle", "outside"),
+        (34.0194976531535, 1.41499913142688, -18.7886810270471),
+        weights,
+        strict=True,
+    ):
+        yield _close(_CURVE, f"weight outward on the {name} roll [N]", printed, got, _CURVE_TOLERANCE)
+    yield _close(_CURVE, "weight outward, set [N]", 16.6458157575333, math.fsum(weights), _CURVE_TOLERANCE)
+    guided = horizontal_curve.outward_pushes((0.0, 0.70 * 0.279588668362082, 0.0), **angles)
+    force = horizontal_curve.outward_force(drifted, guided) - horizontal_curve.outward_force(drifted, bare)
+    yield _close(_CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE)
 
 
 def _compliance_identity() -> Iterator[ReferenceCheck]:

@@ -15,7 +15,7 @@ import conveyor
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.fitting.told import lines
-from conveyor.laboratory.answered import read_answered
+from conveyor.laboratory.read import read_answered
 from conveyor.rubber import PronySeries
 
 ROOT = Path(__file__).parent.parent

@@ -150,13 +150,7 @@ _PATIENCE = 1.0  # seconds before a bar appears
 
 
 def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None = None) -> Conveyor:
-    """The conveyor of a spec, with fields changed by `FIELD=VALUE`.
-
-    Raises
-    ------
-    InputError
-        The spec is refused, or a change.
-    """
+    """The conveyor of a spec, with fields changed by `FIELD=VALUE`."""
     import conveyor
     from conveyor import shelf
     from conveyor.models.fields import with_fields
@@ -190,13 +184,7 @@ def print_json(data: object) -> None:
 
 
 def json_text(data: object) -> str:
-    """JSON of a result.
-
-    Raises
-    ------
-    NoSolutionError
-        It holds a figure that is not finite: a result that is none, whether JSON is asked for or not.
-    """
+    """JSON of a result."""
     try:
         written = json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False)
     except ValueError:
@@ -252,13 +240,7 @@ def _bar() -> Any:
 
 
 def values(given: str, option: str, *units: str) -> list[str]:
-    """``from:to:step`` or ``a,b,c``, with a unit at the end or in the first one, as texts with the unit.
-
-    Raises
-    ------
-    InputError
-        Anything else, or more than 1000 values.
-    """
+    """``from:to:step`` or ``a,b,c``, with a unit at the end or in the first one, as texts with the unit."""
     unit = next((known for known in units if given.strip().endswith(known)), units[0])
     body = given.strip().removesuffix(unit).strip()
     try:
@@ -275,13 +257,7 @@ def values(given: str, option: str, *units: str) -> list[str]:
 
 
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:
-    """One of the words an option allows.
-
-    Raises
-    ------
-    InputError
-        Another word.
-    """
+    """One of the words an option allows."""
     if given not in allowed:
         raise InputError(f'{option}: got "{given}", allowed: {", ".join(allowed)}')
     return given

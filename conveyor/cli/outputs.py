@@ -29,25 +29,7 @@ class Outputs:
         self._said: list[str] = []
 
     def file(self, option: str, path: Path | None, *endings: str, kind: str = "") -> None:
-        """Refuse a file that cannot be written, or must not.
-
-        Parameters
-        ----------
-        option : str
-            Asks for it; begins messages.
-        path : Path or None
-            The file, None where it is not asked for.
-        endings : str
-            Of its name.
-        kind : str
-            What it will be, as `marks.mark` says; without it an older file is looked at when the new one is there.
-
-        Raises
-        ------
-        InputError
-            As `saving.writable`; another ending, .parquet without pyarrow, an input, the file of another option, an
-            older file of another kind.
-        """
+        """Refuse a file that cannot be written, has another ending, or would replace what is not of its kind."""
         if path is None:
             return
         if path.suffix.lower() not in endings:
@@ -66,13 +48,7 @@ class Outputs:
         self._refuse_older(path, kind)
 
     def folder(self, option: str, path: Path | None) -> None:
-        """Refuse a folder that is none, or that neither exists nor can be made.
-
-        Raises
-        ------
-        InputError
-            A file has its name, or the folder that holds it does not exist or is read-only.
-        """
+        """Refuse a folder that is none, or that neither exists nor can be made."""
         if path is None:
             return
         if path.exists() and not path.is_dir():
@@ -85,13 +61,7 @@ class Outputs:
         self._folders.append(path)
 
     def tables(self, path: Path | None, *, parquet: bool) -> None:
-        """Refuse a folder for tables as `folder` does, and Parquet without one or the package that writes it.
-
-        Raises
-        ------
-        InputError
-            As `folder`; no folder, or no such package.
-        """
+        """Refuse a folder for tables as `folder` does, and Parquet without one or the package that writes it."""
         self.folder("--tables", path)
         if not parquet:
             return
@@ -101,13 +71,7 @@ class Outputs:
             raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
 
     def add(self, what: str, where: Path, contents: Mapping[Path, bytes]) -> None:
-        """Take what goes into a file and those beside it, or into the files of a folder.
-
-        Raises
-        ------
-        InputError
-            Another output goes to the same file, or as `file`.
-        """
+        """Take what goes into a file and those beside it, or into the files of a folder."""
         for path, content in contents.items():
             if any(_same(path, other) for other in self._contents):
                 raise InputError(f"{path}: two outputs go to this file; choose another name or folder")
@@ -116,13 +80,7 @@ class Outputs:
         self._said.append(f"{what}: {where if where in contents else f'{len(contents)} in {where}'}")
 
     def save(self) -> list[str]:
-        """Write everything, or change nothing; a line on each.
-
-        Raises
-        ------
-        InputError
-            Something cannot be written.
-        """
+        """Write everything, or change nothing; a line on each."""
         saving.save(self._contents, folders=self._folders)
         return self._said
 

@@ -52,13 +52,7 @@ class Session:
         return Outputs(*inputs, force=self.force)
 
     def read(self, spec: Path) -> Conveyor:
-        """The conveyor of a spec with the fields changed.
-
-        Raises
-        ------
-        InputError
-            The spec is refused, or a change.
-        """
+        """The conveyor of a spec with the fields changed."""
         return read_spec(spec, self.shelf, self.changed)
 
     def system(self, line: Conveyor | SizingDuty | None = None) -> System:
@@ -72,15 +66,7 @@ class Session:
         return progress(silent=self.quiet or self.as_json)
 
     def answer(self, figures: object, to: Outputs, show: Callable[[], None]) -> None:
-        """Write the files, then print the figures as JSON, or show them and name the files.
-
-        Raises
-        ------
-        InputError
-            A file cannot be written.
-        NoSolutionError
-            A figure is not finite.
-        """
+        """Write the files, then print the figures as JSON, or show them and name the files."""
         text = json_text(figures)
         written = to.save()
         if self.as_json:

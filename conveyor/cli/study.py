@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from time import perf_counter
@@ -14,13 +14,14 @@ import typer
 from conveyor.cli.app import WebPage, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
-from conveyor.cli.workers import Scheduler, Workers, executor_of
+from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
 from conveyor.files import marks
 from conveyor.printable import printable
 
 if TYPE_CHECKING:
+    from conveyor.report.campaigning import CampaignTable
     from conveyor.report.columns import Contents
-    from conveyor.studies.campaign import Campaign, Point
+    from conveyor.studies.campaign import Campaign, Keyed, Point
     from conveyor.studies.designs import Design
     from conveyor.studies.explored import Explored
     from conveyor.units import System
@@ -35,6 +36,7 @@ _SHOWN = 3
         "conveyor study spacing.yaml -o spacing.csv",
         "conveyor study year.yaml -o points.csv --designs designs.csv --html year.html --specs best",
         "conveyor study spacing.yaml -o spacing.parquet --workers 8",
+        "conveyor study year.yaml -o points --workers 8  # a folder of parts, while it runs",
         "conveyor study spacing.yaml -o spacing.csv --scheduler tcp://10.0.0.1:8786 --workers 64",
     ),
 )
@@ -46,7 +48,11 @@ def study(
     output: Annotated[
         Path,
         typer.Option(
-            "-o", "--output", metavar="FILE", help="Write the points (.csv, .parquet).", show_default=False
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
+            show_default=False,
         ),
     ],
     designs: Annotated[
@@ -63,23 +69,28 @@ def study(
     scheduler: Scheduler = None,
 ) -> None:
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
+    begin(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.report import campaigning, designing
     from conveyor.studies import campaign as running
     from conveyor.studies.explored import explored
-    from conveyor.study_file import read_plan
+    from conveyor.study_file import named, read_plan
 
     plan = read_plan(plan_file)
     spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
     line = session.read(spec)
     system = session.system(line)
-    campaign = running.Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
+    with named(plan_file):
+        campaign = running.Campaign.of(
+            plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
+        )
     table = campaigning.of_points(campaign, system)
     designed = campaigning.of_designs(campaign, system)
     to = session.outputs(plan_file, spec)
-    for option, path, made in (("--output", output, table), ("--designs", designs, designed)):
-        csv = path is not None and path.suffix == ".csv"
-        to.file(option, path, ".csv", ".parquet", kind=made.mark if csv else marks.TABLE)
+    parted = not output.suffix
+    to.folder("--output", output if parted else None)
+    _asked(to, "--output", None if parted else output, table)
+    _asked(to, "--designs", designs, designed)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
     to.folder("--plots", plots)
     to.folder("--specs", specs)
@@ -89,10 +100,25 @@ def study(
         before = len(known)
         told = stack.enter_context(session.progress())
         executor = stack.enter_context(executor_of(scheduler, workers))
-        running.run(campaign, known, executor=executor, workers=workers, progress=telling(told))
-        new, spent = len(known) - before, perf_counter() - begun
         reasons: Counter[str] = Counter()
-        count = table.write(output, _counted(running.rows(campaign, known), reasons))
+
+        def row(number: int, keyed: Keyed) -> Point:
+            point = running.point_of(campaign, known, number, keyed)
+            reasons.update([point[-1]] if isinstance(point[-1], str) else [])
+            return point
+
+        parts = campaigning.PartedTable(table, output, campaign.listed.count, row) if parted else None
+        running.run(
+            campaign,
+            known,
+            executor=executor,
+            workers=workers,
+            progress=telling(told),
+            answered=None if parts is None else parts.take,
+        )
+        new, spent, count = len(known) - before, perf_counter() - begun, campaign.listed.count
+        if parts is None:
+            table.write(output, (row(number, keyed) for number, keyed in running.keyed_points(campaign)))
         found = explored(campaign, running.designs(campaign, known))
         if designs is not None:
             designed.write(designs, campaigning.design_rows(found, running.designs(campaign, known)))
@@ -109,6 +135,12 @@ def study(
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
     session.answer(plain | designing.plain(found), to, show)
+
+
+def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:
+    """Refuse the file of a table that cannot be written, or must not."""
+    csv = path is not None and path.suffix == ".csv"
+    to.file(option, path, ".csv", ".parquet", kind=table.mark if csv else marks.TABLE)
 
 
 def _made(
@@ -188,11 +220,3 @@ def telling(told: Callable[..., None] | None) -> Callable[[int, int, int], None]
         told("points", done, whole, f"{rate:.3g} a second, {without} without an answer")
 
     return tell
-
-
-def _counted(points: Iterable[Point], reasons: Counter[str]) -> Iterator[Point]:
-    """The points as they pass; reasons of those without an answer are counted."""
-    for point in points:
-        if isinstance(point[-1], str):
-            reasons[point[-1]] += 1
-        yield point

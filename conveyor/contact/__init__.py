@@ -13,6 +13,7 @@ from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve, solve_many, solve_penetration
+from conveyor.contact.worked import working_strains
 
 __all__ = [
     "Belt",
@@ -37,4 +38,5 @@ __all__ = [
     "solve_loads",
     "solve_many",
     "solve_penetration",
+    "working_strains",
 ]

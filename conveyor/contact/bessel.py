@@ -6,6 +6,7 @@ Sources: Abramowitz & Stegun 9.1.27 (J recurrence), 9.6.26 (I, K recurrences); A
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -50,6 +51,12 @@ def bessel_j(order: int, x: Array) -> Array:
     # f_start = 1 is forgotten where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
     start = max(order + 6, int(top + 6.0 * top ** (1.0 / 3.0)) + 2)
     return _downward(order, start, x) if start <= _FAR_DOWN * order + 40 else _by_ratios(order, x)
+
+
+def enough_orders(x: Array, order: int) -> int:
+    """Orders of J_v(x) that are not zero to rounding: up to the turning point and some."""
+    top = float(x.max(initial=0.0))
+    return min(order, int(top + 12.0 * math.cbrt(top)) + 24)
 
 
 def _downward(order: int, start: int, x: Array) -> Array:
@@ -153,7 +160,7 @@ class ProductIK:
         delta = b * (r[1:] + 1.0 / k[:-1])
         self._deficit = delta / (twice * (twice + delta))
         self._diagonal = 1.0 / (b * (r + k))
-        self._ratio = r
+        self._ratio, self._rise = r, k
         self._high = np.ones_like(r)  # I_v/I_0
         for v in range(order):
             np.multiply(self._high[v], r[v], out=self._high[v + 1])
@@ -161,9 +168,15 @@ class ProductIK:
     def __getitem__(self, chosen: NDArray[np.int_]) -> ProductIK:
         """The same of some of the k half widths."""
         part = object.__new__(ProductIK)
-        for name in ("_deficit", "_diagonal", "_ratio", "_high"):
+        for name in ("_deficit", "_diagonal", "_ratio", "_rise", "_high"):
             setattr(part, name, getattr(self, name)[:, chosen])
         return part
+
+    def falling(self, order: int) -> Array:
+        """K_v/K_order of v = 0 … order, shape (order + 1, k, t)."""
+        found = np.ones((order + 1, *self._rise.shape[1:]))
+        found[:-1] = np.cumprod(1.0 / self._rise[:order][::-1], axis=0)[::-1]
+        return found
 
     def weighted(self, weights: Array) -> tuple[Array, Array]:
         """Sums over the terms.

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from enum import Enum
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.fields import SpectralFields
+from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, of_order
+from conveyor.contact.spectral import Contact, nested, of_order
 
 Array = NDArray[np.float64]
 
@@ -35,7 +34,14 @@ class OrderErrors(NamedTuple):
 
 
 def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> OrderErrors:
-    """Errors of friction and edges by order, from the nested matrices of order n/2 and 3n/4 at the same half width.
+    """Errors of friction and edges by order: `errors_of_lower` of the matrices of order n/2 and 3n/4 in `matrix`."""
+    return errors_of_lower(contact, nested(matrix), rho, exponent)
+
+
+def errors_of_lower(
+    contact: Contact, matrices: tuple[Array, Array], rho: Array | float, exponent: Array | None
+) -> OrderErrors:
+    """Errors of friction and edges by order, from matrices of order n/2 and 3n/4 at the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
@@ -47,8 +53,8 @@ def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: 
     ----------
     contact : Contact
         Contacts of the full order, batch of b.
-    matrix : ndarray, shape (b, n+1, n)
-        Their matrices.
+    matrices : tuple of ndarray, shape (b, l+1, l)
+        Those of half and three quarters of the order.
     rho : float or ndarray, shape (b,)
         k R [-].
     exponent : ndarray, shape (b,), optional
@@ -59,10 +65,9 @@ def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: 
     OrderErrors
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
-    n = matrix.shape[2]
     change = []
-    for order in (n // 2, (3 * n) // 4):
-        lower = of_order(matrix, order, contact, rho)
+    for matrix in matrices:
+        lower = of_order(matrix, contact, rho)
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
@@ -91,20 +96,16 @@ def relative_difference(value: Array, reference: Array) -> Array:
     return difference
 
 
-def energy_error(scene: Scene, contact: Contact) -> Array:
-    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,)."""
+def energy_error(scene: Scene, contact: Contact, beyond: float) -> Array:
+    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,).
+
+    `beyond` is what orders above those of `contact` lose, as in `energy.loss`.
+    """
     rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
-    by_loss = friction_by_loss(rule, scene.creep, contact, scene.problem.rho)
+    rho = scene.problem.rho
+    by_loss = friction_by_loss(rule, scene.creep, contact, rho) + 2.0 * rho * beyond / contact.pressure
     error: Array = np.abs(relative_difference(by_loss, contact.friction))
     return error
-
-
-@lru_cache(maxsize=16)
-def _sines(n: int) -> Array:
-    """sin(vθ) at 4n + 1 inner angles, shape (4n+1, n)."""
-    angle = np.arange(1, 4 * n + 2) * (np.pi / (4 * n + 2))
-    sines: Array = np.sin(np.multiply.outer(angle, np.arange(1, n + 1)))
-    return sines
 
 
 class Sign(Enum):
@@ -131,9 +132,11 @@ def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool
     presses with little more than the mean pressure between two high peaks, its lift-off is far below the peaks' tails.
     """
     n = contact.c.shape[1]
-    p = contact.c @ _sines(n).T
+    p = sampled_sines(contact.c, 4 * n + 2)[:, 1:-1]
     tension = np.maximum(-p, 0.0)
-    pressing = (tension @ _sines(n)[:, 0]) * (np.pi / (4 * n + 2)) <= rtol * (0.5 * np.pi) * contact.c[:, 0]
+    step = np.pi / (4 * n + 2)
+    pulled = step * (tension @ np.sin(step * np.arange(1, 4 * n + 2)))
+    pressing = pulled <= rtol * (0.5 * np.pi) * contact.c[:, 0]
     if pressing.all():
         return ~pressing, pressing
     highest = p.max(axis=1)

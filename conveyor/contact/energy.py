@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.belt import BeltSupport
-from conveyor.contact.bessel import ProductIK, bessel_j
+from conveyor.contact.bessel import ProductIK, bessel_j, enough_orders
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.layers import Creep
 from conveyor.contact.quadrature import Rule, series_rule
@@ -44,9 +44,9 @@ def spectrum(m: Array, strips: Sequence[Strip]) -> ComplexArray:
     """p̃̂_m of a contact's strips together, shape of m."""
     out = np.zeros(m.size, dtype=complex)
     for centre, alpha, c in strips:
-        v = np.arange(1, c.size + 1)
-        amplitude = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
-        out += np.exp(-1j * m * centre) * (amplitude @ bessel_j(c.size, m * alpha)[1:]) / m
+        v = np.arange(1, enough_orders(m * alpha, c.size) + 1)
+        amplitude = 0.5 * v * c[: v.size] * (-1j) ** ((v - 1) % 4)
+        out += np.exp(-1j * m * centre) * (amplitude @ bessel_j(v.size, m * alpha)[1:]) / m
     return out
 
 

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.bessel import bessel_j, enough_orders
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.energy import Strip
 from conveyor.contact.grid import GridContact
@@ -153,12 +153,20 @@ class GridFields:
         return self.grid.depth
 
 
+def sampled_sines(c: Array, count: int) -> Array:
+    """Σ_v c_v sin(vθ) at θ = 0, π/count … π, shape (b, count + 1), for c of shape (b, n)."""
+    waves = np.zeros((c.shape[0], c.shape[1] + 1), dtype=complex)
+    waves[:, 1:] = -1j * count * c
+    sampled: Array = np.fft.irfft(waves, 2 * count)[:, : count + 1]
+    return sampled
+
+
 def peak(c: Array) -> Array:
     """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
     n = c.shape[1]
     v = np.arange(1.0, n + 1.0)
     angle = np.linspace(0.0, np.pi, 8 * n + 17)
-    sampled = c @ np.sin(np.multiply.outer(v, angle))
+    sampled = sampled_sines(c, 8 * n + 16)
     best = np.argmax(sampled, axis=1)
     theta = angle[best]
     for _ in range(_PEAK_STEPS):
@@ -193,9 +201,12 @@ def surface_series(
         far = float(np.abs(x[chosen]).max())
         end = reach / alpha * min(1.0, _FAR * alpha / far)
         m, weights = series_rule(layer, creep, span=alpha + far, end=end)
-        step = max(1, _CHUNK // max(int(chosen.sum()), c.size))
+        shown = enough_orders(alpha * m, c.size)
+        step = max(1, _CHUNK // max(int(chosen.sum()), shown))
         for i in range(0, m.size, step):
             part = m[i : i + step]
-            wave = 2.0 * weights[i : i + step] * (amplitudes @ bessel_j(c.size, part * alpha)[1:]) / part
+            wave = (
+                2.0 * weights[i : i + step] * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]) / part
+            )
             out[chosen] += np.real(np.exp(1j * np.multiply.outer(x[chosen], part)) @ wave)
     return out

@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, special
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.bessel import bessel_j, enough_orders
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layer_shapes import Shapes, confined_shapes, free_shapes, half_space_shapes
 from conveyor.contact.layers import Confined, Creep, Free, HalfSpace
@@ -25,15 +26,16 @@ from conveyor.errors import InputError
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-_HARMONICS = 4.0  # m α up to this many times `points`: two wave numbers for each spacing of the places
+HARMONICS = 4.0  # m α up to this many times `points`: two wave numbers for each spacing of the places
 _DEEPEST = 12.0  # k z where e^{-2kz} leaves 4e-11 of the dissipation of a half-space
 _GRADE = 0.5  # of the half width: depths are evenly spread above it, logarithmically below
-_NEAR = 2.0  # half widths about a strip that are sampled evenly, octaves beyond
-_OCTAVE = 6  # an octave on one side takes a sixth of the places of the near field
+NEAR = 2.0  # half widths about a strip that are sampled evenly, octaves beyond
+OCTAVE = 6  # an octave on one side takes a sixth of the places of the near field
 # outside the strips the field is smooth over the distance d to them: a flat window ½ erfc((m - m1)/w) ending at 40/d
 # blurs over less than d and leaves 2e-4 of it
-_FAR, _MIDDLE, _RAMP = 40.0, 0.62, 0.15
+FAR, MIDDLE, RAMP = 40.0, 0.62, 0.15
 _CHUNK = 512
+_gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
 _GRID_TERMS = 256  # sine coefficients of a pressure known on a grid
 _PLAIN = CreepSpectrum(1.0)
 
@@ -57,9 +59,9 @@ class _Strip:
 
     def amplitude(self, m: Array) -> ComplexArray:
         """p̃̂_m about the strip's centre, ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m (spectral.py)."""
-        v = np.arange(1, self.c.size + 1)
-        signed = 0.5 * v * self.c * np.where((v - 1) % 4 < 2, 1.0, -1.0)
-        table = bessel_j(self.c.size, m * self.alpha)
+        v = np.arange(1, enough_orders(m * self.alpha, self.c.size) + 1)
+        signed = 0.5 * v * self.c[: v.size] * np.where((v - 1) % 4 < 2, 1.0, -1.0)
+        table = bessel_j(v.size, m * self.alpha)
         out = np.empty(m.shape, dtype=complex)
         out.real = signed[::2] @ table[1::2]  # (-i)^{v-1} is real for odd v, imaginary for even
         out.imag = -(signed[1::2] @ table[2::2])
@@ -89,7 +91,7 @@ class Inside:
         """The surface, Gauss nodes graded toward it, the far face if there is one, and their weights, in Z."""
         unit = _GRADE * min(s.alpha for s in self.strips)
         end = math.asinh(min(self.thickness, _DEEPEST) / unit)
-        x, w = np.polynomial.legendre.leggauss(count)
+        x, w = _gauss(count)
         at = 0.5 * end * (x + 1.0)
         bottom = [] if math.isinf(self.thickness) else [self.thickness]
         z = np.concatenate([[0.0], unit * np.sinh(at), bottom])
@@ -98,12 +100,12 @@ class Inside:
     def places(self) -> Array:
         """X along the path: evenly within two half widths of each strip, then by octaves up to half a period."""
         out = []
-        per_octave = max(2, self.points // _OCTAVE)
+        per_octave = max(2, self.points // OCTAVE)
         for strip in self.strips:
-            near = strip.alpha * np.linspace(-_NEAR, _NEAR, self.points + 1)
-            octaves = max(math.log2(math.pi / (_NEAR * strip.alpha)), 0.0)
+            near = strip.alpha * np.linspace(-NEAR, NEAR, self.points + 1)
+            octaves = max(math.log2(math.pi / (NEAR * strip.alpha)), 0.0)
             steps = math.ceil(octaves * per_octave)
-            far = _NEAR * strip.alpha * 2.0 ** np.linspace(0.0, octaves, steps + 1)[1:]
+            far = NEAR * strip.alpha * 2.0 ** np.linspace(0.0, octaves, steps + 1)[1:]
             out.append(strip.centre + np.concatenate([-far, near, far]))
         return np.concatenate(out)
 
@@ -124,7 +126,7 @@ class Inside:
         for strip in self.strips:
             away = x - strip.centre
             away -= 2.0 * math.pi * np.round(away / (2.0 * math.pi))
-            octave = np.floor(np.log2(np.maximum(np.abs(away) / (_NEAR * strip.alpha), 0.5)))
+            octave = np.floor(np.log2(np.maximum(np.abs(away) / (NEAR * strip.alpha), 0.5)))
             groups = [np.flatnonzero(octave == one) for one in np.unique(octave)]
             rules = [self._rule(strip, np.abs(away[chosen])) for chosen in groups]
             m = np.concatenate([nodes for nodes, _ in rules])
@@ -144,12 +146,12 @@ class Inside:
     def _rule(self, strip: _Strip, distance: Array) -> tuple[Array, Array]:
         """Wave numbers and weights of the sum at distances from a strip's centre."""
         gap, span = float(distance.min()) - strip.alpha, float(distance.max()) + strip.alpha
-        end = _HARMONICS * self.points / strip.alpha
+        end = HARMONICS * self.points / strip.alpha
         if gap >= 0.5 * strip.alpha:
-            end = min(end, _FAR / gap)
+            end = min(end, FAR / gap)
         m, weights = series_rule(_Unity(), _PLAIN, span=span, end=end)
         keep = m <= end
-        window = 0.5 * special.erfc((m[keep] / end - _MIDDLE) / _RAMP)
+        window = 0.5 * special.erfc((m[keep] / end - MIDDLE) / RAMP)
         return m[keep], 2.0 * weights[keep].real * window
 
     def _coefficients(
@@ -171,7 +173,7 @@ class Inside:
         """D R/F_N = ρ²/((1-ν) p̃_m) Σ m Im j 2 (D² + T² + (1-2ν) H²) |p̂_m|², shape (nz,); and its mean m."""
         low = min(s.centre - s.alpha for s in self.strips)
         high = max(s.centre + s.alpha for s in self.strips)
-        end = _HARMONICS * self.points / min(s.alpha for s in self.strips)
+        end = HARMONICS * self.points / min(s.alpha for s in self.strips)
         m, weights = series_rule(_Unity(), _PLAIN, span=high - low, end=end)
         waves = [s.amplitude(m) * np.exp(-1j * m * (s.centre - low)) for s in self.strips]
         loss = weights.real * np.abs(sum(waves)) ** 2 * self.problem.creep.compliance(m).imag

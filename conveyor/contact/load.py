@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 _LOAD_STEPS = 60
 _LOAD_ACCEPTED = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
 _WIDEST = 1.0 - 1e-9
-_CLOSED = 1e-10
+_CLOSED = 1e-4  # of ln α between too light and off the roll: the general way takes what lies between
 _GUESSES = 48
 _DISTINCT = 1e-9  # half widths closer than this carry no slope
 
@@ -71,8 +71,11 @@ class LoadSearch:
         self.log_alpha = 0.5 * (self.low + self.high) if math.isfinite(self.low) else self.high - 0.7
 
 
-def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State | None:
-    """Find the contact of order n that carries the load; None where the roll is wrapped before it does."""
+def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float, last: int = 0) -> State | None:
+    """Find the contact of order n that carries the load; None where the roll is wrapped before it does.
+
+    With `last` above n the orders up to there are in its equations too.
+    """
     rho = scene.problem.rho
     best: State | None = None
     for _ in range(_LOAD_STEPS):
@@ -80,16 +83,16 @@ def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float) -> State |
         if alpha >= rho * _WIDEST:
             search.reject()
             continue
-        matrix = scene.matrix(alpha, n)
-        contact = equilibrium(matrix, np.array([alpha]), rho, search.eps)
+        system = scene.system(alpha, n, max(n, last))
+        contact = equilibrium(system.matrix, np.array([alpha]), rho, search.eps)
         if not contact.inside[0] or contact.pressure[0] <= 0.0:
             search.reject()
             if search.high - search.low < _CLOSED:
                 break
             continue
-        miss = abs(search.accept(contact, scene.measure(contact)))
+        miss = abs(search.accept(contact, scene.measure(system, contact)))
         if best is None or miss < best.miss:
-            best = State(contact, matrix, miss)
+            best = State(contact, system, miss)
         if miss <= tolerance:
             return best
     return best if best is not None and best.miss <= _LOAD_ACCEPTED else None

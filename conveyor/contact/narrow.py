@@ -28,7 +28,7 @@ from conveyor.contact.checks import (
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
-from conveyor.contact.orders import ORDERS, lowest_order, order_for
+from conveyor.contact.orders import lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.short_rule import (
@@ -42,7 +42,7 @@ from conveyor.contact.short_rule import (
     panels_beyond,
     short_rule,
 )
-from conveyor.contact.single import EDGE_LAYER, LOAD_FLOOR, SIGN_ORDER
+from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
 from conveyor.contact.stack import Stack, kind, stacked
@@ -112,12 +112,17 @@ class Left(Enum):
     STRIPS = "one strip is not the answer"
 
 
-def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Left]:
-    """Outcome of every scene whose single strip is found by its half width, what is left of the others."""
-    outcomes: list[Outcome | Left] = [Left.ANY] * len(problems)
+def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Near | Left | None]:
+    """Outcome of every scene whose single strip is found by its half width, what is left of the others.
+
+    None of all where the short rules do not serve so fine a tolerance.
+    """
+    if rtol < FINE_FROM:
+        return [None] * len(problems)
+    outcomes: list[Outcome | Near | Left | None] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
     grade = grades_for(rtol)[0]
-    for members in alike(problems) if rtol >= FINE_FROM else []:
+    for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
         alpha = guess(group)
@@ -253,6 +258,12 @@ class Search:
         self.place[rows] = t
         self.alive[rows] &= np.abs(t) < _OUTSIDE
 
+    def place_and_slope(self, row: int) -> tuple[float, float]:
+        """Ln α of the present place and d ln p̃_m/d ln α there."""
+        t, load = float(self.place[row]), self.load[row]
+        slope = (load[1] + t * (2.0 * load[2] + t * 3.0 * load[3])) / RANGE
+        return float(self.middle[row] + RANGE * t), float(slope)
+
     def exponent(self, rows: Index) -> Array:
         """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
         t = self.place[rows]
@@ -295,9 +306,9 @@ class _Closing:
         self.tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
         self.error, self.most, self.edges = np.ones((3, search.place.size))
         self.wanted = np.full(search.place.size, lowest_order(rtol))
-        self.done: dict[int, Outcome | Left] = {}
+        self.done: dict[int, Outcome | Near | Left] = {}
 
-    def outcomes(self) -> dict[int, Outcome | Left]:
+    def outcomes(self) -> dict[int, Outcome | Near | Left]:
         """By row; none of those that are left to other ways."""
         waiting = np.flatnonzero(self.search.alive)
         while waiting.size:
@@ -319,7 +330,7 @@ class _Closing:
                 by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
-            fine = ((self.error[rows] <= rtol) | (n == ORDERS[-1])) & alive
+            fine = (self.error[rows] <= rtol) & alive
             near = fine & (np.abs(miss) <= self.tight)
             at = np.flatnonzero(near)
             if at.size:
@@ -333,9 +344,11 @@ class _Closing:
                 return
 
     def _raise(self, row: int, n: int, energy: float) -> None:
-        if n < ORDERS[-1]:
-            excess, excess_energy = float(self.error[row]) / self.rtol, energy / self.rtol
-            self.wanted[row] = order_for(n, excess, excess_energy, _FARTHEST)
+        excess, excess_energy = float(self.error[row]) / self.rtol, energy / self.rtol
+        self.wanted[row] = order_for(n, excess, excess_energy, _FARTHEST)
+        if self.wanted[row] > DENSE:
+            self.search.alive[row] = False
+            self.done[row] = Near(*self.search.place_and_slope(row))
 
     def _accept(self, rows: Index, contact: Contact, ik: ProductIK, error: Array) -> None:
         """Check energy, sign and place of contacts whose order and load suffice."""
@@ -351,27 +364,22 @@ class _Closing:
         outside = may_touch_elsewhere(contact, rho)
         n = int(contact.c.shape[1])
         for k, row in enumerate(rows.tolist()):
-            last = n == ORDERS[-1]
             if pulling[k]:
                 self.done[row] = Left.STRIPS
-            elif estimate[k] > rtol and last and not pressing[k]:
-                self.done[row] = Left.ANY
-            elif (estimate[k] > rtol and not last) or not (pressing[k] or n >= SIGN_ORDER):
+            elif estimate[k] > rtol or not pressing[k]:
                 self._raise(row, n, float(by_loss_error[k]))
             else:
                 one = chosen_rows(contact, np.array([k]))
-                flags = bool(pressing[k]), bool(outside[k])
-                self.done[row] = self._found(row, one, (float(estimate[k]), float(energy[k])), flags)
+                errors = float(estimate[k]), float(energy[k])
+                self.done[row] = self._found(row, one, errors, outside=bool(outside[k]))
 
     def _found(
-        self, row: int, contact: Contact, errors: tuple[float, float], flags: tuple[bool, bool]
+        self, row: int, contact: Contact, errors: tuple[float, float], *, outside: bool
     ) -> Outcome | Left:
         """The contact as an outcome, where the layer does not touch the roll elsewhere."""
         search, group = self.search, self.search.group
         problem, creep = group.problems[row], group.given[row]
         alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
-        pressing, outside = flags
-        remarks = () if pressing else (EDGE_LAYER,)
         depth = None
         if outside:
             scene = Scene(problem, creep)
@@ -379,7 +387,7 @@ class _Closing:
             if overlaps(scene, contact, depth):
                 return Left.STRIPS
         return Outcome(
-            Status.OK if errors[0] <= self.rtol else Status.NOT_CONVERGED,
+            Status.OK,
             Found(
                 friction=float(contact.friction[0]),
                 mean_pressure=float(contact.pressure[0]),
@@ -396,7 +404,6 @@ class _Closing:
             nodes=int(search.rule.nodes.shape[1]),
             terms=creep.weights.size,
             way="one strip" if outside else "narrow",
-            remarks=remarks,
         )
 
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact.bessel import ProductIK
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import Confined, Free, HalfSpace
 from conveyor.contact.problem import ContactProblem
 from conveyor.contact.quadrature import Rule, build_rule
-from conveyor.contact.spectral import Contact, assemble, penetration
+from conveyor.contact.spectral import Contact, assemble, nested, penetration
+from conveyor.contact.tail import Tail
 
 Array = NDArray[np.float64]
 
@@ -56,12 +58,13 @@ class Scene:
         """Ln of what is held: the load p̃_m, or the depth Δ/R."""
         return math.log(self.problem.pressure if self.depth is None else self.depth)
 
-    def measure(self, contact: Contact) -> float:
+    def measure(self, system: System, contact: Contact) -> float:
         """Ln of the same of a contact."""
-        if self.depth is None:
-            return math.log(contact.pressure[0])
-        rule = self.rule(float(contact.alpha[0]))
-        return math.log(penetration(rule, self.creep, contact, self.problem.rho)[0])
+        return math.log(contact.pressure[0] if self.depth is None else self.depth_of(system, contact))
+
+    def depth_of(self, system: System, contact: Contact) -> float:
+        """Δ/R of a contact."""
+        return system.depth(self.rule(float(contact.alpha[0])), self.creep, contact, self.problem.rho)
 
     def rule(self, alpha: float) -> Rule:
         """Quadrature rule good for half width `alpha`; remade with room when a contact outgrows it."""
@@ -71,21 +74,50 @@ class Scene:
             rule = self.rules["solve"] = build_rule(self.problem.layer, self.creep, widest)
         return rule
 
-    def matrix(self, alpha: float, n: int) -> Array:
-        """Galerkin matrix of one contact, shape (1, n+1, n)."""
+    def system(self, alpha: float, n: int, last: int) -> System:
+        """Galerkin equations of one contact: order n, with the orders up to `last` eliminated where that is more."""
         self.matrices += 1
-        return assemble(self.rule(alpha), self.creep, np.array([alpha]), n)
+        place = np.array([alpha])
+        if last == n:
+            matrix = assemble(self.rule(alpha), self.creep, place, n)
+            return System(matrix, [nested(matrix)])
+        ik = ProductIK(n, place[:, None] / self.creep.times)
+        matrix = assemble(self.rule(alpha), self.creep, place, n, ik)
+        tail = Tail.of(alpha, self.creep, n, last)
+        return System(*tail.closed(matrix, ik), tail, ik)
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """Equations of one contact, shape (1, n+1, n), and pairs of lower orders of them, half and three quarters."""
+
+    matrix: Array
+    lower: list[tuple[Array, Array]]
+    tail: Tail | None = None
+    ik: ProductIK | None = None
+
+    def depth(self, rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> float:
+        """Δ/R of its contact."""
+        beyond = self.tail.level(self.ik, contact.c[0]) if self.tail and self.ik else 0.0
+        return float(penetration(rule, creep, contact, rho)[0]) + beyond
+
+    def whole(self, contact: Contact) -> Contact:
+        """Its contact with the coefficients of every order."""
+        if self.tail is None or self.ik is None:
+            return contact
+        return replace(contact, c=self.tail.coefficients(self.ik, contact.c[0])[None])
+
+    def lost_beyond(self, whole: Contact) -> float:
+        """What of Σ Im S_m |p̃̂_m|² the orders beyond the core take."""
+        if self.tail is None or self.ik is None:
+            return 0.0
+        return 0.25 * self.tail.quadratic(self.ik, whole.c[0])
 
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """A contact at one order, its matrix, and how far its load is off (relative)."""
+    """A contact at one order, its equations, and how far its load is off (relative)."""
 
     contact: Contact
-    matrix: Array
+    system: System
     miss: float
-
-    @property
-    def order(self) -> int:
-        """Galerkin order n."""
-        return int(self.matrix.shape[2])

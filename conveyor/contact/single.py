@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from conveyor.contact.checks import (
+    OrderErrors,
     Sign,
     by_energy,
     energy_error,
+    errors_of_lower,
     may_touch_elsewhere,
-    order_errors,
     overlaps,
     sign,
 )
@@ -19,31 +22,49 @@ from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import penetration
+from conveyor.contact.spectral import Contact
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
+DENSE = 192  # order beyond which a core is closed by a tail
+_CORE, _WIDEST_CORE = 64, 512
+_FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
+_LONGEST_TABLE = 1 << 20  # orders times terms
+_RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
+_UNRESOLVED = 2.4  # power of n that they fall with before
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
 
-def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
-    """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α."""
-    found = _converged(scene, rtol)
+@dataclass(frozen=True)
+class Near:
+    """Where a contact is found whose edge layers ask for orders beyond `DENSE`: ln α and d ln p̃_m/d ln α."""
+
+    log_alpha: float
+    slope: float
+
+
+def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcome | None:
+    """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
+
+    `near` is where order `DENSE` did not suffice.
+    """
+    found = _converged(scene, rtol, near)
     if found is None:
         return None
-    state, error, energy, edges = found
-    contact, rho = state.contact, scene.problem.rho
+    state, contact, error, energy, edges = found
+    rho = scene.problem.rho
     pressing = sign(contact, rtol)
     if pressing is Sign.PULLING:
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
     depth = None
-    if may_touch_elsewhere(contact, rho)[0]:
-        depth = float(penetration(scene.rule(alpha), scene.creep, contact, rho)[0])
-        if overlaps(scene, contact, depth):
-            return None
+    elsewhere = bool(may_touch_elsewhere(contact, rho)[0])
+    if elsewhere or state.system.tail is not None:
+        depth = scene.depth_of(state.system, state.contact)
+    if elsewhere and depth is not None and overlaps(scene, contact, depth):
+        return None
     estimate = max(error, ROUNDING)
     return Outcome(
         status=Status.OK if estimate <= rtol else Status.NOT_CONVERGED,
@@ -58,7 +79,7 @@ def by_half_width(scene: Scene, rtol: float) -> Outcome | None:
             edge_error=edges,
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
-        order=state.order,
+        order=int(contact.c.shape[1]),
         remarks=remarks(pressing),
     )
 
@@ -68,28 +89,68 @@ def remarks(pressing: Sign) -> tuple[str, ...]:
     return (EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
-def _converged(scene: Scene, rtol: float) -> tuple[State, float, float, float] | None:
+def _converged(
+    scene: Scene, rtol: float, near: Near | None
+) -> tuple[State, Contact, float, float, float] | None:
     """Raise the order until the estimate meets rtol, then close the load and check the energy."""
-    search = LoadSearch(scene.target, *guess(scene))
+    search = LoadSearch(scene.target, *(guess(scene) if near is None else (near.log_alpha, near.slope)))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
-    n = ORDERS[0]
+    n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
+    longest = _longest(scene.creep.weights.size)
     while True:
-        state = carry(scene, search, n, tolerance)
+        state = carry(scene, search, n, tolerance, last)
         if state is None:
             return None
         exponent = search.exponent if scene.depth is None else None
-        by_order = order_errors(state.contact, state.matrix, scene.problem.rho, exponent)
+        pairs = [
+            errors_of_lower(state.contact, lower, scene.problem.rho, exponent) for lower in state.system.lower
+        ]
+        by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
-        if error <= rtol or n == ORDERS[-1]:
+        following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
+        if error <= rtol or following is None:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
-            energy = energy_error(scene, state.contact)
+            contact = state.system.whole(state.contact)
+            energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
-            decided = n >= SIGN_ORDER or sign(state.contact, rtol) is not Sign.UNDECIDED
-            settled = error <= rtol and decided
-            if settled or n == ORDERS[-1]:
-                return state, error, float(energy[0]), float(by_order.edges[0])
-        n = next_order(n, error, rtol)
+            decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
+            left = error * (last / longest) ** _UNRESOLVED
+            if following is not None and left > rtol and _out_of_reach(scene, contact, last, longest):
+                following = None
+            if (error <= rtol and decided) or following is None:
+                return state, contact, error, float(energy[0]), float(by_order.edges[0])
+        n, last = following
         search.renew()
+
+
+def _longest(terms: int) -> int:
+    """The last order of the longest tail: its tables fit in memory and in half a second."""
+    last = _FIRST_TAIL
+    while 4 * last <= _LONGEST_TAIL and 4 * last * terms <= _LONGEST_TABLE:
+        last *= 4
+    return last
+
+
+def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: int) -> tuple[int, int] | None:
+    """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both."""
+    n, last = orders
+    if last == n:
+        following = next_order(n, errors[0], rtol)
+        return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
+    core, tail = errors
+    if core > max(tail, rtol):
+        return (2 * n, max(last, 8 * n)) if n < _WIDEST_CORE else None
+    return (n, 4 * last) if 4 * last <= longest else None
+
+
+def _out_of_reach(scene: Scene, contact: Contact, last: int, longest: int) -> bool:
+    """Whether the longest tail will not resolve the edge layer."""
+    creep = scene.creep
+    if last < _FIRST_TAIL or not creep.weights.size:
+        return False
+    # j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m
+    layer = creep.instantaneous / (float(contact.alpha[0]) * float(np.sum(creep.weights / creep.times)))
+    return layer * longest**2 < _RESOLVED

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.arguments import checked
-from conveyor.contact.general import by_strips
+from conveyor.contact.general import by_strips, overloaded
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
 from conveyor.contact.scene import Scene
-from conveyor.contact.single import by_half_width
+from conveyor.contact.single import Near, by_half_width
 from conveyor.contact.solution import ContactSolution, Outcome, SolveStats
 from conveyor.errors import InputError, NoSolutionError
 
@@ -123,15 +123,18 @@ def solve_many(
     return [
         _solution(problem, outcome, throw)
         if isinstance(outcome, Outcome)
-        else _solved(Scene.of(problem), rtol, throw, split=outcome is Left.STRIPS)
+        else _solved(Scene.of(problem), rtol, throw, outcome)
         for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
     ]
 
 
-def _solved(scene: Scene, rtol: float, throw: bool, *, split: bool = False) -> ContactSolution:
+def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = None) -> ContactSolution:
     """One strip by its half width; any number of strips where that is not the answer."""
     try:
-        outcome = (None if split else by_half_width(scene, rtol)) or by_strips(scene, rtol)
+        outcome = overloaded(scene) if left is Left.ANY else None
+        if outcome is None and left is not Left.STRIPS:
+            outcome = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
+        outcome = outcome or by_strips(scene, rtol)
     except RuleTooLongError:
         outcome = Outcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")

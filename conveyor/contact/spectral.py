@@ -171,16 +171,23 @@ def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contac
     return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
 
 
-def of_order(matrix: Array, n: int, contact: Contact, rho: Array | float) -> Contact:
-    """Contacts of a lower order at the half widths of those of a higher one.
+def nested(matrix: Array) -> tuple[Array, Array]:
+    """The matrices of half and of three quarters of the order, leading blocks of the whole one."""
+    n = matrix.shape[2]
+    half, most = (matrix[:, : order + 1, :order] for order in (n // 2, (3 * n) // 4))
+    return half, most
+
+
+def of_order(lower: Array, contact: Contact, rho: Array | float) -> Contact:
+    """Contacts by the matrices of a lower order, shape (b, n+1, n), at the half widths of those of a higher one.
 
     To second order in the shift of the eccentricity.
     """
     radius = np.zeros(contact.alpha.shape) + rho
-    slope, c, step = _balanced(matrix[:, : n + 1, :n], contact.alpha, contact.eps, radius)
-    lower = pressed(c, slope, (contact.alpha, contact.eps + step), radius)
-    inside = (contact.alpha + np.abs(lower.eps) < radius) & (lower.pressure > 0.0)
-    return replace(lower, inside=inside)
+    slope, c, step = _balanced(lower, contact.alpha, contact.eps, radius)
+    found = pressed(c, slope, (contact.alpha, contact.eps + step), radius)
+    inside = (contact.alpha + np.abs(found.eps) < radius) & (found.pressure > 0.0)
+    return replace(found, inside=inside)
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:

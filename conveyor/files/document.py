@@ -6,11 +6,12 @@ import codecs
 import json
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from io import StringIO
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeVar
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning, YAMLError
@@ -38,6 +39,7 @@ _HALF: Final = re.compile("[\ud800-\udfff]")
 _FIRST: Final = 1000  # bytes: text without a null there has none
 
 Location = tuple[int | str, ...]
+T = TypeVar("T")
 _TAG = "tag:yaml.org,2002:"
 
 
@@ -61,12 +63,26 @@ class Fault:
         return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
 
 
+def first_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -> str:
+    """Write errors one a line, the first hundred of them; the rest are counted."""
+    lines = [line(error) for error in errors[:MOST_LINES]]
+    if len(errors) > MOST_LINES:
+        lines.append(f"{path}{': ' if path else ''}and {len(errors) - MOST_LINES} more errors")
+    return "\n".join(lines)
+
+
 def listing(path: str, findings: Sequence[Fault]) -> str:
     """Write findings one a line, the first hundred of them."""
-    lines = [finding.line(path) for finding in findings[:MOST_LINES]]
-    if len(findings) > MOST_LINES:
-        lines.append(f"{path}: and {len(findings) - MOST_LINES} more errors")
-    return "\n".join(lines)
+    return first_lines(findings, lambda finding: finding.line(path), path)
+
+
+def yaml_text(data: Any, *, width: int) -> str:
+    """Write plain data as YAML, its lines at most so wide where they can be broken."""
+    writer = YAML(typ="rt", pure=True)
+    writer.width = width
+    stream = StringIO()
+    writer.dump(data, stream)
+    return stream.getvalue()
 
 
 @dataclass(frozen=True)

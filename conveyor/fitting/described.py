@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.fitting.request import Request
+from conveyor.fitting.rows import shift_factors
 from conveyor.laboratory import DmaData
 from conveyor.rubber import WLF, Arrhenius, PronyFit, PronySeries, ReplicaBand, ShiftLaw, Superposition
 from conveyor.rubber.band import METHOD
@@ -141,15 +142,11 @@ def add_shift(
     law: WLF | Arrhenius | None,
 ) -> None:
     """Shift table and the range of temperature that it opens."""
-    vertical: Array | None = None
-    if superposition is not None:
-        kelvin, decades = superposition.temperatures, superposition.log10_a_T
-        vertical = superposition.log10_b_T if np.any(superposition.log10_b_T) else None
-    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
-        kelvin, decades, vertical = shifts.temperature, shifts.log10_a_T, shifts.log10_b_T
-    else:
+    known = shift_factors(superposition, shifts)
+    if known is None:
         described["missing"].append("temperature shift: known at the reference temperature only")
         return
+    kelvin, decades, _, vertical = known
     order = np.argsort(kelvin)
     temperatures = [f"{t - ZERO_CELSIUS:.{DIGITS}g} degC" for t in kelvin[order]]
     described["range"]["temperature"] = [temperatures[0], temperatures[-1]]

@@ -11,7 +11,16 @@ import numpy as np
 from conveyor.errors import InputError
 from conveyor.fitting.described import DIGITS, Array
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import CURVES, MeasuredRows, Sweep, entropic, laid, overridden, sweeps
+from conveyor.fitting.rows import (
+    CURVES,
+    MeasuredRows,
+    Sweep,
+    entropic,
+    laid,
+    overridden,
+    shift_factors,
+    sweeps,
+)
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.groups import ISOTHERM_GAP
 from conveyor.rubber import (
@@ -109,11 +118,8 @@ def _law(
     stored = stored_law(laws_of(superposition, shifts, reference), reference, request)
     if stored is not None:
         return stored
-    if superposition is not None:
-        return ShiftTable(superposition.temperatures, superposition.log10_a_T, reference)
-    if shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
-        return ShiftTable(shifts.temperature, shifts.log10_a_T, reference)
-    return None
+    known = shift_factors(superposition, shifts)
+    return None if known is None else ShiftTable(known.temperatures, known.log10_a_T, reference)
 
 
 def stored_law(laws: Sequence[ShiftComparison], reference: float, request: Request) -> WLF | Arrhenius | None:
@@ -253,13 +259,8 @@ def laws_of(
     superposition: Superposition | None, shifts: DmaData | None, reference: float
 ) -> tuple[ShiftComparison, ...]:
     """How well each law follows the shifts; with too few of them none can be judged."""
-    if superposition is not None:
-        kelvin, decades = superposition.temperatures, superposition.log10_a_T
-        error = np.maximum(superposition.log10_a_T_error, _SMALLEST_ERROR)
-    elif shifts is not None and shifts.temperature is not None and shifts.log10_a_T is not None:
-        kelvin, decades, error = shifts.temperature, shifts.log10_a_T, None
-    else:
+    known = shift_factors(superposition, shifts)
+    if known is None or known.temperatures.size < LEAST_TEMPERATURES:
         return ()
-    if kelvin.size < LEAST_TEMPERATURES:
-        return ()
-    return compare_shift_laws(kelvin, decades, reference, error=error)
+    error = None if known.error is None else np.maximum(known.error, _SMALLEST_ERROR)
+    return compare_shift_laws(known.temperatures, known.log10_a_T, reference, error=error)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,19 +71,27 @@ class MeasuredRows:
         return MeasuredRows(**{name: getattr(self, name)[order] for name in self.__dataclass_fields__})
 
 
+class ShiftFactors(NamedTuple):
+    """Temperatures [K], log10 a_T and its standard error, log10 b_T [decades], those of them that are known."""
+
+    temperatures: Array
+    log10_a_T: Array  # noqa: N815
+    error: Array | None
+    log10_b_T: Array | None  # noqa: N815
+
+
+def shift_factors(found: Superposition | None, given: DmaData | None) -> ShiftFactors | None:
+    """Those of a superposition, else of a file."""
+    if found is not None:
+        vertical = found.log10_b_T if np.any(found.log10_b_T) else None
+        return ShiftFactors(found.temperatures, found.log10_a_T, found.log10_a_T_error, vertical)
+    if given is None or given.temperature is None or given.log10_a_T is None:
+        return None
+    return ShiftFactors(given.temperature, given.log10_a_T, None, given.log10_b_T)
+
+
 def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaData], tuple[str, ...]]:
-    """Leave out rows that a person names: "12-15,20", with several files "isotherms.csv:12-15,20".
-
-    Returns
-    -------
-    tuple
-        The files without them, and a sentence a file.
-
-    Raises
-    ------
-    InputError
-        No such rows, no such file, or of which file is not said.
-    """
+    """Files without the rows that a person names, 12-15,20 or isotherms.csv:12-15,20; and a sentence a file."""
     left, said = list(reads), []
     for given in exclude:
         found = _ROWS.fullmatch(given.strip())
@@ -113,13 +121,7 @@ def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaD
 
 
 def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:
-    """Frequency sweeps of all files, those of relaxation converted; `stated` temperatures of files [K].
-
-    Raises
-    ------
-    InputError
-        The temperature of a file is not known, or a sweep is refused.
-    """
+    """Frequency sweeps of all files, those of relaxation converted; `stated` temperatures of files [K]."""
     found: list[Sweep] = []
     said = []
     for number, read in enumerate(reads):
@@ -133,10 +135,7 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
             ]
         elif read.kind == "master curve":
             at = _temperature(read, number, stated)
-            if read.frequency is None or read.storage is None or read.loss is None:
-                raise InputError(f"{read.source}: holds no E' and E'' over frequency")
-            one = Isotherm(at, read.frequency, read.storage, read.loss)
-            found.append(Sweep(number, one, int(read.row_numbers.min())))
+            found.append(Sweep(number, Isotherm(at, *moduli_of(read)), int(read.row_numbers.min())))
         elif read.kind == "relaxation":
             converted = list(_relaxed(read, number, stated))
             found += converted
@@ -159,9 +158,8 @@ def _temperature(read: DmaData, number: int, stated: Mapping[int, float]) -> flo
 
 
 def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterator[Sweep]:
-    if read.time is None or read.modulus is None:
-        raise InputError(f"{read.source}: holds no E(t) over time")
-    groups: Numbers | None = np.zeros(read.time.size, dtype=np.int64)
+    time, modulus = read.columns("relaxation curves", "time", "modulus")
+    groups: Numbers | None = np.zeros(time.size, dtype=np.int64)
     if read.temperature is not None:
         groups = temperature_groups(read.temperature, read.run)
     if groups is None:
@@ -176,26 +174,21 @@ def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterato
             else float(np.mean(read.temperature[rows]))
         )
         try:
-            converted = equivalent_sweep(read.time[rows], read.modulus[rows])
+            converted = equivalent_sweep(time[rows], modulus[rows])
         except InputError as error:
             raise InputError(f"{read.source}:{read.row_numbers[rows].min()}: {error}") from None
         yield Sweep(number, Isotherm(at, *converted), int(read.row_numbers[rows].min()))
 
 
 def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
-    """Put shift factors of a file in place of those found, each at the isotherm of its temperature.
-
-    Raises
-    ------
-    InputError
-        There is no isotherm at one of its temperatures.
-    """
+    """Put shift factors of a file in place of those found, each at the isotherm of its temperature."""
     shift, vertical = found.log10_a_T.copy(), found.log10_b_T.copy()
     error, said = found.log10_a_T_error.copy(), []
     covariance = found.joint_covariance.copy()
-    if given.temperature is None or given.log10_a_T is None:
+    own = shift_factors(None, given)
+    if own is None:
         raise InputError(f"{given.source}: holds no shift factors")
-    for k, (t, a) in enumerate(zip(given.temperature.tolist(), given.log10_a_T.tolist(), strict=True)):
+    for k, (t, a) in enumerate(zip(own.temperatures.tolist(), own.log10_a_T.tolist(), strict=True)):
         at = int(np.argmin(np.abs(found.temperatures - t)))
         if abs(found.temperatures[at] - t) > ISOTHERM_GAP:
             raise InputError(
@@ -207,8 +200,8 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
         )
         shift[at], error[at] = a, 0.0
         covariance[at] = covariance[:, at] = 0.0
-        if given.log10_b_T is not None:
-            vertical[at] = given.log10_b_T[k]
+        if own.log10_b_T is not None:
+            vertical[at] = own.log10_b_T[k]
     moved = replace(
         found, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance
     )
@@ -218,20 +211,6 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
 def entropic(read: DmaData, shifts: DmaData | None, reference: float) -> Array:
     """log10 b_T of an entropic network, T/T_ref, for the rows of a master curve that was laid without it [decades].
 
-    Parameters
-    ----------
-    read : DmaData
-        The whole master curve.
-    shifts : DmaData or None
-        The shift factors that it was laid with.
-    reference : float
-        Where its b_T is 1 [K].
-
-    Raises
-    ------
-    InputError
-        There are no shift factors, or they have a vertical shift of their own.
-
     Notes
     -----
     Derived: the ends of the window tell which frequencies were measured, f_max/a_T at the coldest and f_min/a_T at the
@@ -239,17 +218,18 @@ def entropic(read: DmaData, shifts: DmaData | None, reference: float) -> Array:
     are some 8 K from there at most, 3 % of b_T.
     """
     frequency, _, _ = moduli_of(read)
-    if shifts is None or shifts.temperature is None or shifts.log10_a_T is None:
+    given = shift_factors(None, shifts)
+    if shifts is None or given is None:
         raise InputError(
             f"{read.source}: --vertical: which temperature a row of a master curve was measured at its shift factors "
             "tell; give them with --shift"
         )
-    if shifts.log10_b_T is not None:
+    if given.log10_b_T is not None:
         raise InputError(
             f"{shifts.source}: has vertical shifts, the curve is laid with them; leave out --vertical"
         )
-    order = np.argsort(shifts.temperature)
-    kelvin, a = shifts.temperature[order], shifts.log10_a_T[order]
+    order = np.argsort(given.temperatures)
+    kelvin, a = given.temperatures[order], given.log10_a_T[order]
     middle = 0.5 * (np.log10(frequency.max() * frequency.min()) - a[0] - a[-1])
     at = np.interp(middle - np.log10(frequency), -a, kelvin)
     return np.log10([entropic_b_T(t, reference) for t in at.tolist()])
@@ -262,21 +242,7 @@ def laid(
     found: Superposition | None,
     whole: tuple[int, float, DmaData, Array | float] | None,
 ) -> tuple[MeasuredRows, tuple[str, ...]]:
-    """Lay sweeps and temperature sweeps on the master curve of a shift law.
-
-    Parameters
-    ----------
-    parts : sequence of Sweep
-        At temperatures of the law.
-    ramps : sequence of (int, DmaData)
-        Temperature sweeps, each with the number of its file; taken where the law has measured shifts.
-    law : ShiftLaw or None
-        a_T; None where every row is at the reference.
-    found : Superposition or None
-        Of the sweeps, with their vertical shifts.
-    whole : tuple or None
-        A master curve as it stands: number of its file, reference temperature [K], the file, log10 b_T of its rows.
-    """
+    """Lay sweeps, temperature sweeps and a whole curve (file, reference [K], rows, log10 b_T) by a shift law."""
     columns: list[tuple[Any, ...]] = []
     vertical: dict[float, float] = {}
     if found is not None:
@@ -322,12 +288,8 @@ def laid(
 
 def moduli_of(read: DmaData) -> tuple[Array, Array, Array]:
     """Frequency [Hz], E' and E'' [Pa]; refused where a file has them not."""
-    frequency = read.frequency
-    if frequency is None or read.storage is None or read.loss is None:
-        raise InputError(
-            f"{read.source}: E' and E'' with their frequency are needed; give it a column frequency_Hz"
-        )
-    return frequency, read.storage, read.loss
+    frequency, storage, loss = read.columns("rows of a master curve", "frequency", "storage", "loss")
+    return frequency, storage, loss
 
 
 def _column(

@@ -174,13 +174,7 @@ def _consistency(found: Fitted) -> Iterator[str]:
 
 
 def shift_table(found: Fitted | Tabulated) -> str:
-    """Shift factors of a fit as a file that `--shift` reads, after a person's hand or without.
-
-    Raises
-    ------
-    InputError
-        The fit has no shift factors of its own.
-    """
+    """Shift factors of a fit as a file that `--shift` reads, after a person's hand or without."""
     shifted = None if isinstance(found, Tabulated) else found.superposition
     if shifted is None:
         raise InputError("--write-shift: shift factors are found from isotherms at two temperatures and more")

@@ -12,8 +12,8 @@ import numpy as np
 from conveyor.checks import rubber_coverage
 from conveyor.errors import ConveyorError
 from conveyor.fitting.compound import Fitted
+from conveyor.fitting.findings import DOUBTED, OVER_SCATTER
 from conveyor.fitting.rows import MeasuredRows
-from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate

@@ -1,31 +1,24 @@
-"""Rows in order: by temperature, run and the swept quantity, with duplicate runs told apart."""
+"""Rows in order: by temperature, run and swept quantity, duplicate runs apart; what runs the wrong way is refused."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
-from conveyor.laboratory.groups import (
-    SAME_REDUCED_FREQUENCY,
-    SAME_SET_POINT,
-    SAME_TEMPERATURE,
-    duplicate_runs,
-    levels,
-    temperature_groups,
-)
+from conveyor.laboratory.groups import SAME_SET_POINT, duplicate_runs, set_points, temperature_groups
+from conveyor.laboratory.kinds import NEEDS
+from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.table import FloatArray, IntArray
 
-SWEPT = {
-    "master curve": "frequency",
-    "isotherms": "frequency",
-    "temperature sweep": "temperature",
-    "strain sweep": "strain",
-    "relaxation": "time",
-    "shift factors": "temperature",
-    "Prony series": "tau",
-}
-"""The quantity each kind sweeps."""
+SAME_TEMPERATURE: Final = 0.01
+"""Rows of a ramp closer than this are repeats [K]: the last digit printed."""
+SAME_REDUCED_FREQUENCY: Final = 1e-9
+"""A master curve merges shifted isotherms: only equal frequencies, to rounding, are repeats [-]."""
+SCATTER: Final = 0.8
+"""A modulus that changes the wrong way by less than this factor may be flat with scatter [-]."""
 
 
 @dataclass(frozen=True)
@@ -38,22 +31,8 @@ class Arrangement:
     duplicates: IntArray | None
 
 
-def arrange(kind: str, columns: dict[str, FloatArray], labels: IntArray | None) -> Arrangement:
-    """Group, tell apart and sort.
-
-    Parameters
-    ----------
-    kind : str
-        One of `KINDS` [-].
-    columns : dict of numpy.ndarray
-        By quantity, SI, each of shape `(n,)` [unit].
-    labels : numpy.ndarray or None
-        Labels of a run column, shape `(n,)` [-].
-
-    Returns
-    -------
-    Arrangement
-        With the duplicate runs found inside one group and label [-].
+def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> Arrangement:
+    """Group, tell duplicate runs of one group and label apart, and sort.
 
     Examples
     --------
@@ -62,35 +41,71 @@ def arrange(kind: str, columns: dict[str, FloatArray], labels: IntArray | None) 
     >>> found.order, found.run
     (array([1, 0, 2]), array([0, 0, 1]))
     """
-    swept = columns[SWEPT[kind]]
+    swept = columns[NEEDS[kind][0]]
     group = _group(kind, columns, labels)
-    condition = np.zeros(swept.size, dtype=np.int64) if group is None else group
-    if labels is not None:
-        condition = np.unique(np.stack([condition, labels]), axis=1, return_inverse=True)[1].reshape(-1)
-    if SWEPT[kind] == "temperature":
-        duplicates = duplicate_runs(swept, condition, tolerance=SAME_TEMPERATURE)
+    zero = np.zeros(swept.size, dtype=np.int64)
+    condition = zero if group is None else group
+    parted = condition if labels is None else _pairs(condition, labels)
+    if NEEDS[kind][0] == "temperature":
+        duplicates = duplicate_runs(swept, parted, tolerance=SAME_TEMPERATURE)
     else:
         merged = kind == "master curve"
         tolerance = SAME_REDUCED_FREQUENCY if merged else SAME_SET_POINT
-        duplicates = duplicate_runs(np.log(swept), condition, tolerance=tolerance, merged=merged)
+        duplicates = duplicate_runs(np.log(swept), parted, tolerance=tolerance, merged=merged)
     run = labels if labels is not None else duplicates
-    again = np.zeros(swept.size) if duplicates is None else duplicates
-    first = condition if group is None else group
-    second = np.zeros(swept.size) if run is None else run
+    again, second = (zero if found is None else found for found in (duplicates, run))
+    first = parted if group is None else group
     return Arrangement(np.lexsort((swept, again, second, first)), group, run, duplicates)
 
 
-def _group(kind: str, columns: dict[str, FloatArray], labels: IntArray | None) -> IntArray | None:
+def _pairs(first: IntArray, second: IntArray) -> IntArray:
+    """Number the pairs of two labels."""
+    found = np.unique(np.stack([first, second]), axis=1, return_inverse=True)[1]
+    return found.reshape(-1).astype(np.int64)
+
+
+def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> IntArray | None:
     """Conditions under which one sweep was made; None for a ramp whose rows form none."""
     temperature, frequency = columns.get("temperature"), columns.get("frequency")
-    size = columns[SWEPT[kind]].size
-    single = np.zeros(size, dtype=np.int64)
+    single = np.zeros(columns[NEEDS[kind][0]].size, dtype=np.int64)
     if kind in {"relaxation", "shift factors", "master curve", "Prony series"}:
         return single
+    level = single if frequency is None else set_points(frequency)
     if kind == "temperature sweep":
-        return single if frequency is None else levels(frequency)
+        return level
     group = single if temperature is None else temperature_groups(temperature, labels)
-    if group is None or kind == "isotherms" or frequency is None:
-        return group
-    pairs = np.unique(np.stack([group, levels(frequency)]), axis=1, return_inverse=True)[1]
-    return pairs.reshape(-1).astype(np.int64)
+    return group if group is None or kind == "isotherms" else _pairs(group, level)
+
+
+def check_trend(table: DataTable, kind: str, columns: Mapping[str, FloatArray], found: Arrangement) -> None:
+    """Compare both ends of a sorted series, and refuse a temperature with two shift factors.
+
+    Notes
+    -----
+    E' rises with frequency and E(t) falls with time for every linear viscoelastic solid (Prony series with
+    moduli > 0). With f_reduced = f a_T a rubber has a_T > 1 below the reference temperature.
+    """
+    first, last = int(found.order[0]), int(found.order[-1])
+    wrong: tuple[int, tuple[str, ...], str] | None = None
+    if first == last:
+        return
+    if kind == "master curve" and columns["storage"][last] < SCATTER * columns["storage"][first]:
+        what = (
+            "E' falls as the frequency rises: a period instead of a frequency, or several temperatures in one series?"
+            " add a column temperature_degC, or correct the header"
+        )
+        wrong = last, ("storage", "loss"), what
+    elif kind == "relaxation" and columns["modulus"][last] * SCATTER > columns["modulus"][first]:
+        what = "E(t) rises with time: a creep compliance, or times in descending order? correct the header"
+        wrong = last, ("relaxation",), what
+    elif kind == "shift factors" and found.duplicates is not None:
+        what = "a second shift factor at this temperature; delete one of the two rows"
+        wrong = int(np.flatnonzero(found.duplicates)[0]), ("temperature",), what
+    elif kind == "shift factors" and columns["log10_a_T"][last] > columns["log10_a_T"][first]:
+        what = "a_T rises with temperature: 1/a_T in the other convention? write a_T with f_reduced = f a_T"
+        wrong = last, ("a_T",), what
+    if wrong is not None:
+        row, quantities, what = wrong
+        by = {c.meaning.quantity: c for c in table.columns if c.meaning is not None}
+        column = next((by[q] for q in quantities if q in by), table.columns[0])
+        raise table.refusal(column, what, row)

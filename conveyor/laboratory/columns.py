@@ -4,58 +4,58 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
+from itertools import chain
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.laboratory.body import check_finite, check_width, column_cells, run_labels, table_mark
-from conveyor.laboratory.cells import TextGrid
-from conveyor.laboratory.decimals import to_floats
-from conveyor.laboratory.factors import ModulusUnit, allowed, find_unit
 from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.names import DIMENSIONS, Meaning
+from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
 from conveyor.laboratory.table import FloatArray, IntArray
+from conveyor.laboratory.units import ColumnUnit, allowed, find_unit
 
-_EXAMPLES = {"frequency": "Hz", "modulus": "MPa", "temperature": "degC", "strain": "%"}
-FREQUENCY_AGREEMENT = 1e-2
+_EXAMPLES: Final = {"frequency": "Hz", "modulus": "MPa", "temperature": "degC", "strain": "%"}
+FREQUENCY_AGREEMENT: Final = 1e-2
 """Relative difference allowed between a column in Hz and one in rad/s of one file: three printed digits."""
 
 
 @dataclass(frozen=True)
 class Series:
-    """One used column in SI; `log10` of it where `column.meaning` is a shift factor."""
+    """One used column in SI; `log10` of it where `meaning` is a shift factor with a logarithm."""
 
     column: DataColumn
     meaning: Meaning
     values: FloatArray
-    unit: ModulusUnit
+    unit: ColumnUnit
     explicit: bool
 
+    @property
+    def name(self) -> str:
+        """How messages name its quantity."""
+        return spoken(self.meaning)
 
-@dataclass(frozen=True)
-class Question:
-    """Something only the user can decide, with its place."""
 
-    row: int
+class Question(NamedTuple):
+    """Something only the user can decide: at the header of a column, or at one of its rows, counted from 0."""
+
     column: DataColumn
     text: str
+    row: int | None = None
+
+
+class Read(NamedTuple):
+    """Series by quantity, the labels of a run column, what was decided, and what is open."""
+
+    series: dict[str, Series]
+    labels: IntArray | None
+    notes: list[str]
+    questions: list[Question]
 
 
 def remedy(dimension: str, example: str = "") -> str:
-    """The option that answers a question of unit, for Python and for the command line.
-
-    Parameters
-    ----------
-    dimension : str
-        frequency, modulus, temperature or strain; else the header is the place [-].
-    example : str
-        Unit shown, by default a usual one [-].
-
-    Returns
-    -------
-    str
-        Part of a message [-].
+    """The option that answers a question of unit, for Python and for the command line; else the header is the place.
 
     Examples
     --------
@@ -70,140 +70,70 @@ def remedy(dimension: str, example: str = "") -> str:
     return f'give {dimension}_unit, for example {dimension}_unit="{unit}" (--{dimension}-unit {unit})'
 
 
-def check_units(units: Mapping[str, str | None]) -> dict[str, ModulusUnit]:
-    """Units given as options.
-
-    Parameters
-    ----------
-    units : mapping of str
-        Dimension to spelling or None [-].
-
-    Returns
-    -------
-    dict of Unit
-        Only those that were given [-].
-
-    Raises
-    ------
-    InputError
-        If a spelling is not a unit of its dimension.
-
-    Examples
-    --------
-    >>> check_units({"modulus": "MPa", "strain": None})
-    {'modulus': ModulusUnit(name='MPa', factor=1000000.0, offset=0.0)}
-    """
+def check_units(units: Mapping[str, str | None]) -> dict[str, ColumnUnit]:
+    """Units given as options, by dimension; one that is not known is refused."""
     given = {}
     for dimension, text in units.items():
-        if text is None:
-            continue
-        unit = find_unit(dimension, text)
-        if unit is None:
+        unit = None if text is None else find_unit(dimension, text)
+        if unit is not None:
+            given[dimension] = unit
+        elif text is not None:
             raise InputError(
                 f'{dimension}_unit = "{text}" (--{dimension}-unit) is not known; allowed: {allowed(dimension)}'
             )
-        given[dimension] = unit
     return given
 
 
-def read_columns(
-    table: DataTable, given: Mapping[str, ModulusUnit]
-) -> tuple[Mapping[str, Series], IntArray | None, list[str], list[Question]]:
-    """Numbers of every known column.
-
-    Parameters
-    ----------
-    table : Table
-        Header and rows [-].
-    given : mapping of Unit
-        Units the user states, by dimension [-].
-
-    Returns
-    -------
-    tuple
-        Series by quantity, the labels of a run column or None, notes, open questions [-].
-
-    Raises
-    ------
-    InputError
-        For a cell that is no number, a row longer than the header, two columns of one quantity, a decimal mark
-        that is not certain.
-    """
-    grid = table.grid
-    used = _chosen(table)
-    check_width(table)
-    cells = {column.index: column_cells(table, column) for columns in used.values() for column in columns}
+def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
+    """Numbers of every known column; `given` units override those of the file."""
+    used = _used(table)
+    _check_width(table)
+    cells = {column.index: _cells(table, column) for column in chain(*used.values())}
     unneeded = _unneeded(used)
-    label_column = used.pop("run")[0] if "run" in used else None
-    run = None if label_column is None else run_labels(grid, table, label_column, cells)
-    mark = table_mark(table, [c for columns in used.values() for c in columns], cells)
+    labelled = next(iter(used.pop("run", ())), None)
+    labels = None if labelled is None else _labels(table, labelled, cells[labelled.index])
+    mark = _mark(table, list(chain(*used.values())), cells)
     notes = ["decimal comma"] if mark == "," else []
-    if label_column is not None:
-        notes.append(f"{column_label(grid, label_column)} tells runs apart")
-    series: dict[str, Series] = {}
-    questions: list[Question] = []
+    if labelled is not None:
+        notes.append(f"{table.label(labelled)} tells runs apart")
+    read = Read({}, labels, notes, [])
     for quantity, columns in used.items():
-        read = []
-        for column in columns:
-            numbers = np.array(to_floats(cells[column.index], mark))
-            check_finite(table, column, numbers, cells[column.index])
-            found, column_notes = _in_si(table, column, numbers, given, questions)
-            notes += column_notes
-            read.append(found)
-        series[quantity] = read[0] if len(read) == 1 else _agreed(table, read)
-    notes += [f"{column_label(grid, c)} is not needed" for c in unneeded]
-    notes += [
-        f"{column_label(grid, c)} is not used: "
-        + ("it has no name" if not c.header else "its name is not a quantity read here")
-        for c in table.columns
-        if c.meaning is None and any(len(r.cells) > c.index and r.cells[c.index] for r in table.rows)
-    ]
-    return MappingProxyType(series), run, notes, questions
+        found = [
+            _in_si(table, column, _numbers(table, column, cells[column.index], mark), given, read)
+            for column in columns
+        ]
+        read.series[quantity] = found[0] if len(found) == 1 else _agreed(table, *found)
+    notes += [f"{table.label(c)} is not needed" for c in unneeded]
+    for column in table.columns:
+        if column.meaning is None and any(_cell(table, row, column) for row in range(len(table.rows))):
+            why = "its name is not a quantity read here" if column.header else "it has no name"
+            notes.append(f"{table.label(column)} is not used: {why}")
+    return read
 
 
-def column_label(grid: TextGrid, column: DataColumn) -> str:
-    """How notes name a column.
-
-    Parameters
-    ----------
-    grid : Grid
-        Where it stands [-].
-    column : Column
-        The column [-].
-
-    Returns
-    -------
-    str
-        As in `column 2 "E' (Pa)"` [-].
-    """
-    place = str(grid.refusal(0, column.index, "", header=column.header))
-    return place.split(": ", 1)[1].removesuffix(":")
+def spoken(meaning: Meaning) -> str:
+    """How messages name a quantity, as in `tan delta`."""
+    words = meaning.quantity if meaning.quantity in {"a_T", "b_T"} else meaning.quantity.replace("_", " ")
+    return f"{words} (peak to peak)" if meaning.peak_to_peak else words
 
 
-def _chosen(table: DataTable) -> dict[str, list[DataColumn]]:
-    """Columns by quantity; only frequency may come twice, once as an angular frequency."""
+def _used(table: DataTable) -> dict[str, list[DataColumn]]:
+    """Columns by quantity; only frequency may come twice, once as an angular frequency, which is then the second."""
     used: dict[str, list[DataColumn]] = {}
+    angular = {c.index for c in table.columns if c.meaning is not None and c.meaning.angular}
     for column in table.columns:
         if column.meaning is None:
             continue
         others = used.setdefault(column.meaning.quantity, [])
-        both_frequencies = (
-            len(others) == 1
-            and others[0].meaning is not None
-            and others[0].meaning.angular != column.meaning.angular
-        )
-        if others and not both_frequencies:
-            raise table.grid.refusal(
-                table.header_row,
-                column.index,
-                f"a second column for {column.meaning.quantity} (the first is {column_label(table.grid, others[0])});"
+        if others and not (len(others) == 1 and (others[0].index in angular) != (column.index in angular)):
+            raise table.refusal(
+                column,
+                f"a second column for {column.meaning.quantity} (the first is {table.label(others[0])});"
                 " keep one, or one row for each measurement with the temperature in a column of its own; rename what"
                 " is not to be read",
-                header=column.header,
             )
         others.append(column)
-    for columns in used.values():
-        columns.sort(key=lambda c: c.meaning is not None and c.meaning.angular)
+        others.sort(key=lambda c: c.index in angular)
     return used
 
 
@@ -217,41 +147,112 @@ def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
     return found
 
 
+def _check_width(table: DataTable) -> None:
+    """Refuse rows longer than the header."""
+    width = len(table.columns)
+    for line in table.rows:
+        count = len(line.cells)
+        if count > width:
+            comma = table.grid.notes[-1].endswith("comma") and count == 2 * width
+            advice = (
+                "decimal commas in a table separated by commas? export it with semicolons or decimal points"
+                if comma
+                else "name every column in the header, or remove the extra cell"
+            )
+            what = f"{count} cells, the header names {width}; {advice}"
+            raise table.grid.refusal(line.number, width, what)
+
+
+def _cell(table: DataTable, row: int, column: DataColumn) -> str:
+    cells = table.rows[row].cells
+    return cells[column.index] if column.index < len(cells) else ""
+
+
+def _cells(table: DataTable, column: DataColumn) -> list[str]:
+    """Cells of one column, none empty."""
+    found = [_cell(table, row, column) for row in range(len(table.rows))]
+    if "" in found:
+        hint = "a formula without a stored value?" if table.grid.sheet else "a line cut short?"
+        what = f"the cell is empty ({hint}); complete or delete the row"
+        raise table.refusal(column, what, found.index(""))
+    return found
+
+
+def _mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[str]]) -> str:
+    """Decimal mark of all number columns together."""
+    for column in columns:
+        for row, cell in enumerate(cells[column.index]):
+            if not is_number(cell):
+                line = table.rows[row]
+                said = why_not_a_number(cell if any(map(is_number, line.cells)) else line.text)
+                raise table.refusal(column, said, row)
+    every = [cell for column in columns for cell in cells[column.index]]
+    mark, doubtful = decimal_mark(every)
+    if doubtful is not None:
+        column = next(column for column in columns if doubtful in cells[column.index])
+        why = (
+            "a comma here and decimal points elsewhere"
+            if any("." in cell for cell in every)
+            else "a decimal comma or a thousands separator cannot be told apart"
+        )
+        what = f"'{doubtful}': {why}; export the table with decimal points and no thousands separators"
+        raise table.refusal(column, what, cells[column.index].index(doubtful))
+    return mark
+
+
+def _numbers(table: DataTable, column: DataColumn, cells: list[str], mark: str) -> FloatArray:
+    numbers = np.array([float(cell.replace(",", ".") if mark == "," else cell) for cell in cells])
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if bad.size:
+        what = f"'{cells[bad[0]]}' is too large for a number; repair or delete the row"
+        raise table.refusal(column, what, bad[0])
+    return numbers
+
+
+def _labels(table: DataTable, column: DataColumn, cells: list[str]) -> IntArray:
+    """Whole numbers as they are, other labels numbered in the order of their appearance."""
+    plain = [cell.removesuffix(".0") for cell in cells]
+    if all(cell.lstrip("-").isdigit() for cell in plain):
+        return np.array([int(cell) for cell in plain], dtype=np.int64)
+    order = {label: number for number, label in enumerate(dict.fromkeys(cells))}
+    if len(order) == len(cells) > 1:
+        what = "every row has a label of its own, so they tell no runs apart; rename the column if it is not a run"
+        raise table.refusal(column, what, 0)
+    return np.array([order[label] for label in cells], dtype=np.int64)
+
+
 def _in_si(
-    table: DataTable,
-    column: DataColumn,
-    numbers: FloatArray,
-    given: Mapping[str, ModulusUnit],
-    questions: list[Question],
-) -> tuple[Series, list[str]]:
+    table: DataTable, column: DataColumn, numbers: FloatArray, given: Mapping[str, ColumnUnit], read: Read
+) -> Series:
+    """One column in the unit that is given, or that the file states; what it says goes to the notes and questions."""
     meaning = column.meaning
     assert meaning is not None  # noqa: S101
     dimension = DIMENSIONS[meaning.quantity]
     written = [text for text in (meaning.unit, column.unit) if text]
     stated = [find_unit(dimension, text) for text in written]
     override = given.get(dimension)
-    label = column_label(table.grid, column)
+    words = [f"{table.label(column)}: {spoken(meaning)}"]
     if override is not None:
         unit = override
+        words.append(f"in {unit.name} as given")
         differs = [t for t, u in zip(written, stated, strict=True) if u != override]
-        how = f"{unit.name} as given" + (
-            f", overriding {' and '.join(differs)} of the file" if differs else ""
-        )
+        if differs:
+            words.append(f"overriding {' and '.join(differs)} of the file")
     elif dimension in {"number", "label"} and not written:
-        unit, how = ModulusUnit("-", 1.0), ""
+        unit = ColumnUnit("-", 1.0)
     else:
         problem = _unit_problem(meaning, dimension, written, stated)
         if problem:
-            questions.append(Question(table.header_row, column, problem))
-        unit = next((u for u in stated if u is not None), ModulusUnit("?", 1.0))
-        how = f"{unit.name} by the {'header' if meaning.unit else 'unit row'}"
+            read.questions.append(Question(column, problem))
+        unit = next((u for u in stated if u is not None), ColumnUnit("?", 1.0))
+        words.append(f"in {unit.name} by the {'header' if meaning.unit else 'unit row'}")
     values, scale = _converted(meaning, numbers, unit)
-    words = [f"{label}: {spoken(meaning)}", *([f"in {how}"] if how else []), *([scale] if scale else [])]
-    return Series(column, meaning, values, unit, override is not None), [", ".join(words)]
+    read.notes.append(", ".join([*words, *scale]))
+    return Series(column, meaning, values, unit, override is not None)
 
 
 def _unit_problem(
-    meaning: Meaning, dimension: str, written: list[str], stated: list[ModulusUnit | None]
+    meaning: Meaning, dimension: str, written: list[str], stated: list[ColumnUnit | None]
 ) -> str:
     if not written:
         which = "Hz or rad/s? " if dimension == "frequency" else ""
@@ -271,55 +272,33 @@ def _unit_problem(
     return ""
 
 
-def spoken(meaning: Meaning) -> str:
-    """How messages name a quantity.
-
-    Parameters
-    ----------
-    meaning : Meaning
-        Of the column [-].
-
-    Returns
-    -------
-    str
-        As in `tan delta` [-].
-    """
-    words = meaning.quantity.replace("_", " ") if meaning.quantity not in {"a_T", "b_T"} else meaning.quantity
-    return f"{words} (peak to peak)" if meaning.peak_to_peak else words
-
-
-def _converted(meaning: Meaning, numbers: FloatArray, unit: ModulusUnit) -> tuple[FloatArray, str]:
-    """SI values, for shift factors their log10; and how they were converted."""
+def _converted(meaning: Meaning, numbers: FloatArray, unit: ColumnUnit) -> tuple[FloatArray, list[str]]:
+    """SI values, of logarithms of shift factors their log10; and how they were converted."""
     base = meaning.log_base
     if meaning.quantity in {"a_T", "b_T"} and base is not None:
-        return numbers / np.log(10.0) * np.log(base) if base != 10.0 else numbers, (
-            "log10 as it stands" if base == 10.0 else "natural logarithm divided by ln 10"
-        )
-    with np.errstate(over="ignore"):
-        plain = numbers if base is None else np.power(base, numbers)
+        if base == 10.0:
+            return numbers, ["log10 as it stands"]
+        return numbers / np.log(10.0) * np.log(base), ["natural logarithm divided by ln 10"]
     factor = unit.factor * (0.5 if meaning.peak_to_peak else 1.0)
     with np.errstate(over="ignore"):  # an infinite value is refused with its row
+        plain = numbers if base is None else np.power(base, numbers)
         values = (plain + unit.offset) * factor if unit.offset else plain * factor
     words = [] if base is None else ["log10 undone" if base == 10.0 else "natural logarithm undone"]
-    if unit.offset:
-        words.append(f"+ {unit.offset:g}")
-    if factor != 1.0:
-        words.append(f"times {factor:.6g}")
-    return values, ", ".join(words)
+    words += [f"+ {unit.offset:g}"] if unit.offset else []
+    words += [f"times {factor:.6g}"] if factor != 1.0 else []
+    return values, words
 
 
-def _agreed(table: DataTable, read: list[Series]) -> Series:
+def _agreed(table: DataTable, cyclic: Series, angular: Series) -> Series:
     """Frequency in Hz where the file has an angular frequency too; refused where they contradict."""
-    cyclic, angular = read
     apart = np.abs(angular.values - cyclic.values) - FREQUENCY_AGREEMENT * np.abs(cyclic.values)
     worst = int(np.argmax(apart))
     if apart[worst] > 0.0:
-        raise table.grid.refusal(
-            table.rows[worst].number,
-            angular.column.index,
+        raise table.refusal(
+            angular.column,
             f"{angular.values[worst]:g} Hz by this column, {cyclic.values[worst]:g} Hz by"
-            f" {column_label(table.grid, cyclic.column)}; rename the one that is wrong, or give frequency_unit"
+            f" {table.label(cyclic.column)}; rename the one that is wrong, or give frequency_unit"
             " (--frequency-unit) with only one of them",
-            header=angular.column.header,
+            worst,
         )
     return cyclic

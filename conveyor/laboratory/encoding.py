@@ -4,47 +4,32 @@ from __future__ import annotations
 
 import codecs
 import re
+from typing import Final
 
-from conveyor.laboratory.cells import refusal
+from conveyor.laboratory.grid import refusal
 
-_NOT_TEXT = {
+_NOT_TEXT: Final = {
     b"\xd0\xcf\x11\xe0": "an old .xls workbook, or one with a password; save it as .xlsx or CSV",
     b"%PDF": "a PDF report; export the table as CSV or .xlsx",
     b"\x1f\x8b": "compressed (gzip); unpack it first",
 }
-_MARKUP = re.compile(r"\s*<(!doctype|html|table|\?xml)", re.IGNORECASE)
-_BYTE_ORDER_MARKS = (
+_MARKUP: Final = re.compile(r"\s*<(!doctype|html|table|\?xml)", re.IGNORECASE)
+_BYTE_ORDER_MARKS: Final = (
     (codecs.BOM_UTF8, "utf-8-sig", "UTF-8 with byte-order mark"),
     (codecs.BOM_UTF16_LE, "utf-16", "UTF-16 by its byte-order mark"),
     (codecs.BOM_UTF16_BE, "utf-16", "UTF-16 by its byte-order mark"),
 )
-_KOREAN = re.compile("[가-힣ㄱ-ㅎㅏ-ㅣ　-〿℃℉°μ㎐㎑㎒㎩㎪㎫㎬·×±′″]+")
+_KOREAN: Final = re.compile("[가-힣ㄱ-ㅎㅏ-ㅣ　-〿℃℉°μ㎐㎑㎒㎩㎪㎫㎬·×±′″]+")
 
 
 def decoded(data: bytes, name: str) -> tuple[str, str]:
-    """Characters of a text file and a sentence on its encoding.
-
-    Parameters
-    ----------
-    data : bytes
-        The file [-].
-    name : str
-        Its name in messages [-].
-
-    Returns
-    -------
-    tuple of str
-        The text, and how it was decoded [-].
-
-    Raises
-    ------
-    InputError
-        If the file is empty or holds something else than text.
+    """Characters of a text file, and how it was decoded; an empty file, or one of something else, is refused.
 
     Notes
     -----
     A byte-order mark decides; then UTF-8 if every byte fits; then EUC-KR or CP949 if what is not ASCII becomes
-    Korean; else CP1252, and Latin-1 for bytes CP1252 does not know. Numbers are ASCII in all of them.
+    Korean; else CP1252, and Latin-1 for bytes CP1252 does not know. Numbers are ASCII in all of them. (A detector by
+    frequencies of letters has too few to go by: it takes a short CP1252 file with a degree sign for Big5.)
 
     Examples
     --------
@@ -69,37 +54,35 @@ def _text(data: bytes, name: str) -> tuple[str, str]:
                 return data.decode(codec), note
             except UnicodeDecodeError as error:
                 row = data[: error.start].count(b"\n") + 1
-                raise refusal(
-                    name, row, 0, f"damaged text: {note}, broken at byte {error.start}; save it as UTF-8"
-                ) from None
+                what = f"damaged text: {note}, broken at byte {error.start}; save it as UTF-8"
+                raise refusal(name, row, 0, what) from None
     if b"\x00" in data:
         row = data[: data.index(b"\x00")].count(b"\n") + 1
         raise refusal(name, row, 0, "binary data, or UTF-16 without its mark; save it as UTF-8 text")
-    try:
-        return data.decode("utf-8"), "ASCII" if data.isascii() else "UTF-8"
-    except UnicodeDecodeError:
-        pass
+    text = _as(data, "utf-8")
+    if text is not None:
+        return text, "ASCII" if data.isascii() else "UTF-8"
     for codec in ("euc_kr", "cp949"):
-        text = _korean(data, codec)
-        if text is not None:
+        text = _as(data, codec)
+        if text is not None and _is_korean(text, codec):
             return text, f"{codec} (not UTF-8; Korean)"
+    text = _as(data, "cp1252")
+    if text is not None:
+        return text, "cp1252 (not UTF-8)"
+    return data.decode("latin-1"), "latin-1 (neither UTF-8 nor cp1252; words may show wrong letters)"
+
+
+def _as(data: bytes, codec: str) -> str | None:
     try:
-        return data.decode("cp1252"), "cp1252 (not UTF-8)"
-    except UnicodeDecodeError:
-        return data.decode("latin-1"), "latin-1 (neither UTF-8 nor cp1252; words may show wrong letters)"
-
-
-def _korean(data: bytes, codec: str) -> str | None:
-    """The text if `codec` turns everything beyond ASCII into Korean, with at least two syllables in a row.
-
-    CP1252 "°C" is one lone syllable in CP949: a single one proves nothing.
-    """
-    try:
-        text = data.decode(codec)
+        return data.decode(codec)
     except UnicodeDecodeError:
         return None
+
+
+def _is_korean(text: str, codec: str) -> bool:
+    """Whether all beyond ASCII is Korean, two syllables in a row among it: one lone syllable is "°C" of CP1252."""
     foreign = re.findall(r"[^\x00-\x7f]+", text)
-    if not all(_KOREAN.fullmatch(run) for run in foreign):
-        return None
     certain = codec == "euc_kr" and any(sign in text for sign in "℃℉")
-    return text if certain or any(re.search("[가-힣]{2}", run) for run in foreign) else None
+    return all(map(_KOREAN.fullmatch, foreign)) and (
+        certain or any(re.search("[가-힣]{2}", run) for run in foreign)
+    )

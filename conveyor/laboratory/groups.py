@@ -2,40 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.laboratory.table import ISOTHERM_DRIFT, FloatArray, IntArray
 
-ISOTHERM_GAP = 0.8
+ISOTHERM_GAP: Final = 0.8
 """Temperatures further apart than this are different isotherms [K]: steps are 1 K or more, furnaces hold 0.5 K
 (general knowledge)."""
-SAME_SET_POINT = 5e-3
+SAME_SET_POINT: Final = 5e-3
 """Frequencies or strains closer than this, relatively, are one set point; instruments set 10 a decade (26 % apart)."""
-SAME_TEMPERATURE = 0.01
-"""Rows of a ramp closer than this are repeats [K]: the last digit printed."""
-SAME_REDUCED_FREQUENCY = 1e-9
-"""A master curve merges shifted isotherms: only equal frequencies, to rounding, are repeats [-]."""
-_SHORTEST_RUN = 3
-_SHORTEST_OTHER_RUN = 5
+_SHORTEST_RUN: Final = 3
+_SHORTEST_OTHER_RUN: Final = 5
 """Rows in no order rarely fall into rising or falling stretches of five: ten rows in 4/(5! 5!) of all orders."""
 
 
 def temperature_groups(temperature: FloatArray, run: IntArray | None) -> IntArray | None:
-    """Number the isotherms of a file by ascending temperature.
-
-    Parameters
-    ----------
-    temperature : numpy.ndarray
-        Of each row, shape `(n,)` [K].
-    run : numpy.ndarray or None
-        Label of each row, shape `(n,)` [-].
-
-    Returns
-    -------
-    numpy.ndarray or None
-        Group of each row, shape `(n,)`; None if the temperature is a ramp [-].
+    """Number the isotherms of a file by ascending temperature [K]; None if the temperature is a ramp.
 
     Notes
     -----
@@ -54,10 +41,10 @@ def temperature_groups(temperature: FloatArray, run: IntArray | None) -> IntArra
     for label in np.unique(labels):
         rows = np.flatnonzero(labels == label)
         rows = rows[np.argsort(temperature[rows], kind="stable")]
-        steps = np.diff(temperature[rows])
-        whole = temperature[rows[-1]] - temperature[rows[0]] <= ISOTHERM_DRIFT
-        cuts = np.flatnonzero(steps > ISOTHERM_GAP) + 1
-        members += [rows] if whole and run is not None else np.split(rows, cuts)
+        if run is not None and np.ptp(temperature[rows]) <= ISOTHERM_DRIFT:
+            members.append(rows)
+        else:
+            members += np.split(rows, np.flatnonzero(np.diff(temperature[rows]) > ISOTHERM_GAP) + 1)
     if any(np.ptp(temperature[rows]) > ISOTHERM_DRIFT for rows in members):
         return None
     members.sort(key=lambda rows: float(np.mean(temperature[rows])))
@@ -67,22 +54,12 @@ def temperature_groups(temperature: FloatArray, run: IntArray | None) -> IntArra
     return group
 
 
-def levels(values: FloatArray) -> IntArray:
-    """Number the set points of a quantity in ascending order.
-
-    Parameters
-    ----------
-    values : numpy.ndarray
-        Frequencies or strains, > 0, shape `(n,)` [unit].
-
-    Returns
-    -------
-    numpy.ndarray
-        Set point of each row, shape `(n,)` [-].
+def set_points(values: FloatArray) -> IntArray:
+    """Number the set points of a frequency or strain in ascending order.
 
     Examples
     --------
-    >>> levels(np.array([10.0, 1.0, 10.01]))
+    >>> set_points(np.array([10.0, 1.0, 10.01]))
     array([1, 0, 1])
     """
     return _clusters(np.log(values), SAME_SET_POINT)
@@ -90,39 +67,23 @@ def levels(values: FloatArray) -> IntArray:
 
 def _clusters(values: FloatArray, gap: float) -> IntArray:
     order = np.argsort(values, kind="stable")
-    number = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
     found = np.empty(values.size, dtype=np.int64)
-    found[order] = number
+    found[order] = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
     return found
 
 
 def duplicate_runs(
     values: FloatArray, group: IntArray, *, tolerance: float, merged: bool = False
 ) -> IntArray | None:
-    """Tell repeated sweeps of one group apart.
-
-    Parameters
-    ----------
-    values : numpy.ndarray
-        The swept quantity in the order of the file, shape `(n,)` [unit].
-    group : numpy.ndarray
-        Rows of equal number are one condition, shape `(n,)` [-].
-    tolerance : float
-        Values closer than this are one set point [unit].
-    merged : bool
-        The rows are shifted isotherms, whose ranges overlap without being repeats [-].
-
-    Returns
-    -------
-    numpy.ndarray or None
-        Run of each row within its group, from 0, shape `(n,)`; None if nothing is repeated [-].
+    """Tell repeated sweeps of one group apart: the run of each row within its group, None if nothing is repeated.
 
     Notes
     -----
     If the rows of a group fall into stretches of three or more (five if no set point comes back), each rising
-    or falling, and at least half of each lies inside the range of the one before (`merged`: on its set points),
-    every stretch is a run: up and down, or one sweep after the other. Else the second row at one set point
-    begins the second run: two runs sorted into each other, or a repeated point.
+    or falling, and at least half of each lies inside the range of the one before (`merged`, rows of shifted isotherms
+    whose ranges overlap without being repeats: on its set points), every stretch is a run: up and down, or one sweep
+    after the other. Else the second row at one set point (within the tolerance) begins the second run: two runs sorted
+    into each other, or a repeated point.
 
     Examples
     --------
@@ -136,18 +97,17 @@ def duplicate_runs(
     run = np.zeros(values.size, dtype=np.int64)
     for number in np.unique(group):
         rows = np.flatnonzero(group == number)
-        inside = values[rows]
-        points = _clusters(inside, tolerance)
+        points = _clusters(values[rows], tolerance)
         stretch = _stretches(points)
         repeats = np.unique(points).size < rows.size
         shortest = _SHORTEST_RUN if repeats else _SHORTEST_OTHER_RUN
-        swept_again = _swept_again(points if merged else inside, stretch, shortest, exactly=merged)
-        run[rows] = stretch if swept_again else _occurrence(points)
+        parts = np.split(points if merged else values[rows], np.flatnonzero(np.diff(stretch)) + 1)
+        run[rows] = stretch if _swept_again(parts, shortest, exactly=merged) else _occurrence(points)
     return run if run.any() else None
 
 
-def _swept_again(values: FloatArray | IntArray, stretch: IntArray, shortest: int, *, exactly: bool) -> bool:
-    parts = [values[stretch == number] for number in range(int(stretch[-1]) + 1)]
+def _swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool) -> bool:
+    """Whether stretches are long enough, and each lies at least half on (or within) the one before."""
     if len(parts) < 2 or min(part.size for part in parts) < shortest:
         return False
     return all(
@@ -156,30 +116,19 @@ def _swept_again(values: FloatArray | IntArray, stretch: IntArray, shortest: int
     )
 
 
-def restarts(frequency: FloatArray) -> int:
-    """How often a frequency sweep begins anew in the order of the file.
-
-    Parameters
-    ----------
-    frequency : numpy.ndarray
-        Of each row, shape `(n,)` [Hz].
-
-    Returns
-    -------
-    int
-        0 for one sweep, and for rows in no order [-].
+def restarts(frequency: FloatArray) -> bool:
+    """Whether a frequency sweep begins anew in the order of the file; not so where rows are in no order.
 
     Examples
     --------
     >>> restarts(np.array([1.0, 2, 4, 1, 2, 4])), restarts(np.array([1.0, 2, 4, 3, 6, 9]))
-    (1, 0)
+    (True, False)
     """
-    points = levels(frequency)
+    points = set_points(frequency)
     stretch = _stretches(points)
     first = np.unique(stretch, return_index=True)[1]
-    lengths = np.bincount(stretch)
     same = np.unique(points[first]).size == 1
-    return lengths.size - 1 if same and lengths.min() >= _SHORTEST_RUN else 0
+    return bool(same and first.size > 1 and np.bincount(stretch).min() >= _SHORTEST_RUN)
 
 
 def _stretches(points: IntArray) -> IntArray:
@@ -187,8 +136,7 @@ def _stretches(points: IntArray) -> IntArray:
     number = np.zeros(points.size, dtype=np.int64)
     direction = 0
     current = 0
-    for i in range(1, points.size):
-        step = int(np.sign(points[i] - points[i - 1]))
+    for i, step in enumerate(np.sign(np.diff(points)).tolist(), start=1):
         if step == 0 or (direction and step != direction):
             current += 1
             direction = 0

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import re
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
-from conveyor.laboratory.factors import find_unit
+from conveyor.laboratory.units import find_unit
 
-DIMENSIONS = MappingProxyType(
+DIMENSIONS: Final = MappingProxyType(
     {
         "frequency": "frequency",
         "temperature": "temperature",
@@ -77,12 +77,12 @@ _ANGULAR = "ω omega w angularfrequency angfrequency angfreq circularfrequency k
 _REDUCED = "fred reducedfrequency redfrequency f·at fat at·f atf fr reduziertefrequenz f*at at*f 환산주파수"
 _PEAK_TO_PEAK = "dsa doublestrainamplitude peaktopeakstrain strainp-p strainpp"
 
-_MEANINGS: dict[str, Meaning] = {
-    name: Meaning(quantity) for quantity, names in _NAMES.items() for name in names.split()
-}
-_MEANINGS |= {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
-_MEANINGS |= {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
-_MEANINGS |= {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+_MEANINGS: Final = (
+    {name: Meaning(quantity) for quantity, names in _NAMES.items() for name in names.split()}
+    | {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
+    | {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
+    | {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+)
 _LONGEST_NAME = 80
 """Longer cells are sentences."""
 _OTHER_LETTERS = {"e", "g"}
@@ -90,34 +90,26 @@ _OTHER_LETTERS = {"e", "g"}
 _PRIMES = str.maketrans(
     {"’": "'", "‘": "'", "′": "'", "`": "'", "´": "'", "″": "''", '"': "''", "”": "''", "“": "''"}
 )
-_SPLITS = (
-    re.compile(r"(?P<name>.+?)\s*\[(?P<unit>[^\[\]]*)\]"),
-    re.compile(r"(?P<name>.+?)\s*\((?P<unit>[^()]*)\)"),
-    re.compile(r"(?P<name>.+?)\s*<(?P<unit>[^<>]*)>"),
+_BRACKETS: Final = (
+    r"(?P<name>.+?)\s*\[(?P<unit>[^\[\]]*)\]",
+    r"(?P<name>.+?)\s*\((?P<unit>[^()]*)\)",
+    r"(?P<name>.+?)\s*<(?P<unit>[^<>]*)>",
 )
-_LOOSE_SPLITS = (
-    re.compile(r"(?P<name>.+)_(?P<unit>[^_]+)"),
-    re.compile(r"(?P<name>.+?)\s*/\s*(?P<unit>.+)"),
-    re.compile(r"(?P<name>.+?)\s*,\s*(?P<unit>.+)"),
-    re.compile(r"(?P<name>.+?)\s+in\s+(?P<unit>.+)"),
-    re.compile(r"(?P<name>.+?)\s*(?P<unit>%)"),
-    re.compile(r"(?P<name>.+)\s+(?P<unit>\S+)"),
+_LOOSE: Final = (
+    r"(?P<name>.+)_(?P<unit>[^_]+)",
+    r"(?P<name>.+?)\s*/\s*(?P<unit>.+)",
+    r"(?P<name>.+?)\s*,\s*(?P<unit>.+)",
+    r"(?P<name>.+?)\s+in\s+(?P<unit>.+)",
+    r"(?P<name>.+?)\s*(?P<unit>%)",
+    r"(?P<name>.+)\s+(?P<unit>\S+)",
 )
+"""What stands behind is a unit only if it is known."""
+_WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
 _LOG = re.compile(r"(?P<log>log_?10|log|lg|ln)[\s_]*(?P<rest>\(.+\)|\[.+\]|.+)", re.IGNORECASE)
 
 
 def meaning(header: str) -> Meaning | None:
-    """Quantity named by a header cell.
-
-    Parameters
-    ----------
-    header : str
-        Text of the cell [-].
-
-    Returns
-    -------
-    Meaning or None
-        None if the name is not known [-].
+    """Quantity named by a header cell; None if the name is not known.
 
     Notes
     -----
@@ -139,40 +131,23 @@ def meaning(header: str) -> Meaning | None:
         return found
     rest = log["rest"].strip()
     whole = rest[1:-1] if rest[0] + rest[-1] in {"()", "[]"} else rest
-    inner = _linear(whole) or _linear(rest) or _log_with_outer_unit(rest)
-    if inner is None or inner.quantity not in {
-        "frequency",
-        "time",
-        "storage",
-        "loss",
-        "relaxation",
-        "a_T",
-        "b_T",
-    }:
+    outer = re.sub(r"\(([^()]+)\)(?=\s*[\[(][^()\[\]]+[\])]$)", r"\1 ", rest, count=1)  # "(f) [Hz]"
+    inner = _linear(whole) or _linear(rest) or _linear(outer)
+    if inner is None or inner.quantity not in _WITH_LOGARITHMS:
         return None
     return inner._replace(log_base=math.e if log["log"].lower() == "ln" else 10.0)
 
 
-def _log_with_outer_unit(text: str) -> Meaning | None:
-    """`(f) [Hz]` after log10."""
-    match = re.fullmatch(r"\(([^()]+)\)\s*[\[(]([^()\[\]]+)[\])]", text)
-    return _linear(f"{match[1]} [{match[2]}]") if match else None
-
-
 def _linear(text: str) -> Meaning | None:
+    """A name with its unit, if it has one."""
     bare = _named(text)
     if bare is not None:
         return bare
-    for split in _SPLITS:
-        if match := split.fullmatch(text):
-            found = _named(match["name"], match["unit"])
-            if found is not None:
-                return found._replace(unit=match["unit"].strip())
-    for split in _LOOSE_SPLITS:
-        if match := split.fullmatch(text):
-            found = _named(match["name"], match["unit"])
-            if found is not None and find_unit(DIMENSIONS[found.quantity], match["unit"]):
-                return found._replace(unit=match["unit"].strip())
+    for split in (*_BRACKETS, *_LOOSE):
+        match = re.fullmatch(split, text)
+        found = _named(match["name"], match["unit"]) if match else None
+        if match and found and (split in _BRACKETS or find_unit(DIMENSIONS[found.quantity], match["unit"])):
+            return found._replace(unit=match["unit"].strip())
     return None
 
 
@@ -207,18 +182,22 @@ def _by_unit(name: str, found: Meaning, unit: str | None) -> Meaning | None:
 
 
 def _time_or_temperature(letter: str, unit: str | None) -> str:
-    if unit is not None and find_unit("time", unit):
-        return "time"
-    if unit is not None and find_unit("temperature", unit):
-        return "temperature"
+    for dimension in ("time", "temperature"):
+        if unit is not None and find_unit(dimension, unit):
+            return dimension
     return "temperature" if letter == "T" else "time"
 
 
 def _word(text: str) -> Meaning | None:
+    """A name alone, with the letter of its modulus."""
     compact = re.sub(r"[\s_.|\-]+", "", text.lower())
     found = _MEANINGS.get(compact)
     if found is None or DIMENSIONS[found.quantity] != "modulus":
         return found
-    shear = re.fullmatch(r"g.*|shear.*", compact) is not None
-    tensile = re.fullmatch(r"e.*|tensile.*", compact) is not None
-    return found._replace(letter="G" if shear else "E" if tensile else "")
+    return found._replace(
+        letter="G"
+        if compact.startswith(("g", "shear"))
+        else "E"
+        if compact.startswith(("e", "tensile"))
+        else ""
+    )

@@ -4,31 +4,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
-from conveyor.laboratory.arrange import Arrangement, arrange
-from conveyor.laboratory.cells import TextGrid, refusal
-from conveyor.laboratory.columns import Question, Series, check_units, column_label, read_columns
+from conveyor.files.workbook import MAGIC
+from conveyor.laboratory.arrange import Arrangement, arrange, check_trend
+from conveyor.laboratory.columns import Question, Read, Series, check_units, read_columns
 from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.kinds import NEEDS, Decision, decide, possible_kinds
+from conveyor.laboratory.grid import TextGrid, refusal
+from conveyor.laboratory.kinds import NEEDS, decide, possible_kinds
 from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table
-from conveyor.laboratory.moduli import Moduli, dynamic_moduli, equivalent_strain, to_tensile
+from conveyor.laboratory.moduli import dynamic_moduli, equivalent_strain, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
 from conveyor.laboratory.separated import text_grid
-from conveyor.laboratory.table import KINDS, DmaData, FloatArray, IntArray
-from conveyor.laboratory.trend import check_trend
-from conveyor.laboratory.workbook import MAGIC, workbook_grids
+from conveyor.laboratory.table import DmaData, FloatArray
+from conveyor.laboratory.workbook import workbook_grids
 
+KINDS: Final = tuple(NEEDS)
+"""What a file can hold."""
 LARGEST_FILE: Final = 50_000_000
 """Bytes; a table of a million rows has about as many."""
+_OF_ONE_FILE: Final = frozenset({"temperature", "sheet", "kind", "instantaneous"})
+"""Answers that hold for the file they were asked for."""
+T = TypeVar("T", bound=np.generic)
 
 
 def read_dma(
@@ -97,9 +104,60 @@ def read_dma(
     >>> data.kind, data.storage, data.understood[3]
     ('master curve', array([5600000., 6800000.]), 'decimal comma')
     """
-    if not (math.isfinite(poisson_ratio) and 0.0 <= poisson_ratio <= 0.5):
-        raise InputError(f"poisson_ratio = {poisson_ratio:g} (--poisson) must be 0 to 0.5")
+    _check_options(poisson_ratio, temperature, kind, letter)
+    units = {
+        "frequency": frequency_unit,
+        "modulus": modulus_unit,
+        "temperature": temperature_unit,
+        "strain": strain_unit,
+    }
+    given = check_units(units)
+    table = find_table(_grid(Path(path), sheet))
+    read = read_columns(table, given)
+    columns, derived = _quantities(table, read, (poisson_ratio, letter), temperature, instantaneous)
+    notes = [*table.grid.notes, *table.notes, *read.notes]
+    for dimension, unit in given.items():
+        if not any(s.explicit and s.unit == unit for s in read.series.values()):
+            notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
+    labels = read.labels
+    if labels is None and table.blocks[-1] > 0:
+        labels = np.array(table.blocks, dtype=np.int64)
+        notes.append("each block of the file is a run of its own")
+    kind, reason = _kind(table, columns, read, labels, kind)
+    found = arrange(kind, columns, labels)
+    check_trend(table, kind, columns, found)
+    notes += [*derived, f"{kind}: {reason}", *_order_notes(table, kind, found)]
+    return replace(
+        _assembled(table, kind, columns, found), understood=tuple(notes), source=_source(path, table)
+    )
+
+
+def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
+    """Read a file with the answers of a command, keywords of `read_dma`.
+
+    Of several files one may state units that another leaves open: those that this file contradicts are left to it.
+
+    Raises
+    ------
+    InputError
+        As `read_dma`, of the reading with all answers.
+    """
+    try:
+        return read_dma(path, poisson_ratio=poisson_ratio, **answers)
+    except InputError:
+        own = {key: value for key, value in answers.items() if key in _OF_ONE_FILE}
+        if several and own != answers:
+            with suppress(InputError):
+                return read_dma(path, poisson_ratio=poisson_ratio, **own)
+        raise
+
+
+def _check_options(
+    poisson_ratio: float, temperature: float | None, kind: str | None, letter: str | None
+) -> None:
     low, high = TEMPERATURE_RANGE
+    if not 0.0 <= poisson_ratio <= 0.5:
+        raise InputError(f"poisson_ratio = {poisson_ratio:g} (--poisson) must be 0 to 0.5")
     if temperature is not None and not low <= temperature <= high:
         raise InputError(
             f"temperature = {temperature:g} K (--temperature) must be {low:g} to {high:g} K; 20 degC are 293.15 K"
@@ -108,30 +166,6 @@ def read_dma(
         raise InputError(f'kind = "{kind}" (--kind) is not known; allowed: {", ".join(KINDS)}')
     if letter not in {None, "E", "G"}:
         raise InputError(f'letter = "{letter}" (--moduli) must be E or G')
-    given = check_units(
-        {
-            "frequency": frequency_unit,
-            "modulus": modulus_unit,
-            "temperature": temperature_unit,
-            "strain": strain_unit,
-        }
-    )
-    table = find_table(_grid(Path(path), sheet))
-    series, labels, notes, questions = read_columns(table, given)
-    columns, derived = _quantities(table, series, questions, (poisson_ratio, letter), temperature)
-    derived += _complete(table, series, columns, instantaneous)
-    for dimension, unit in given.items():
-        if not any(s.explicit and s.unit == unit for s in series.values()):
-            notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
-    if len(set(table.blocks)) > 1 and labels is None:
-        labels = np.array(table.blocks, dtype=np.int64)
-        notes.append("each block of the file is a run of its own")
-    decision = _decision(table, columns, labels, series, kind)
-    found = arrange(decision.kind, columns, labels)
-    check_trend(table, decision.kind, columns, found)
-    notes = [*table.grid.notes, *table.notes, *notes, *derived, f"{decision.kind}: {decision.reason}"]
-    notes += _order_notes(table, decision.kind, found)
-    return replace(_assembled(Path(path), table, decision.kind, columns, found), understood=tuple(notes))
 
 
 def _grid(path: Path, sheet: str | None) -> TextGrid:
@@ -139,57 +173,75 @@ def _grid(path: Path, sheet: str | None) -> TextGrid:
     data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
     if not data.startswith(MAGIC):
         if sheet is not None:
-            raise refusal(path.name, 1, 0, f"a text file has no sheet '{sheet}'; leave out sheet (--sheet)")
+            what = f"a text file has no sheet '{sheet}'; leave out sheet (--sheet)"
+            raise refusal(path.name, 1, 0, what)
         text, note = decoded(data, path.name)
-        return text_grid(text, path.name, (note,))
+        return text_grid(text, path.name, note)
     grids = workbook_grids(data, path.name)
     names = ", ".join(repr(grid.sheet) for grid in grids)
-    if sheet is not None:
-        for grid in grids:
-            if grid.sheet == sheet:
-                return grid
-        raise refusal(
-            path.name, 1, 0, f"no sheet '{sheet}'; sheet (--sheet) must be one of {names}", lettered=True
-        )
-    tables = [grid for grid in grids if has_table(grid)]
-    if len(tables) == 1:
-        empty = ", ".join(repr(grid.sheet) for grid in grids if grid is not tables[0])
-        more = (f"no table on {empty}",) if empty else ()
-        return replace(tables[0], notes=(*tables[0].notes, *more))
-    if not tables:
-        raise refusal(
-            path.name, 1, 0, f"no table on any sheet ({names}); one of them needs {EXAMPLE}", lettered=True
-        )
-    first = tables[1]
-    several = ", ".join(repr(grid.sheet) for grid in tables)
-    raise first.refusal(
-        first.lines[0].number,
-        0,
-        f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{tables[0].sheet}" (--sheet)',
+    tables = (
+        [grid for grid in grids if has_table(grid)]
+        if sheet is None
+        else [g for g in grids if g.sheet == sheet]
     )
+    if not tables:
+        what = f"no table on any sheet ({names}); one of them needs {EXAMPLE}"
+        if sheet is not None:
+            what = f"no sheet '{sheet}'; sheet (--sheet) must be one of {names}"
+        raise refusal(path.name, 1, 0, what, lettered=True)
+    if len(tables) > 1:
+        several = ", ".join(repr(grid.sheet) for grid in tables)
+        first = tables[0].sheet
+        what = (
+            f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{first}" (--sheet)'
+        )
+        raise tables[1].refusal(tables[1].lines[0].number, 0, what)
+    empty = [] if sheet is not None else [repr(grid.sheet) for grid in grids if grid is not tables[0]]
+    more = (f"no table on {', '.join(empty)}",) if empty else ()
+    return replace(tables[0], notes=(*tables[0].notes, *more))
 
 
 def _quantities(
     table: DataTable,
-    series: Mapping[str, Series],
-    questions: list[Question],
+    read: Read,
     tensile_by: tuple[float, str | None],
     temperature: float | None,
+    instantaneous: float | None,
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """SI arrays by their names in `DmaData`, and how they were derived; open questions are raised here."""
+    series = read.series
     check_possible(table, series)
-    open_columns = {q.column for q in questions}
-    clear = {q: s for q, s in series.items() if s.column not in open_columns}
+    asked = {question.column for question in read.questions}
+    clear = {q: s for q, s in series.items() if s.column not in asked}
     moduli = dynamic_moduli(table, clear)
-    _ask(table, [*questions, *doubts(table, clear, moduli)])
-    columns = {q: series[q].values for q in ("frequency", "temperature", "strain", "time") if q in series}
+    _ask(table, [*read.questions, *doubts(table, clear, moduli)])
+    direct = {"frequency", "temperature", "strain", "time"}
+    columns = {q: s.values for q, s in series.items() if q in direct}
     if {"term", "share"} & series.keys():
-        columns |= _terms(table, series)
+        columns |= {
+            name: series[q].values
+            for name, q in (("tau", "time"), ("tau", "tau"), ("share", "share"))
+            if q in series
+        }
         columns.pop("time", None)
-    tensile, notes = _tensile(table, series, moduli, tensile_by)
-    columns |= tensile
-    given = tensile_by[1] if moduli is None else moduli.storage_from.meaning.letter or tensile_by[1]
-    if "strain" in columns and moduli is not None and given == "G":
+    arrays = {name: series[q].values for name, q in _MODULI.items() if q in series}
+    used = [series[q] for q in _MODULI.values() if q in series]
+    notes: list[str] = []
+    if moduli is not None:
+        arrays |= {"storage": moduli.storage, "loss": moduli.loss}
+        used = [
+            s for s in (moduli.storage_from, moduli.loss_from) if DIMENSIONS[s.meaning.quantity] == "modulus"
+        ] + used
+        notes += [moduli.note] if moduli.note else []
+    if used:
+        factor, note = to_tensile(table, used, *tensile_by)
+        columns |= {name: factor * values for name, values in arrays.items()}
+        notes.append(note)
+    if (
+        "strain" in columns
+        and moduli is not None
+        and (moduli.storage_from.meaning.letter or tensile_by[1]) == "G"
+    ):
         columns["strain"], note = equivalent_strain(columns["strain"], tensile_by[0])
         notes.append(note)
     for quantity in ("a_T", "b_T"):
@@ -199,160 +251,105 @@ def _quantities(
             columns[f"log10_{quantity}"] = np.log10(found.values) if linear else found.values
     if temperature is not None:
         if "temperature" in series:
-            raise table.grid.refusal(
-                table.header_row,
-                series["temperature"].column.index,
-                "the file has its temperatures; leave out temperature (--temperature)",
-                header=series["temperature"].column.header,
-            )
+            what = "the file has its temperatures; leave out temperature (--temperature)"
+            raise table.refusal(series["temperature"].column, what)
         columns["temperature"] = np.full(len(table.rows), temperature)
         notes.append(f"temperature of every row {temperature:g} K as given")
-    return columns, notes
+    return columns, notes + _terms(table, series, columns, instantaneous)
 
 
-def _terms(table: DataTable, series: Mapping[str, Series]) -> dict[str, FloatArray]:
-    """Relaxation times of a Prony series, and its shares."""
-    times = series.get("tau") or series.get("time")
-    found = {} if times is None else {"tau": times.values}
-    if "share" in series:
-        found["share"] = series["share"].values
-        total = float(np.sum(found["share"]))
-        if total >= 1.0:
-            column = series["share"].column
-            raise table.grid.refusal(
-                table.rows[-1].number,
-                column.index,
-                f"the shares add up to {total:.6g}; less than 1 is needed, the rest is the equilibrium modulus",
-                header=column.header,
-            )
-    return found
+_MODULI: Final = {"modulus": "relaxation", "term": "term", "instant": "instant"}
+"""Moduli beside E' and E'', by their names in `DmaData`."""
 
 
-def _complete(
+def _terms(
     table: DataTable,
     series: Mapping[str, Series],
     columns: dict[str, FloatArray],
     instantaneous: float | None,
 ) -> list[str]:
-    """Moduli of a Prony series from its shares, and its instantaneous modulus."""
+    """Put the moduli of a Prony series in the place of its shares; tells how."""
+    shares = columns.pop("share", None)
+    if shares is not None and float(np.sum(shares)) >= 1.0:
+        what = f"the shares add up to {np.sum(shares):.6g}; less than 1 is needed, the rest is the equilibrium modulus"
+        raise table.refusal(series["share"].column, what, len(table.rows) - 1)
     if "tau" not in columns:
         return [] if instantaneous is None else ["instantaneous was given, but the file is no Prony table"]
     if instantaneous is not None:
         if not 0.0 < instantaneous < math.inf:
             raise InputError(f"instantaneous = {instantaneous:g} Pa (--instantaneous) must be > 0")
         columns["instant"] = np.full(len(table.rows), instantaneous)
-    if "share" not in columns:
+    if shares is None:
         return []
-    shares = columns.pop("share")
     if "term" in columns:
         return ["E_i of each row; the shares are not needed"]
     if "instant" not in columns:
-        column = series["share"].column
-        raise table.grid.refusal(
-            table.header_row,
-            column.index,
-            "shares of which modulus? add a column 'E_0 [MPa]', or give instantaneous (--instantaneous)",
-            header=column.header,
-        )
+        what = "shares of which modulus? add a column 'E_0 [MPa]', or give instantaneous (--instantaneous)"
+        raise table.refusal(series["share"].column, what)
     columns["term"] = shares * columns["instant"]
     return ["E_i = share times E_0"]
 
 
 def _ask(table: DataTable, questions: list[Question]) -> None:
+    """Raise the first question, and in its line the others; of one dimension one answer serves."""
     if not questions:
         return
-    first, *others = questions
-    asked = {_dimension(first)}
-    more = ""
-    for question in others:
-        label = column_label(table.grid, question.column)
-        more += f"; likewise {label}" if _dimension(question) in asked else f"; and {label}: {question.text}"
-        asked.add(_dimension(question))
-    raise table.grid.refusal(first.row, first.column.index, first.text + more, header=first.column.header)
+    text, asked = "", set[str]()
+    for column, said, _ in questions:
+        dimension = "" if column.meaning is None else DIMENSIONS[column.meaning.quantity]
+        label = table.label(column)
+        if not text:
+            text = said
+        else:
+            text += f"; likewise {label}" if dimension in asked else f"; and {label}: {said}"
+        asked.add(dimension)
+    raise table.refusal(questions[0].column, text, questions[0].row)
 
 
-def _dimension(question: Question) -> str:
-    meaning = question.column.meaning
-    return "" if meaning is None else DIMENSIONS[meaning.quantity]
-
-
-def _tensile(
-    table: DataTable, series: Mapping[str, Series], moduli: Moduli | None, by: tuple[float, str | None]
-) -> tuple[dict[str, FloatArray], list[str]]:
-    """Tensile moduli by their names in `DmaData`, and how they were derived."""
-    used: list[Series] = []
-    notes: list[str] = []
-    arrays: dict[str, FloatArray] = {}
-    if moduli is not None:
-        used += [moduli.storage_from, moduli.loss_from]
-        arrays |= {"storage": moduli.storage, "loss": moduli.loss}
-        notes += moduli.notes
-    if "relaxation" in series:
-        used.append(series["relaxation"])
-        arrays["modulus"] = series["relaxation"].values
-    for quantity in ("term", "instant"):
-        if quantity in series:
-            used.append(series[quantity])
-            arrays[quantity] = series[quantity].values
-    stated = tuple(s for s in used if s.meaning.quantity not in {"tan_delta", "phase"})
-    if not stated:
-        return {}, notes
-    factor, note = to_tensile(table, stated, *by)
-    return {name: factor * values for name, values in arrays.items()}, [*notes, note]
-
-
-def _decision(
+def _kind(
     table: DataTable,
-    columns: dict[str, FloatArray],
-    labels: IntArray | None,
-    series: Mapping[str, Series],
+    columns: Mapping[str, FloatArray],
+    read: Read,
+    labels: NDArray[np.int64] | None,
     kind: str | None,
-) -> Decision:
+) -> tuple[str, str]:
+    """What the table is, given or decided, and why."""
     present = set(columns)
+    choices = possible_kinds(present)
     if kind is not None:
         missing = [name for name in NEEDS[kind] if name not in present]
         if missing:
             raise _missing(table, present, f"a {kind} needs {' and '.join(missing)}")
-        return Decision(kind, "as given")
-    if not possible_kinds(present):
+        return kind, "as given"
+    if not choices:
         raise _missing(table, present, "these columns make no measurement read here")
-    frequency = series.get("frequency")
-    if {"tau", "term"} <= present:
-        return Decision("Prony series", "relaxation times with their moduli or shares")
-    decision = decide(columns, labels, reduced=frequency is not None and frequency.meaning.reduced)
-    if not decision.kind:
-        choices = possible_kinds(present)
-        raise table.grid.refusal(
-            table.header_row,
-            0,
-            f'{decision.reason or "several kinds fit"}; else give kind, for example kind="{choices[0]}"'
-            f" (--kind), one of {', '.join(choices)}",
-            header=table.columns[0].header,
+    reduced = "frequency" in read.series and read.series["frequency"].meaning.reduced
+    decided, reason = decide(columns, labels, reduced=reduced)
+    if not decided:
+        what = (
+            f'{reason}; else give kind, for example kind="{choices[0]}" (--kind), one of {", ".join(choices)}'
         )
-    return decision
+        raise table.refusal(table.columns[0], what)
+    return decided, reason
 
 
 def _missing(table: DataTable, present: set[str], what: str) -> InputError:
     unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
-    named = {c.meaning.quantity for c in table.columns if c.meaning is not None}
-    have = ", ".join(sorted(present | named))
+    have = ", ".join(sorted(present | {c.meaning.quantity for c in table.columns if c.meaning is not None}))
     advice = "; give temperature (--temperature)" if {"storage", "loss", "frequency"} <= present else ""
-    return table.grid.refusal(
-        table.header_row,
-        unknown.index,
+    return table.refusal(
+        unknown,
         f"{what} (found: {have}{advice}); beside E' stands E'' or tan delta; name the"
         f" missing column as in {EXAMPLE}, with temperature_degC, strain_%,"
         " 't [s]' and 'E(t) [MPa]', or a_T",
-        header=unknown.header,
     )
 
 
 def _order_notes(table: DataTable, kind: str, found: Arrangement) -> list[str]:
     """Sentences on sorting, duplicate runs and the number of sweeps."""
     notes = []
-    rows = _rows(table)
-    order = found.order
-    moved = np.flatnonzero(np.diff(np.argsort(order)) < 0)
+    rows = table.row_numbers
+    moved = np.flatnonzero(np.diff(np.argsort(found.order)) < 0)
     if moved.size:
         notes.append(f"rows sorted; the file is not in order from row {rows[moved[0] + 1]} on")
     if found.duplicates is not None:
@@ -366,54 +363,39 @@ def _order_notes(table: DataTable, kind: str, found: Arrangement) -> list[str]:
     return notes
 
 
-def _assembled(
-    path: Path, table: DataTable, kind: str, columns: dict[str, FloatArray], found: Arrangement
-) -> DmaData:
-    """Sorted, frozen, without the notes."""
-    order = found.order
-    rows = _rows(table)
-    instant = columns.get("instant")
-    columns = columns | ({"time": columns["tau"], "modulus": columns["term"]} if "tau" in columns else {})
+def _source(path: str | Path, table: DataTable) -> str:
+    return f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path)
 
-    def sorted_rows(values: FloatArray | None) -> FloatArray | None:
-        return None if values is None else _frozen(values[order])
 
+def _assembled(table: DataTable, kind: str, columns: Mapping[str, FloatArray], found: Arrangement) -> DmaData:
+    """Sorted and frozen, without the notes."""
+
+    def ordered(values: NDArray[T]) -> NDArray[T]:
+        made: NDArray[T] = values[found.order]
+        made.setflags(write=False)
+        return made
+
+    def column(name: str) -> FloatArray | None:
+        return ordered(columns[name]) if name in columns else None
+
+    series = kind == "Prony series"
     return DmaData(
         kind=kind,
-        **{
-            name: sorted_rows(columns.get(name))
-            for name in (
-                "frequency",
-                "temperature",
-                "strain",
-                "time",
-                "storage",
-                "loss",
-                "modulus",
-                "log10_a_T",
-                "log10_b_T",
-            )
-        },
-        run=None if found.run is None else _frozen_labels(found.run[order]),
-        group=None if found.group is None else _frozen_labels(found.group[order]),
-        row_numbers=_frozen_labels(rows[order]),
-        instantaneous=None if instant is None else float(instant[0]),
-        metadata=MappingProxyType(table.metadata),
-        metadata_rows=MappingProxyType(table.metadata_rows),
+        frequency=column("frequency"),
+        temperature=column("temperature"),
+        strain=column("strain"),
+        time=column("tau" if series else "time"),
+        storage=column("storage"),
+        loss=column("loss"),
+        modulus=column("term" if series else "modulus"),
+        log10_a_T=column("log10_a_T"),
+        log10_b_T=column("log10_b_T"),
+        run=None if found.run is None else ordered(found.run),
+        group=None if found.group is None else ordered(found.group),
+        row_numbers=ordered(table.row_numbers),
+        metadata=MappingProxyType({key: value for key, (value, _) in table.metadata.items()}),
+        metadata_rows=MappingProxyType({key: row for key, (_, row) in table.metadata.items()}),
         understood=(),
-        source=f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path),
+        source="",
+        instantaneous=float(columns["instant"][0]) if "instant" in columns else None,
     )
-
-
-def _rows(table: DataTable) -> IntArray:
-    return np.array([line.number for line in table.rows], dtype=np.int64)
-
-
-def _frozen(values: FloatArray) -> FloatArray:
-    values.setflags(write=False)
-    return values
-
-
-def _frozen_labels(values: IntArray) -> IntArray:
-    values.setflags(write=False)
-    return values

@@ -6,32 +6,19 @@ import csv
 import re
 from collections import Counter
 from contextlib import suppress
+from typing import Final
 
-from conveyor.laboratory.cells import TextGrid, TextLine
-from conveyor.laboratory.decimals import is_number
+from conveyor.laboratory.grid import TextGrid, TextLine
+from conveyor.laboratory.numbers import is_number
 
-_SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
-_COMMENT = re.compile(r"\s*(?:#+|%+|//+|!+)\s?")
-_SAMPLE = 400
+_SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
+_COMMENT: Final = re.compile(r"\s*(?:#+|%+|//+|!+)\s?")
+_SAMPLE: Final = 400
 """Lines looked at to find the separator; every other line is checked when it is read."""
 
 
-def text_grid(text: str, name: str, notes: tuple[str, ...]) -> TextGrid:
-    r"""Split a text into cells.
-
-    Parameters
-    ----------
-    text : str
-        The decoded file [-].
-    name : str
-        Its name in messages [-].
-    notes : tuple of str
-        Decisions already taken [-].
-
-    Returns
-    -------
-    Grid
-        Cells without surrounding blanks; trailing empty cells dropped; blank lines left out [-].
+def text_grid(text: str, name: str, note: str) -> TextGrid:
+    r"""Split a text into cells without surrounding blanks; trailing empty cells and blank lines are left out.
 
     Notes
     -----
@@ -40,9 +27,9 @@ def text_grid(text: str, name: str, notes: tuple[str, ...]) -> TextGrid:
 
     Examples
     --------
-    >>> grid = text_grid("# f (Hz)\tE' (Pa)\n1,0;2,5\n", "pad.txt", ())
-    >>> [line.cells for line in grid.lines], grid.notes
-    ([('f (Hz)', "E' (Pa)"), ('1,0', '2,5')], ('separator: semicolon',))
+    >>> grid = text_grid("# f (Hz)\tE' (Pa)\n1,0;2,5\n", "pad.txt", "encoding: ASCII")
+    >>> [line.cells for line in grid.lines], grid.notes[1]
+    ([('f (Hz)', "E' (Pa)"), ('1,0', '2,5')], 'separator: semicolon')
     """
     raw = [
         (number, line)
@@ -56,9 +43,22 @@ def text_grid(text: str, name: str, notes: tuple[str, ...]) -> TextGrid:
         body = line[comment.end() :] if comment else line
         cells = _split(body, separator)
         if (comment or len(cells) != width) and not any(map(is_number, cells)):
-            cells = _split_text(body, separator, width)
+            cells = _split_words(body, separator, width)
         lines.append(TextLine(number, cells, body.strip(), comment is not None))
-    return TextGrid(name, tuple(lines), (*notes, f"separator: {_SEPARATORS[separator]}"))
+    return TextGrid(name, tuple(lines), (note, f"separator: {_SEPARATORS[separator]}"))
+
+
+def headed_lines(text: str) -> list[TextLine]:
+    """Lines of a table whose first one names columns and tells the separator; those that begin with # are remarks."""
+    written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
+    separator = max("\t;,", key=first.count)
+    lines = []
+    for number, line in written:
+        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+        comment = line.lstrip().startswith("#")
+        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
+    return lines
 
 
 def _separator(lines: list[str]) -> tuple[str, int]:
@@ -66,14 +66,12 @@ def _separator(lines: list[str]) -> tuple[str, int]:
     sample = lines[:: max(1, len(lines) // _SAMPLE)]
     best, best_score, best_width = ",", (0, 0), 0
     for separator in _SEPARATORS:
-        cells = [_split(line, separator) for line in sample]
-        numbers = [sum(map(is_number, row)) for row in cells]
-        filled = [sum(map(bool, row)) for row in cells]
-        widths = [len(c) for c, n, m in zip(cells, numbers, filled, strict=True) if n >= 2 and 2 * n >= m]
-        score = (sum(n == m and n >= 2 for n, m in zip(numbers, filled, strict=True)), len(widths))
+        rows = [_split(line, separator) for line in sample]
+        counts = [(len(row), sum(map(is_number, row)), sum(map(bool, row))) for row in rows]
+        widths = [width for width, numbers, filled in counts if numbers >= 2 and 2 * numbers >= filled]
+        score = (sum(numbers == filled and numbers >= 2 for _, numbers, filled in counts), len(widths))
         if score > best_score:
-            best, best_score = separator, score
-            best_width = Counter(widths).most_common(1)[0][0]
+            best, best_score, best_width = separator, score, Counter(widths).most_common(1)[0][0]
     return best, best_width
 
 
@@ -86,13 +84,13 @@ def _split(line: str, separator: str) -> tuple[str, ...]:
     return _trimmed(line.split(separator))
 
 
-def _split_text(line: str, separator: str, width: int) -> tuple[str, ...]:
+def _split_words(line: str, separator: str, width: int) -> tuple[str, ...]:
     """A line of words: blanks may be part of a name, so several ways are tried for the width of the rows."""
     ways = [_split(line, s) for s in (separator, "\t", ";", ",") if s != " "]
     ways.append(_trimmed(re.split(r"\s{2,}|\t", line.strip())))
     ways.append(_trimmed(re.split(r"\s+(?![\[(])", line.strip())))
-    fitting = [cells for cells in ways if len(cells) == width]
-    return fitting[0] if fitting else max(ways[:1] if separator != " " else ways[-2:-1], key=len)
+    usual = ways[-2] if separator == " " else ways[0]
+    return next((cells for cells in ways if len(cells) == width), usual)
 
 
 def _trimmed(parts: list[str]) -> tuple[str, ...]:

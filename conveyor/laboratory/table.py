@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,36 +14,20 @@ from conveyor.errors import InputError
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-ISOTHERM_DRIFT = 3.0
+ISOTHERM_DRIFT: Final = 3.0
 """Most that one isotherm may drift [K]; beyond it the temperature is a ramp."""
-KINDS = (
-    "master curve",
-    "isotherms",
-    "temperature sweep",
-    "strain sweep",
-    "relaxation",
-    "shift factors",
-    "Prony series",
-)
-"""What a file can hold."""
 
 
 @dataclass(frozen=True, eq=False)
 class IsothermRows:
     """One frequency sweep at one temperature, by ascending frequency.
 
-    Parameters
+    Attributes
     ----------
-    temperature : float
-        Mean of its rows [K].
-    temperature_spread : float
-        Highest minus lowest of its rows [K].
-    frequency : numpy.ndarray
-        Cyclic frequency, shape `(n,)` [Hz].
-    storage : numpy.ndarray
-        E', shape `(n,)` [Pa].
-    loss : numpy.ndarray
-        E'', shape `(n,)` [Pa].
+    temperature, temperature_spread : float
+        Mean of its rows, and highest minus lowest [K].
+    frequency, storage, loss : numpy.ndarray
+        Cyclic frequency [Hz], E' and E'' [Pa], each of shape `(n,)`.
     run : int or None
         Label of the run [-].
     row_numbers : numpy.ndarray
@@ -62,18 +47,12 @@ class IsothermRows:
 class StrainRows:
     """One strain sweep at one temperature and frequency, by ascending strain.
 
-    Parameters
+    Attributes
     ----------
-    temperature : float or None
-        Mean of its rows, None if the file does not state it [K].
-    frequency : float or None
-        Mean of its rows, None if the file does not state it [Hz].
-    strain : numpy.ndarray
-        Amplitude, shape `(n,)` [-].
-    storage : numpy.ndarray
-        E', shape `(n,)` [Pa].
-    loss : numpy.ndarray
-        E'', shape `(n,)` [Pa].
+    temperature, frequency : float or None
+        Means of its rows [K, Hz], None if the file does not state it.
+    strain, storage, loss : numpy.ndarray
+        Amplitude [-], E' and E'' [Pa], each of shape `(n,)`.
     run : int or None
         Label of the run [-].
     row_numbers : numpy.ndarray
@@ -91,46 +70,36 @@ class StrainRows:
 
 @dataclass(frozen=True, eq=False)
 class DmaData:
-    """One laboratory file in SI.
+    """One laboratory file in SI: columns that it has not are None, the others of shape `(n,)`.
 
-    Parameters
+    Attributes
     ----------
     kind : str
-        One of `KINDS` [-].
-    frequency : numpy.ndarray or None
-        Cyclic frequency, shape `(n,)` [Hz].
-    temperature : numpy.ndarray or None
-        Shape `(n,)` [K].
-    strain : numpy.ndarray or None
-        Amplitude, shape `(n,)` [-].
+        One of `conveyor.laboratory.KINDS` [-].
+    frequency, temperature, strain : numpy.ndarray or None
+        Cyclic frequency [Hz], temperature [K], amplitude [-].
     time : numpy.ndarray or None
-        Of a Prony series its relaxation times, shape `(n,)` [s].
-    storage : numpy.ndarray or None
-        E', shape `(n,)` [Pa].
-    loss : numpy.ndarray or None
-        E'', shape `(n,)` [Pa].
+        Of a Prony series its relaxation times [s].
+    storage, loss : numpy.ndarray or None
+        E' and E'' [Pa].
     modulus : numpy.ndarray or None
-        Relaxation modulus E(t), of a Prony series its E_i, shape `(n,)` [Pa].
-    instantaneous : float or None
-        E_e + sum of E_i of a Prony series, where the file states it [Pa].
-    log10_a_T : numpy.ndarray or None
-        Horizontal shift, shape `(n,)` [-].
-    log10_b_T : numpy.ndarray or None
-        Vertical shift, shape `(n,)` [-].
+        Relaxation modulus E(t), of a Prony series its E_i [Pa].
+    log10_a_T, log10_b_T : numpy.ndarray or None
+        Horizontal and vertical shift [decades].
     run : numpy.ndarray or None
-        Labels of a run column, or of duplicate runs found, shape `(n,)` [-].
+        Labels of a run column, or of duplicate runs found [-].
     group : numpy.ndarray or None
-        Rows of one temperature (for a temperature sweep: of one frequency) share a number, shape `(n,)` [-].
+        Rows of one temperature (for a temperature sweep: of one frequency) share a number [-].
     row_numbers : numpy.ndarray
-        Line or row of each row in the file, shape `(n,)` [-].
-    metadata : mapping of str
-        `key: value` lines [-].
-    metadata_rows : mapping of int
-        Where they stand [-].
+        Line or row of each row in the file [-].
+    metadata, metadata_rows : mapping
+        `key: value` lines, and where they stand [-].
     understood : tuple of str
         One sentence for each decision [-].
     source : str
         The file, for a workbook with its sheet [-].
+    instantaneous : float or None
+        E_e + sum of E_i of a Prony series, where the file states it [Pa].
     """
 
     kind: str
@@ -152,81 +121,67 @@ class DmaData:
     source: str
     instantaneous: float | None = None
 
-    def isotherms(self) -> tuple[IsothermRows, ...]:
-        """Frequency sweeps by ascending temperature, duplicate runs apart.
+    def columns(self, what: str, *names: str) -> tuple[FloatArray, ...]:
+        """Columns by their names, for what needs them all.
 
-        Returns
-        -------
-        tuple of Isotherm
-            One for each temperature and run [-].
+        Raises
+        ------
+        InputError
+            If one of them is not there.
+        """
+        found = {name: getattr(self, name) for name in names}
+        missing = [name for name, values in found.items() if values is None]
+        if missing:
+            advice = "or give temperature (--temperature)" if missing == ["temperature"] else "with its unit"
+            raise InputError(f"{self.source}: {what} need {' and '.join(missing)}; add the column, {advice}")
+        return tuple(found.values())
+
+    def isotherms(self) -> tuple[IsothermRows, ...]:
+        """Frequency sweeps by ascending temperature, one for each temperature and run.
 
         Raises
         ------
         InputError
             If the file has no frequency, temperature, E' and E'', or its temperature is a ramp.
         """
-        if self.frequency is None or self.temperature is None or self.storage is None or self.loss is None:
-            missing = [
-                name
-                for name in ("frequency", "temperature", "storage", "loss")
-                if getattr(self, name) is None
-            ]
-            advice = "; give temperature (--temperature)" if missing == ["temperature"] else ""
-            raise InputError(f"{self.source}: isotherms need {' and '.join(missing)}{advice}")
+        f, t, e1, e2 = self.columns("isotherms", "frequency", "temperature", "storage", "loss")
         if self.kind not in {"isotherms", "master curve"}:
             raise InputError(
                 f'{self.source}: a {self.kind}, not isotherms; give kind="isotherms" (--kind) if it holds them'
             )
         found = []
-        for run, rows in self._sweeps("isotherms", self.frequency):
-            inside = self.temperature[rows]
-            if np.ptp(inside) > ISOTHERM_DRIFT:
+        for run, rows in self._sweeps("isotherms", f):
+            temperature = t[rows]
+            spread = float(np.ptp(temperature))
+            if spread > ISOTHERM_DRIFT:
                 raise InputError(
                     f"{self.source}:{self.row_numbers[rows[0]]}: the rows of this {self.kind} span"
-                    f" {np.ptp(inside):.3g} K, not one temperature; a column 'set' can tell isotherms apart"
+                    f" {spread:.3g} K, not one temperature; a column 'set' can tell isotherms apart"
                 )
-            found.append(
-                IsothermRows(
-                    float(np.mean(inside)),
-                    float(np.ptp(inside)),
-                    self.frequency[rows],
-                    self.storage[rows],
-                    self.loss[rows],
-                    run,
-                    self.row_numbers[rows],
-                )
-            )
+            mean, numbers = float(np.mean(temperature)), self.row_numbers[rows]
+            found.append(IsothermRows(mean, spread, f[rows], e1[rows], e2[rows], run, numbers))
         return tuple(sorted(found, key=lambda isotherm: isotherm.temperature))
 
     def strain_sweeps(self) -> tuple[StrainRows, ...]:
-        """Strain sweeps by ascending temperature, duplicate runs apart.
-
-        Returns
-        -------
-        tuple of StrainSweep
-            One for each temperature, frequency and run [-].
+        """Strain sweeps by ascending temperature, one for each temperature, frequency and run.
 
         Raises
         ------
         InputError
             If the file is not a strain sweep.
         """
-        if self.kind != "strain sweep" or self.strain is None or self.storage is None or self.loss is None:
+        if self.kind != "strain sweep":
             raise InputError(f"{self.source}: holds a {self.kind}, not a strain sweep; give kind (--kind)")
-        return tuple(
-            StrainRows(
-                None if self.temperature is None else float(np.mean(self.temperature[rows])),
-                None if self.frequency is None else float(np.mean(self.frequency[rows])),
-                self.strain[rows],
-                self.storage[rows],
-                self.loss[rows],
-                run,
-                self.row_numbers[rows],
+        strain, e1, e2 = self.columns("strain sweeps", "strain", "storage", "loss")
+        found = []
+        for run, rows in self._sweeps("strain sweeps", strain):
+            t, f = (
+                None if c is None else float(np.mean(c[rows])) for c in (self.temperature, self.frequency)
             )
-            for run, rows in self._sweeps("strain sweeps", self.strain)
-        )
+            found.append(StrainRows(t, f, strain[rows], e1[rows], e2[rows], run, self.row_numbers[rows]))
+        return tuple(found)
 
-    def _sweeps(self, what: str, swept: FloatArray) -> list[tuple[int | None, IntArray]]:
+    def _sweeps(self, what: str, swept: FloatArray) -> Iterator[tuple[int | None, IntArray]]:
         """Rows of each group and run, by the swept quantity."""
         if self.group is None:
             raise InputError(
@@ -234,10 +189,6 @@ class DmaData:
                 " a column 'set' can tell the steps apart"
             )
         run = np.zeros(swept.size, dtype=np.int64) if self.run is None else self.run
-        keys = np.stack([self.group, run])
-        found = []
-        for group, label in np.unique(keys, axis=1).T:
+        for group, label in np.unique(np.stack([self.group, run]), axis=1).T:
             rows = np.flatnonzero((self.group == group) & (run == label))
-            rows = rows[np.argsort(swept[rows], kind="stable")]
-            found.append((None if self.run is None else int(label), rows))
-        return found
+            yield None if self.run is None else int(label), rows[np.argsort(swept[rows], kind="stable")]

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Final, Literal
 
 from conveyor.errors import RangeError
-from conveyor.require import require, require_positive
+from conveyor.require import require, require_not_negative, require_positive
 
 Reinforcement = Literal["textile", "steel cord"]
 Condition = Literal["favourable", "normal", "unfavourable"]
@@ -22,16 +22,96 @@ CLASSIC_SAFETY: Final[Mapping[Reinforcement, float]] = {"textile": 8.0, "steel c
 # DIN 22101:2002, S0 for the make of the splice and S1 for life and duty [-]; general knowledge
 SPLICE_SAFETY: Final[Mapping[Condition, float]] = {"favourable": 1.0, "normal": 1.1, "unfavourable": 1.2}
 DUTY_SAFETY: Final[Mapping[Condition, float]] = {"favourable": 1.5, "normal": 1.7, "unfavourable": 1.9}
-# DIN 22101, diameter over that of group A at 60 to 100 % of the allowed tension [-]; general knowledge
-GROUP_FACTOR: Final[Mapping[Group, float]] = {"A": 1.0, "B": 0.8, "C": 0.63}
+# DIN 22101, diameter over that of group A at 60 to 100 % of the allowed tension [-], a step of R10 each
+_STEPS: Final = (1.0, 0.8, 0.63, 0.5)
+# DIN 22101, utilisation of the allowed tension above which the steps of the groups hold [-]
+_GROUP_STEPS: Final[tuple[tuple[float, Mapping[Group, int]], ...]] = (
+    (0.6, {"A": 0, "B": 1, "C": 2}),
+    (0.3, {"A": 1, "B": 2, "C": 3}),
+    (-math.inf, {"A": 2, "B": 2, "C": 3}),
+)
 # [m], ISO 3684, R10 steps up to 1000 mm; general knowledge
 PULLEY_DIAMETERS: Final = (
     0.200, 0.250, 0.315, 0.400, 0.500, 0.630, 0.800, 1.000, 1.250, 1.400, 1.600, 1.800, 2.000,
 )  # fmt: skip
+# [m], DIN 22101 as a belt maker prints it (scribd 134461858): of the steps, in the order of the sizes of group A
+_STANDARD: Final = (
+    PULLEY_DIAMETERS,
+    (0.160, 0.200, 0.250, 0.315, 0.400, 0.500, 0.630, 0.800, 1.000, 1.250, 1.250, 1.400, 1.600),
+    (0.125, 0.160, 0.200, 0.250, 0.315, 0.400, 0.500, 0.630, 0.800, 1.000, 1.000, 1.250, 1.250),
+    (0.100, 0.125, 0.160, 0.200, 0.250, 0.315, 0.400, 0.500, 0.630, 0.800, 0.800, 1.000, 1.000),
+)
 
 
 RATED_START: Final = 1.5
 """Tension of a start or stop over the rated one that makers of US belts allow at most [-]; general knowledge."""
+
+
+_LEAST_OVER_CORD: Final = 0.7  # [-], DIN 22131: least cover over the diameter of the cords; general knowledge
+_LEAST_STEEL: Final = 4e-3  # [m], DIN 22131: least cover of steel-cord belts; general knowledge
+_LEAST_TEXTILE: Final = 2e-3  # [m], general knowledge
+FALLS: Final = (0.5, 1.5)
+"""Height of fall from which the bulk lands with medium and with high severity [m]; general knowledge."""
+
+
+def least_cover(carcass_thickness: float, *, steel_cord: bool) -> float:
+    """Least cover that protects the carcass, wear apart (DIN 22101, DIN 22131; general knowledge).
+
+    Parameters
+    ----------
+    carcass_thickness : float
+        Diameter of the cords, or thickness of the plies [m], positive.
+    steel_cord : bool
+        Steel cords [-]; else plies of fabric.
+
+    Returns
+    -------
+    float
+        Thickness of either cover [m].
+
+    Raises
+    ------
+    InputError
+        The thickness is not positive.
+
+    Notes
+    -----
+    0.7 cord diameters, at least 4 mm; 2 mm on fabric.
+
+    Examples
+    --------
+    >>> round(least_cover(9e-3, steel_cord=True), 6), least_cover(5e-3, steel_cord=False)
+    (0.0063, 0.002)
+    """
+    require_positive(carcass_thickness=carcass_thickness)
+    return max(_LEAST_STEEL, _LEAST_OVER_CORD * carcass_thickness) if steel_cord else _LEAST_TEXTILE
+
+
+def fall_severity(drop: float) -> Literal["low", "medium", "high"]:
+    """How hard bulk lands that falls from a height, for the cover's wear (general knowledge).
+
+    Parameters
+    ----------
+    drop : float
+        Height of fall [m], at least 0.
+
+    Returns
+    -------
+    str
+        For `wear_addition`.
+
+    Raises
+    ------
+    InputError
+        The height is negative.
+
+    Examples
+    --------
+    >>> fall_severity(0.3), fall_severity(2.0)
+    ('low', 'high')
+    """
+    require_not_negative(drop=drop)
+    return "low" if drop < FALLS[0] else "medium" if drop < FALLS[1] else "high"
 
 
 def belt_safety(largest_tension: float, *, nominal_strength: float, belt_width: float) -> float:
@@ -106,16 +186,24 @@ def needed_strength(largest_per_width: float, *, splice_strength: float, s0: flo
     return largest_per_width * s0 * s1 / splice_strength
 
 
-def pulley_group_diameter(drive_diameter: float, *, group: Group) -> float:
-    """Least diameter of the pulleys that do not drive, D_A times 1.0, 0.8 or 0.63 (DIN 22101).
+def _step(group: Group, utilisation: float) -> int:
+    require(group in _GROUP_STEPS[0][1], "group", group, "one of A, B, C is needed")
+    require_not_negative(utilisation=utilisation)
+    return next(steps[group] for above, steps in _GROUP_STEPS if utilisation > above)
+
+
+def pulley_group_diameter(drive_diameter: float, *, group: Group, utilisation: float = 1.0) -> float:
+    """Least diameter of a pulley, D_A times 1.0, 0.8, 0.63 or 0.5 (DIN 22101).
 
     Parameters
     ----------
     drive_diameter : float
-        D_A, least diameter of the drive pulley [m], positive, see `least_pulley_diameter`.
+        D_A, least diameter of the drive pulley at full tension [m], positive, see `least_pulley_diameter`.
     group : {"A", "B", "C"}
         A [-]: drive and others at high tension; B: tail, take-up and bend pulleys at low tension; C: snub pulleys
         that turn the belt by less than 30 deg.
+    utilisation : float
+        Tension of the belt there in steady running over the allowed one [-], at least 0.
 
     Returns
     -------
@@ -129,17 +217,51 @@ def pulley_group_diameter(drive_diameter: float, *, group: Group) -> float:
 
     Notes
     -----
-    For a belt used to more than 60 % of its allowed tension; less used ones may have smaller pulleys, for which
-    the standard's table is needed.
+    Up to 60 % of the allowed tension a step of R10 less, up to 30 % another one but for groups B and C: the steps of
+    the standard's table, see `standard_pulley_diameter`.
 
     Examples
     --------
     >>> [round(pulley_group_diameter(1.0, group=g), 3) for g in ("A", "B", "C")]
     [1.0, 0.8, 0.63]
+    >>> [round(pulley_group_diameter(1.0, group=g, utilisation=0.25), 3) for g in ("A", "B", "C")]
+    [0.63, 0.63, 0.5]
     """
     require_positive(drive_diameter=drive_diameter)
-    require(group in GROUP_FACTOR, "group", group, f"one of {', '.join(GROUP_FACTOR)} is needed")
-    return GROUP_FACTOR[group] * drive_diameter
+    return _STEPS[_step(group, utilisation)] * drive_diameter
+
+
+def standard_pulley_diameter(drive_diameter: float, *, group: Group, utilisation: float = 1.0) -> float:
+    """Standard diameter of a pulley by the table of DIN 22101, the drive pulley's rounded up to the series first.
+
+    Parameters
+    ----------
+    drive_diameter : float
+        D_A, least diameter of the drive pulley at full tension [m], positive.
+    group : {"A", "B", "C"}
+        As of `pulley_group_diameter` [-].
+    utilisation : float
+        Likewise [-], at least 0.
+
+    Returns
+    -------
+    float
+        Diameter without lagging [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    RangeError
+        The drive pulley is larger than the largest of the series, 2 m.
+
+    Examples
+    --------
+    >>> [standard_pulley_diameter(0.95, group=g, utilisation=0.5) for g in ("A", "B", "C")]
+    [0.8, 0.63, 0.5]
+    """
+    size = next_pulley_diameter(drive_diameter)
+    return _STANDARD[_step(group, utilisation)][PULLEY_DIAMETERS.index(size)]
 
 
 def next_pulley_diameter(least_diameter: float) -> float:

@@ -1,11 +1,12 @@
 """The strain that rolls work a cover at, and its moduli at that strain: the equivalent-linear cover of a strand.
 
-Strain is that of the rolls' own contact (conveyor.contact.interior), at the line load where the strand loses its
+Strain is that of the rolls' own contact (conveyor.contact.worked), at the line load where the strand loses its
 energy; moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent) until both agree.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +15,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact import ContactSolution, Status, interior, solve_many
+from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import RollContact, no_answer, to_problem
 from conveyor.rubber import (
@@ -30,7 +31,7 @@ Array = NDArray[np.float64]
 
 LOAD_EXPONENT = 4.0 / 3.0
 """Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
-_STRAIN_RTOL = 1e-2  # of the working strain: sweeps are repeated to a few per cent
+_STRAIN_RTOL = 5e-3  # of the working strain: sweeps are repeated to a few per cent
 _CONTACT_RTOL = 1e-4
 INSIDE: Final = (12, 32)
 """Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
@@ -140,28 +141,32 @@ def softened_many(
     list
         In their order the covers, or why there is none.
     """
+    finely = itertools.chain([COARSE], itertools.repeat(inside))
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
+        depths, points = next(finely)  # the first strain is but a start
         problems = [
             to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
             for i, one in zip(asked, series, strict=True)
         ]
-        solved = zip(asked, solve_many(problems, _CONTACT_RTOL), strict=True)
-        return [_worked(works[i].contact, solution, inside) for i, solution in solved]
+        solved = solve_many(problems, _CONTACT_RTOL)
+        answered = [one for one in solved if one.status is Status.OK]
+        strained = iter(working_strains(answered, depths=depths, points=points))
+        return [
+            _worked(works[i].contact, *next(strained))
+            if one.status is Status.OK
+            else NoSolutionError(one.message)
+            for i, one in zip(asked, solved, strict=True)
+        ]
 
     tasks = [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
     answers = equivalent_linear_many(tasks, strains_of, rtol=_STRAIN_RTOL)
     return [_cover(work, found) for work, found in zip(works, answers, strict=True)]
 
 
-def _worked(
-    contact: RollContact, solution: ContactSolution, inside: tuple[int, int]
-) -> Worked | NoSolutionError:
-    """Strain and angular frequency of a solved contact [-], [rad/s], or why there is none."""
-    if solution.status is not Status.OK:
-        return NoSolutionError(solution.message)
-    strained = interior(solution, depths=inside[0], points=inside[1])
-    return strained.working_strain, strained.wave_number * 2.0 * math.pi / contact.spacing * contact.speed
+def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:
+    """Strain [-] and angular frequency [rad/s] of a contact whose loss is at a wave number [-]."""
+    return strain, wave_number * 2.0 * math.pi / contact.spacing * contact.speed
 
 
 def _cover(

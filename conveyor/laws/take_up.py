@@ -26,6 +26,51 @@ STEEL_EXPANSION: Final = Default(
     12e-6, 11e-6, 13e-6, "steel cords; the structure and the ground taken to stay", True
 )  # [1/K]
 
+SCREW_LENGTH: Final = 90.0
+"""Longest conveyor that is kept taut by screws [m], about 300 ft; general knowledge."""
+
+
+def follow_speed(
+    change: float, *, time: float, stiffness: float, loop_length: float, strands: float = LOOP_STRANDS
+) -> float:
+    """Speed of a carriage that keeps its tension through a start, ΔT L/(EA s) in half the time of the start.
+
+    Parameters
+    ----------
+    change : float
+        ΔT, mean tension of the loop at the start less that in steady running [N].
+    time : float
+        t of the start [s], positive: its force is full after half of it, as on an S ramp.
+    stiffness : float
+        EA of the whole belt [N], positive.
+    loop_length : float
+        L of the whole belt [m], positive.
+    strands : float
+        s, of the belt that pull at the carriage [-], positive.
+
+    Returns
+    -------
+    float
+        [m/s].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Derived (Hooke); waves along the belt ask for more, see `conveyor dynamics`.
+
+    Examples
+    --------
+    >>> follow_speed(20e3, time=20.0, stiffness=40e6, loop_length=2000.0)
+    0.05
+    """
+    require_finite(change=change)
+    require_positive(time=time, stiffness=stiffness, loop_length=loop_length, strands=strands)
+    return abs(change) * loop_length / (stiffness * strands) / (0.5 * time)
+
 
 def take_up_mass(tension: float, *, reeving: float, gravity: float, strands: float = LOOP_STRANDS) -> float:
     """Mass of a gravity take-up, m = s T/(i g).

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
-from conveyor.laws.belt import Condition
+from conveyor.laws.belt import Condition, fall_severity, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
+from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
 from conveyor.line import usual
@@ -35,6 +36,16 @@ _LEAST_DRIVEN_WRAP = math.radians(90.0)
 """Nobody drives a pulley that the belt lies on for less; general knowledge."""
 _MOST_DRIVEN_WRAP = math.radians(270.0)
 """On one pulley; a drive of more stands for several, general knowledge."""
+
+
+@dataclass(frozen=True)
+class CoverNeed:
+    """Thickness of a cover and the least one [m]: what protects the carcass, what wears off."""
+
+    cover: str
+    thickness: float
+    least: float
+    wear: float
 
 
 @dataclass(frozen=True)
@@ -61,6 +72,10 @@ class BeltBody:
     """D' of the carcass per width [N m]."""
     bending_loss: float
     relaxing: tuple[float, float] | None = None
+    bears: tuple[float | None, float | None] = (None, None)
+    """Lowest and highest temperature [K]; None not given."""
+    covers: tuple[CoverNeed, ...] = ()
+    """Empty where nothing is said of the bulk's wear."""
 
     @property
     def tensile_stiffness(self) -> float | None:
@@ -81,7 +96,9 @@ class LoadingPoint:
 
     `section` is the number of the section that is fed, `comes_with` of that whose bulk lands: the same of fresh bulk,
     the one before of a tripper, whose `lift` is how high it raises the bulk [m], before the drives at `before`.
-    `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
+    `skirtboards` are as long as they stand, their seals drag with `seal_drag` [m, N/m]; the bulk falls `drop_height`
+    on sets `idler_spacing` apart, lumps of `lump_mass` on springs [m, kg, N/m]; `idler_rating` is what a set bears [N];
+    None not given. `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
     """
 
     name: str
@@ -98,19 +115,39 @@ class LoadingPoint:
     skirt_friction: float
     lift: float | None
     before: Spot
+    skirtboards: float | None
+    seal_drag: float
+    drop_height: float | None
+    lump_mass: float | None
+    idler_stiffness: float | None
+    idler_spacing: float | None
+    idler_rating: float | None
     assumed: bool = False
 
 
 @dataclass(frozen=True)
 class Scraper:
-    """A cleaner or several alike: width [m], area that touches the belt [m²], pressure [Pa], friction [-]."""
+    """A cleaner or several alike: width [m], touching area [m²], pressure [Pa], friction and share taken off [-]."""
 
+    kind: str | None
     count: int
     width: float
     area: float
     pressure: float
     friction: float
+    efficiency: float
     assumed: bool = False
+
+
+@dataclass(frozen=True)
+class HeadDischarge:
+    """Where the bulk leaves: slope of the belt [rad], diameter of the pulley, depth of the fall [m], frictions [-]."""
+
+    diameter: float
+    slope: float
+    drop: float
+    friction: float
+    sliding_friction: float
 
 
 @dataclass(frozen=True)
@@ -163,11 +200,29 @@ class TransitionZone:
 
 
 @dataclass(frozen=True)
+class DriveParts:
+    """What the spec says of a drive's parts; None not given.
+
+    `motors` and their rated `rotation` [1/s], `ratio` of the gear, torque that the `backstop` bears [N m], `starts`
+    asked for [1/h], `loss` of the pulley's diameter [m], mass of the brake's `disc` [kg], `heat` it bears [J].
+    """
+
+    motors: int
+    rotation: float | None
+    ratio: float | None
+    backstop: float | None
+    starts: float | None
+    loss: float | None
+    disc: float | None
+    heat: float | None
+
+
+@dataclass(frozen=True)
 class DriveUnit:
     """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg, radius [m].
 
     `mass_given` says whether its rotating masses are the spec's, not typical of its power; `starter` and `backstop` are
-    None where the spec says nothing.
+    None where the spec says nothing, `parts` where it asks for those of no drive.
     """
 
     name: str
@@ -182,6 +237,7 @@ class DriveUnit:
     radius: float | None
     starter: StarterUnit | None = None
     backstop: bool | None = None
+    parts: DriveParts | None = None
 
 
 @dataclass(frozen=True)
@@ -189,7 +245,7 @@ class TakeUpUnit:
     """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
 
     `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
-    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-].
+    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-]; `travel` it has [m].
     """
 
     kind: str
@@ -200,6 +256,7 @@ class TakeUpUnit:
     reserve: float
     carriage: float = 0.0
     winch: tuple[float, float] | None = None
+    travel: float | None = None
 
     @property
     def keeps_length(self) -> bool:
@@ -246,6 +303,8 @@ class Line:
         Secondary resistances one by one, or by the length coefficient.
     support, rtol, softened, flexure_share
         How the contacts are calculated; whether rubber is softened by its strain; share of flexure where it is one [-].
+    carryback : tuple of float or None
+        Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
     flexure_source : str
         What the flexure rests on, in words.
     """
@@ -259,6 +318,8 @@ class Line:
     gravity: float
     loading: tuple[LoadingPoint, ...]
     scrapers: tuple[Scraper, ...]
+    carryback: tuple[float | None, float | None]
+    discharge: HeadDischarge | None
     ploughs: tuple[PloughBlade, ...]
     pulleys: tuple[BendPulley, ...]
     transitions: tuple[TransitionZone, ...]
@@ -273,6 +334,7 @@ class Line:
     torque_curve: tuple[tuple[float, float], ...]
     brake_delay: float
     stop_deceleration: float | None
+    coast_time: float | None
     least_friction: float
     secondary: str
     friction_factor: float
@@ -312,6 +374,8 @@ class Line:
             gravity=si(calculation.gravity),
             loading=_loading_points(conveyor, places),
             scrapers=_scrapers(conveyor),
+            carryback=(_known(conveyor.route.carryback), _known(conveyor.route.carryback_allowed)),
+            discharge=_discharge(conveyor),
             ploughs=_ploughs(conveyor, places),
             pulleys=_pulleys(conveyor, places),
             transitions=_transitions(conveyor),
@@ -326,6 +390,7 @@ class Line:
             torque_curve=_torque_curve(drive),
             brake_delay=si(drive.brake_delay),
             stop_deceleration=_known(drive.stop_deceleration),
+            coast_time=_known(drive.coast_time),
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
@@ -354,8 +419,8 @@ class Line:
 
     @property
     def tension_acts(self) -> bool:
-        """Whether tension changes what the rolls feel: on a vertical curve, or by a belt that gives."""
-        return self.support == "belt" or any(section.curve for section in self.sections)
+        """Whether tension changes what the rolls feel: on a curve, or by a belt that gives."""
+        return self.support == "belt" or any(section.curved for section in self.sections)
 
     @property
     def length(self) -> float:
@@ -433,6 +498,29 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         relaxing=None
         if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
         else (si(carcass.relaxing_stiffness), si(carcass.relaxation_time)),
+        bears=(_known(belt.lowest_temperature), _known(belt.highest_temperature)),
+        covers=_cover_needs(conveyor),
+    )
+
+
+def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
+    """Least covers where the spec says how the bulk wears them."""
+    belt = conveyor.belt
+    if belt.wear is None:
+        return ()
+    feeding = conveyor.route.feeding
+    drop = 0.0 if feeding is None or feeding.drop_height is None else si(feeding.drop_height)
+    least = least_cover(si(belt.carcass.thickness), steel_cord=belt.carcass.kind == "steel cord")
+    wear = wear_addition(
+        lump=si(belt.wear.lump),
+        density=si(conveyor.material.density),
+        round_time=2.0 * conveyor.route.length / si(belt.speed),
+        abrasiveness=belt.wear.abrasiveness,
+        loading=belt.wear.loading or fall_severity(drop),
+    )
+    return (
+        CoverNeed("top", si(belt.top_cover.thickness), least, wear),
+        CoverNeed("bottom", si(belt.bottom_cover.thickness), least, 0.0),
     )
 
 
@@ -466,7 +554,29 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: boo
         skirt_friction=point.skirt_friction,
         lift=lift,
         before=before,
+        skirtboards=_known(point.skirtboards),
+        seal_drag=_given(point.seal_drag, 0.0),
+        drop_height=_known(point.drop_height),
+        lump_mass=_known(point.lump_mass),
+        idler_stiffness=_known(point.idler_stiffness),
+        idler_spacing=_known(point.idler_spacing),
+        idler_rating=_known(point.idler_rating),
         assumed=assumed,
+    )
+
+
+def _discharge(conveyor: Conveyor) -> HeadDischarge | None:
+    """Over the first pulley at the head, where its diameter is not given."""
+    given, last = conveyor.route.discharge, conveyor.route.sections[-1]
+    if given is None:
+        return None
+    at_head = (pulley.diameter for pulley in usual.pulleys(conveyor)[0] if pulley.position == "head")
+    return HeadDischarge(
+        diameter=si(given.pulley_diameter or next(at_head)),
+        slope=math.asin(last.rise / si(last.length)) if given.slope is None else si(given.slope),
+        drop=si(given.drop),
+        friction=given.friction,
+        sliding_friction=given.friction if given.sliding_friction is None else given.sliding_friction,
     )
 
 
@@ -479,11 +589,13 @@ def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
     cleaners, assumed = usual.cleaners(conveyor)
     return tuple(
         Scraper(
+            kind=cleaner.kind,
             count=cleaner.count,
             width=si(cleaner.width),
             area=si(cleaner.width) * si(cleaner.thickness),
             pressure=si(cleaner.pressure),
             friction=cleaner.friction,
+            efficiency=si(cleaner.efficiency),
             assumed=assumed,
         )
         for cleaner in cleaners
@@ -593,8 +705,22 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
             radius=_radius(conveyor, pulley),
             starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
             backstop=pulley.backstop,
+            parts=_parts(pulley) if any(other.judged for other in pulleys) else None,
         )
         for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
+    )
+
+
+def _parts(pulley: DrivePulley) -> DriveParts:
+    return DriveParts(
+        motors=pulley.motors,
+        rotation=None if pulley.motor_speed is None else si(pulley.motor_speed),
+        ratio=pulley.gear_ratio,
+        backstop=_known(pulley.backstop_torque),
+        starts=pulley.starts_per_hour,
+        loss=_known(pulley.diameter_loss),
+        disc=_known(pulley.brake_disc),
+        heat=_known(pulley.brake_heat),
     )
 
 
@@ -652,6 +778,7 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         si(given.reserve),
         si(given.carriage_mass),
         winch,
+        _known(given.travel),
     )
 
 

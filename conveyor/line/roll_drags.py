@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from conveyor.errors import InputError
 from conveyor.laws.resistance import (
     Default,
@@ -22,8 +25,9 @@ from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import si
 
-DragLaw = Callable[[float], float]
-"""From the load of a roll [N] to its drag at the rim [N]."""
+Array = NDArray[np.float64]
+DragLaw = Callable[[Array], Array]
+"""From loads of a roll [N] to its drag at the rim under each [N]."""
 
 
 def roll_drags(conveyor: Conveyor, strands: Strands) -> tuple[tuple[float, ...], ...]:
@@ -34,35 +38,28 @@ def roll_drags(conveyor: Conveyor, strands: Strands) -> tuple[tuple[float, ...],
     InputError
         A maker's line falls below zero at a load, or the air is too cold for the grease.
     """
-    laws = {strand: _SetDrags(conveyor, strand) for strand in STRANDS}
     sets, which = strands.distinct_sets
-    drags = [laws[strand].of(loads) for strand, loads in sets]
+    drags: list[tuple[float, ...]] = [()] * len(sets)
+    for strand in STRANDS:
+        own = [i for i, (other, _) in enumerate(sets) if other == strand]
+        found = _set_drags(conveyor, strand, np.array([sets[i][1] for i in own]))
+        for i, row in zip(own, found.tolist(), strict=True):
+            drags[i] = tuple(row)
     return tuple(drags[i] for i in which)
 
 
-class _SetDrags:
-    """Drags of one strand's rolls, prepared once; equal loads are computed once."""
-
-    def __init__(self, conveyor: Conveyor, strand: Strand) -> None:
-        idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
-        rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
-        self._laws = (
-            [_law(roll, conveyor, _field(idlers, roll, strand)) for roll in rolls]
-            if idlers.drag is None
-            else [_evenly(si(idlers.drag) / idlers.rolls)] * idlers.rolls
-        )
-        self._same = [next(j for j, other in enumerate(rolls) if other is roll) for roll in rolls]
-        self._known: dict[tuple[int, float], float] = {}
-
-    def of(self, loads: Sequence[float]) -> tuple[float, ...]:
-        """Of the rolls of a set under their loads [N]."""
-        return tuple(map(self._drag, self._same, loads))
-
-    def _drag(self, place: int, load: float) -> float:
-        known = self._known.get((place, load))
-        if known is None:
-            known = self._known[place, load] = self._laws[place](load)
-        return known
+def _set_drags(conveyor: Conveyor, strand: Strand, loads: Array) -> Array:
+    """Drags of the rolls of sets of a strand under their loads, both shape (sets, rolls) [N]."""
+    idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
+    if idlers.drag is not None:
+        return np.full(loads.shape, si(idlers.drag) / idlers.rolls)
+    rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
+    drags = np.empty(loads.shape)
+    for first, roll in enumerate(rolls):
+        same = [place for place, other in enumerate(rolls) if other is roll]
+        if first == same[0]:
+            drags[:, same] = _law(roll, conveyor, _field(idlers, roll, strand))(loads[:, same])
+    return drags
 
 
 def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
@@ -84,13 +81,23 @@ def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw:
 
 def _evenly(drag: float) -> DragLaw:
     """The same drag under any load."""
-    return lambda _load: drag
+    return lambda loads: np.full(loads.shape, drag)
+
+
+def _each(law: Callable[[float], float]) -> DragLaw:
+    """A law of one load, for many; equal ones are computed once."""
+
+    def drags(loads: Array) -> Array:
+        distinct, which = np.unique(loads, return_inverse=True)
+        return np.array([law(load) for load in distinct.tolist()])[which].reshape(loads.shape)
+
+    return drags
 
 
 def _in_service(diameter: float, length: float, speed: float, air: float) -> DragLaw:
-    return lambda load: (
+    return lambda loads: (
         service_roll_drag(
-            load, belt_speed=speed, roll_diameter=diameter, roll_length=length, air_temperature=air
+            loads, belt_speed=speed, roll_diameter=diameter, roll_length=length, air_temperature=air
         ).force
     )
 
@@ -118,14 +125,16 @@ def acceptance_limit(roll: Roll) -> Default:
 def _maker(law: MakerDrag, rotation: float) -> DragLaw:
     measured, slope, per_rotation = si(law.drag), law.load_slope, si(law.rotation_slope)
     at_load, at_rotation = si(law.load), si(law.rotation)
-    return lambda load: linear_roll_drag(
-        measured,
-        load=load,
-        rotation=rotation,
-        load_slope=slope,
-        rotation_slope=per_rotation,
-        reference_load=at_load,
-        reference_rotation=at_rotation,
+    return _each(
+        lambda load: linear_roll_drag(
+            measured,
+            load=load,
+            rotation=rotation,
+            load_slope=slope,
+            rotation_slope=per_rotation,
+            reference_load=at_load,
+            reference_rotation=at_rotation,
+        )
     )
 
 
@@ -135,19 +144,21 @@ def _bearing(law: BearingDrag, diameter: float, speed: float, air: float, field:
         viscosity = bearing_viscosity(law, air)
     except InputError as error:
         raise InputError(f"{field}: {error}") from None
-    return lambda load: (
-        bearing_roll_drag(
-            load,
-            belt_speed=speed,
-            roll_diameter=diameter,
-            mean_diameter=mean,
-            viscosity=viscosity,
-            static_rating=rating,
-            f0=law.f0,
-            f1_factor=law.f1_factor,
-            f1_exponent=law.f1_exponent,
-            seal_moment=seal,
-        ).force
+    return _each(
+        lambda load: (
+            bearing_roll_drag(
+                load,
+                belt_speed=speed,
+                roll_diameter=diameter,
+                mean_diameter=mean,
+                viscosity=viscosity,
+                static_rating=rating,
+                f0=law.f0,
+                f1_factor=law.f1_factor,
+                f1_exponent=law.f1_exponent,
+                seal_moment=seal,
+            ).force
+        )
     )
 
 
@@ -171,9 +182,9 @@ def bearing_viscosity(law: BearingDrag, air: float) -> float:
 def _named(law: DragLaw, field: str) -> DragLaw:
     """Name the field in a refusal of the law."""
 
-    def drag(load: float) -> float:
+    def drag(loads: Array) -> Array:
         try:
-            return law(load)
+            return law(loads)
         except InputError as error:
             raise InputError(f"{field}: {error}") from None
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.line.roll_kinds import RollKind, roll_kinds
-from conveyor.line.stretches import Pressing, RouteSection, Strand, Stretch, route_sections, stretches
+from conveyor.line.stretches import Acting, RouteSection, Strand, Stretch, route_sections, stretches
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -54,23 +54,23 @@ class Strands:
     gauss_points: int
 
     @classmethod
-    def of(cls, conveyor: Conveyor, pressing: Pressing | None = None) -> Strands:
+    def of(cls, conveyor: Conveyor, acting: Acting | None = None) -> Strands:
         """Return the strands of a conveyor.
 
         Parameters
         ----------
         conveyor : Conveyor
             Its belt, idlers, material, route and calculation.
-        pressing : mapping of (section, strand) to float, optional
-            Mass with which tension presses on the rolls of a vertical curve [kg/m].
+        acting : Acting, optional
+            What tension does on curves.
 
         Raises
         ------
         NoSolutionError
-            The belt lifts off on a concave curve.
+            The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
         """
         sections, calculation = route_sections(conveyor), conveyor.calculation
-        along = stretches(conveyor, sections, pressing)
+        along = stretches(conveyor, sections, acting or Acting())
         return cls(sections, along, si(calculation.gravity), calculation.gauss_points)
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from conveyor.errors import NoSolutionError
@@ -12,18 +12,30 @@ from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
 from conveyor.line.set_loads import SetLoads
+from conveyor.line.turns import HorizontalCurve, Turn, turn
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
-Pressing = Mapping[tuple[str, Strand], float]
-"""Mass per length with which tension presses on the rolls of a section and strand [kg/m], negative where it lifts."""
+OnCurves = Mapping[tuple[str, Strand], float]
+"""A figure of each section and strand on a curve."""
+
+
+@dataclass(frozen=True)
+class Acting:
+    """What tension does on curves: mass with which it presses on the rolls [kg/m], drift of the belt inside [m].
+
+    A negative mass lifts, a negative drift is outward.
+    """
+
+    pressing: OnCurves = field(default_factory=dict)
+    drift: OnCurves = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class RouteSection:
-    """A section of the route: length and rise in running direction of the carry strand [m], its vertical curve.
+    """A section of the route: length and rise in running direction of the carry strand [m], its curves.
 
     `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m]; `spacing` that of
     each strand's sets where the section has its own [m].
@@ -36,6 +48,12 @@ class RouteSection:
     spacing: Mapping[Strand, float | None]
     curve: str | None
     radius: float
+    horizontal: HorizontalCurve | None
+
+    @property
+    def curved(self) -> bool:
+        """Whether tension acts on its rolls by a curve."""
+        return self.curve is not None or self.horizontal is not None
 
 
 def route_sections(conveyor: Conveyor) -> tuple[RouteSection, ...]:
@@ -55,6 +73,7 @@ def _route_section(section: Section) -> RouteSection:
         },
         curve=section.curve,
         radius=section.signed_radius,
+        horizontal=HorizontalCurve.of(section),
     )
 
 
@@ -88,6 +107,8 @@ class Stretch:
         Rotating mass of one set, and what of it resists acceleration at the rim [kg].
     span_flexure : float or None
         Flexure of belt and bulk over one span [N]; None where the spec asks for a share of the main resistance.
+    turn : Turn or None
+        On a horizontal curve.
     """
 
     section: str
@@ -107,6 +128,7 @@ class Stretch:
     set_mass: float
     rim_mass: float
     span_flexure: float | None = None
+    turn: Turn | None = None
 
     @property
     def inclination(self) -> float:
@@ -124,11 +146,9 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(
-    conveyor: Conveyor, sections: Sequence[RouteSection], pressing: Pressing | None = None
-) -> tuple[Stretch, ...]:
-    """Both strands of every section, SI; `pressing` as of `roll_masses`."""
-    carry, back = _Strand(conveyor, "carry", pressing or {}), _Strand(conveyor, "return", pressing or {})
+def stretches(conveyor: Conveyor, sections: Sequence[RouteSection], acting: Acting) -> tuple[Stretch, ...]:
+    """Both strands of every section, SI, under what tension does on curves."""
+    carry, back = _Strand(conveyor, "carry", acting), _Strand(conveyor, "return", acting)
     return (
         *(carry.stretch(section) for section in sections),
         *(back.stretch(section) for section in reversed(sections)),
@@ -157,8 +177,8 @@ def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: s
 class _Strand:
     """What all stretches of a strand share."""
 
-    def __init__(self, conveyor: Conveyor, strand: Strand, pressing: Pressing) -> None:
-        self.strand, self.pressing = strand, pressing
+    def __init__(self, conveyor: Conveyor, strand: Strand, acting: Acting) -> None:
+        self.strand, self.acting, self.conveyor = strand, acting, conveyor
         self.carrying = strand == "carry"
         self.idlers = conveyor.idlers.carry if self.carrying else conveyor.idlers.return_
         self.spacing, self.sag = si(self.idlers.spacing), si(self.idlers.sag)
@@ -180,7 +200,7 @@ class _Strand:
         spacing = self.spacing if own is None else own
         flow = self.full if self.carrying and section.loaded else 0.0
         flow *= self.flow_shares[section.name]
-        pressing = self.pressing.get((section.name, self.strand), 0.0)
+        pressing = self.acting.pressing.get((section.name, self.strand), 0.0)
         belt_on_rolls, bulk_on_rolls = roll_masses(
             self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
         )
@@ -194,6 +214,9 @@ class _Strand:
             bulk_mass=bulk_on_rolls,
             flow_mass=flow,
         )
+        turned = self._turn(section, spacing, inclination, flow)
+        if turned is not None:
+            loads = turned.drifted(loads)
         least = sag_tension(
             self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
         )
@@ -215,6 +238,29 @@ class _Strand:
             set_mass=self.set_mass,
             rim_mass=self.rim_mass,
             span_flexure=self._span(flow, spacing, inclination, least),
+            turn=turned,
+        )
+
+    def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> Turn | None:
+        """The sets on a horizontal curve."""
+        if section.horizontal is None:
+            return None
+        weights = self.set_loads.of(
+            spacing=spacing, inclination=inclination, belt_mass=self.belt_mass, bulk_mass=flow, flow_mass=flow
+        )
+        wind, belt = self.conveyor.ambient.wind_speed, self.conveyor.belt
+        return turn(
+            section.horizontal,
+            self.idlers,
+            self.strand,
+            weights,
+            vertical=section.radius,
+            drift=self.acting.drift.get((section.name, self.strand), 0.0),
+            wind_speed=0.0 if wind is None else si(wind),
+            spacing=spacing,
+            thickness=si(belt.top_cover.thickness)
+            + si(belt.bottom_cover.thickness)
+            + si(belt.carcass.thickness),
         )
 
     def _span(self, flow: float, spacing: float, inclination: float, least: float) -> float | None:

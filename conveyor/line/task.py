@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from typing import Any, Final
 
 from conveyor.files import libraries
-from conveyor.laws.belt import PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
+from conveyor.laws.belt import PULLEY_DIAMETERS, least_cover, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.sizing import (
     PULLEY_MASS,
@@ -26,9 +26,6 @@ from conveyor.models import Conveyor
 from conveyor.models.sizing import DriveLayout, SiteRules, SizingDuty, sizes
 from conveyor.units import from_si, in_si, si
 
-_LEAST_OVER_CORD: Final = 0.7  # [-], DIN 22131: least cover over the diameter of the cords; general knowledge
-_LEAST_STEEL: Final = 4e-3  # [m], DIN 22131: least cover of steel-cord belts; general knowledge
-_LEAST_TEXTILE: Final = 2e-3  # [m], general knowledge
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
 _STEP: Final = 0.5e-3  # [m], of cover thicknesses
@@ -57,7 +54,7 @@ class CarcassClass:
     @property
     def least_cover(self) -> float:
         """Least thickness of a cover [m]."""
-        return max(_LEAST_STEEL, _LEAST_OVER_CORD * self.thickness) if self.steel_cord else _LEAST_TEXTILE
+        return least_cover(self.thickness, steel_cord=self.steel_cord)
 
     def covers(self, addition: float) -> tuple[float, float]:
         """Top and bottom cover with an addition against wear, on steps of half a millimetre; at most 3 to 1 [m]."""

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
     CLASSIC_SAFETY,
     DUTY_SAFETY,
     PULLEY_DIAMETERS,
+    RATED_START,
     SPLICE_SAFETY,
     Group,
     belt_safety,
     needed_strength,
-    next_pulley_diameter,
     pulley_group_diameter,
+    standard_pulley_diameter,
 )
 from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter
 from conveyor.laws.transition import EDGE_OVER_RATED, transition_length, transition_stretch
@@ -28,6 +29,7 @@ from conveyor.laws.vertical_curve import (
 from conveyor.line.line import BendPulley, Line, TransitionZone
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
+from conveyor.loop.pulley_duty import sides
 from conveyor.loop.tensions import MotionState
 
 SNUB_WRAP = math.radians(30.0)
@@ -38,11 +40,15 @@ LEAST_EDGE_TENSION = 4.5e3
 
 @dataclass(frozen=True)
 class PulleyCheck:
-    """A pulley beside the least diameter its belt asks for [m]; `next_size` of the series, None beyond it."""
+    """A pulley beside the least diameter its belt asks for [m]; `next_size` of the series, None beyond it.
+
+    `utilisation`: tension there in steady running over the allowed one [-]; None where that is not known: 1 is taken.
+    """
 
     name: str
     position: str
     group: Group
+    utilisation: float | None
     diameter: float
     least: float
     next_size: float | None
@@ -133,8 +139,9 @@ class BeltDuty:
         Classic safety in steady running, DIN 22101:1982 [-].
     per_width_steady, per_width, rating : float
         Highest tension per width in steady running and in all states, and the belt's rated one [N/m]; None without.
-    strength_needed : float or None
-        Strength class by the endurance of the splice, DIN 22101:2002 [N/m]; None without the splice's.
+    strength_needed : mapping of str to float
+        Strength class by the endurance of the splice, DIN 22101:2002, by what asks for it [N/m]: mean tension and
+        strips of transitions and curves in steady running, mean tension of all states; empty without the splice's.
     pulleys : tuple of PulleyCheck
         Empty for carcasses without a rule.
     drive_diameter : float or None
@@ -153,7 +160,7 @@ class BeltDuty:
     per_width_steady: float
     per_width: float
     rating: float | None
-    strength_needed: float | None
+    strength_needed: Mapping[str, float]
     pulleys: tuple[PulleyCheck, ...]
     drive_diameter: float | None
     curves: tuple[CurveCheck, ...]
@@ -188,19 +195,35 @@ def belt_duty(found: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
-        strength_needed=None
-        if belt.splice_strength is None
-        else needed_strength(
-            steady / belt.width,
-            splice_strength=belt.splice_strength,
-            s0=SPLICE_SAFETY[belt.splice_making],
-            s1=DUTY_SAFETY[belt.duty],
-        ),
-        pulleys=tuple(_pulleys(found.line)),
+        strength_needed={} if belt.splice_strength is None else _splice(found, belt.splice_strength),
+        pulleys=tuple(_pulleys(found)),
         drive_diameter=_drive_diameter(found.line),
         curves=tuple(_curves(found, states)),
         transitions=tuple(_transition(found.line, zone, states) for zone in found.line.transitions),
     )
+
+
+def _splice(found: Balance, endurance: float) -> dict[str, float]:
+    """Strength class that the splice asks for [N/m], by what asks for it; a start may load it `RATED_START` times."""
+    belt, steady = found.line.belt, [found.settled.steady]
+    zones = [_transition(found.line, zone, steady).most for zone in found.line.transitions]
+    curves = [curve.most for curve in _curves(found, steady)]
+    strips = [most for most in (*zones, *curves) if most is not None]
+    loads = {
+        "steady": found.settled.steady.largest / belt.width,
+        "strips of transitions and curves, steady": max(strips, default=None),
+        "starting and stopping": found.tensions.largest / belt.width / RATED_START,
+    }
+    return {
+        name: needed_strength(
+            load,
+            splice_strength=endurance,
+            s0=SPLICE_SAFETY[belt.splice_making],
+            s1=DUTY_SAFETY[belt.duty],
+        )
+        for name, load in loads.items()
+        if load is not None
+    }
 
 
 def _classic_safety(line: Line) -> float:
@@ -215,17 +238,22 @@ def _drive_diameter(line: Line) -> float | None:
     return None
 
 
-def _pulleys(line: Line) -> Iterator[PulleyCheck]:
+def _pulleys(found: Balance) -> Iterator[PulleyCheck]:
+    line, allowed = found.line, allowed_tension(found.line)
     drive = _drive_diameter(line)
     if drive is None:
         return
-    for pulley in line.pulleys:
+    for i, pulley in enumerate(line.pulleys):
         if pulley.assumed:  # of the least diameter
             continue
-        group = _group(pulley)
-        least = pulley_group_diameter(drive, group=group)
-        size = next_pulley_diameter(least) if least <= PULLEY_DIAMETERS[-1] else None
-        yield PulleyCheck(pulley.name, pulley.position, group, pulley.diameter, least, size)
+        group, used, full = _group(pulley), None, 1.0
+        if allowed is not None:
+            used = full = max(0.0, *sides(found, i, found.settled.steady)) / (line.belt.width * allowed)
+        least = pulley_group_diameter(drive, group=group, utilisation=full)
+        size = None
+        if drive <= PULLEY_DIAMETERS[-1]:
+            size = standard_pulley_diameter(drive, group=group, utilisation=full)
+        yield PulleyCheck(pulley.name, pulley.position, group, used, pulley.diameter, least, size)
 
 
 def _group(pulley: BendPulley) -> Group:
@@ -272,8 +300,8 @@ def _strips(
 
     None where stiffness or trough are not known.
     """
-    middle, width = _middle(stretch, line.belt.width), line.belt.width
-    allowed, stiffness = _allowed(line), line.belt.tensile_stiffness
+    middle, width = middle_belt(stretch, line.belt.width), line.belt.width
+    allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None or middle is None:
         return None, None, None, None
     trough = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
@@ -297,13 +325,13 @@ def _strips(
     return over, slack, most, least
 
 
-def _allowed(line: Line) -> float | None:
+def allowed_tension(line: Line) -> float | None:
     """Tension per width that the belt is rated for [N/m]; None without strength and rating."""
     belt = line.belt
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
-def _middle(stretch: Stretch, width: float) -> float | None:
+def middle_belt(stretch: Stretch, width: float) -> float | None:
     """Belt on the middle roll [m]; None for four and five rolls, which have no rule."""
     return {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
 
@@ -316,7 +344,7 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
     else:
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
     lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
-    middle, rated, stiffness = _middle(stretch, width), _allowed(line), line.belt.tensile_stiffness
+    middle, rated, stiffness = middle_belt(stretch, width), allowed_tension(line), line.belt.tensile_stiffness
     if middle is None or rated is None or stiffness is None:
         missing = (
             "no rule for four and five rolls" if middle is None else

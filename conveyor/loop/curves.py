@@ -1,10 +1,12 @@
 """Where tension acts on the rolls and their resistance adds to the tension, until both agree.
 
-On vertical curves it presses on them; everywhere it holds a belt that gives.
+On vertical curves it presses on them, on horizontal ones it draws the belt across; everywhere it holds a belt that
+gives.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -12,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
+from conveyor.laws.horizontal_curve import DriftLaw
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
-from conveyor.line.stretches import Strand, Stretch
+from conveyor.line.stretches import Acting, Strand, Stretch
 from conveyor.loop.tensions import MotionState
 
 Array = NDArray[np.float64]
@@ -77,14 +80,14 @@ def converged(
     if found.steps >= MOST_STEPS and not found.settled(line.rtol):
         raise NoSolutionError(
             f"tensions and what they do to the rolls do not settle in {MOST_STEPS} steps (last change {change:.2g}): "
-            "choose larger radii of vertical curves"
+            "choose larger radii of curves"
         )
     return found
 
 
 def _acting(line: Line) -> NDArray[np.bool_]:
     """Stretches whose rolls feel the tension, in loop order, shape (2n,)."""
-    curved = {section.name for section in line.sections if section.curve is not None}
+    curved = {section.name for section in line.sections if section.curved}
     return np.array([line.support == "belt" or stretch.section in curved for stretch in line.loop.stretches])
 
 
@@ -126,14 +129,67 @@ def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, 
             yield stretch, radii[stretch.section], tension
 
 
+def pull_inside(line: Line, stretch: Stretch, tension: float) -> float:
+    """What the tension draws one set's belt to the inside of a horizontal curve [N]; none on the straight."""
+    return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.radius)
+
+
+def pushed_down(line: Line, stretch: Stretch, tension: float) -> float:
+    """What it presses on one set of a horizontal curve that is vertical too [N]; negative where it lifts."""
+    return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.vertical)
+
+
+def _on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
+    pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
+    return math.copysign(curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing), pull * radius)
+
+
+def acting(line: Line, steady: MotionState) -> Acting:
+    """What the tensions of steady running do on curves."""
+    return Acting(pressing_masses(line, steady), drifts(line, steady))
+
+
+def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
+    """Drift of the belt to the inside of every horizontal curve [m].
+
+    Raises
+    ------
+    NoSolutionError
+        The belt runs off its rolls.
+    """
+    found = {}
+    for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True):
+        if stretch.turn is not None:
+            tension = 0.5 * float(start + end)
+            law = stretch.turn.law(pushed_down(line, stretch, tension), least=False)
+            pull = pull_inside(line, stretch, tension)
+            drift = law.drift(pull)
+            if math.isinf(drift):
+                raise _runs_off(stretch, stretch.turn.radius, pull, law)
+            found[stretch.section, stretch.strand] = drift
+    return found
+
+
+def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw) -> NoSolutionError:
+    """What to say of a belt that nothing holds in its curve; on the radius named a bare wing would just hold it."""
+    most = law.force(law.inward[-1])
+    way, cure = "outside", "less banking or skew"
+    if pull > law.centred:
+        way, cure = "inside", "more banking or a deeper trough"
+        if most > 0.0:
+            cure = f"a horizontal_radius well above {radius * pull / most:.4g} m, or {cure}"
+    return NoSolutionError(
+        f'the belt runs off its rolls to the {way} of the horizontal curve in section "{stretch.section}", '
+        f"{stretch.strand}, in steady running: choose {cure}"
+    )
+
+
 def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     """Mass per length like which tension presses on the rolls of every curve [kg/m]; negative where it lifts."""
     pressing = {}
     for stretch, radius, tension in _curve_tensions(line, steady):
-        pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
-        force = curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing)
         pressing[stretch.section, stretch.strand] = curve_belt_mass(
-            force if pull >= 0.0 else -force,
+            _on_set(line, stretch, tension, radius),
             spacing=stretch.spacing,
             inclination=stretch.inclination,
             gravity=line.gravity,

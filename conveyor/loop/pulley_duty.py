@@ -158,7 +158,7 @@ def pulley_duty(found: Balance, states: Sequence[MotionState]) -> tuple[PulleyDu
             pulley,
             line.belt.width,
             line.speed,
-            tuple(_load(line, pulley, state.name, *_sides(found, i, state)) for state in states),
+            tuple(_load(line, pulley, state.name, *sides(found, i, state)) for state in states),
         )
         for i, pulley in enumerate(line.pulleys)
         if not pulley.assumed
@@ -178,8 +178,8 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
     return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
 
 
-def _sides(found: Balance, i: int, state: MotionState) -> tuple[float, float]:
-    """Tensions before and behind a pulley.
+def sides(found: Balance, i: int, state: MotionState) -> tuple[float, float]:
+    """Tensions before and behind the pulley of a number [N].
 
     Driven pulleys at one place are passed in the order listed: each by the drive of its number; where a drive stands on
     several they share its force alike.

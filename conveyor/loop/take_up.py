@@ -11,6 +11,7 @@ from conveyor.laws.take_up import (
     PERMANENT_STRETCH_TEXTILE,
     STEEL_EXPANSION,
     Travel,
+    follow_speed,
     take_up_mass,
     take_up_travel,
 )
@@ -46,6 +47,9 @@ class TakeUpDuty:
         Of its carriage; None where the belt's stiffness is not known.
     mean_change : float or None
         Change of the mean tension that `warmth` makes where the belt's length is kept [N].
+    speed : float or None
+        Of the carriage, to keep its tension through the hardest start [m/s]; None where the belt's length is kept or
+        its stiffness is not known.
     """
 
     unit: TakeUpUnit
@@ -58,6 +62,7 @@ class TakeUpDuty:
     warmth: float
     travel: Travel | None
     mean_change: float | None
+    speed: float | None
 
 
 def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
@@ -136,7 +141,26 @@ def take_up_duty(
         warmth=warmth,
         travel=travel,
         mean_change=change,
+        speed=None if stiffness is None or unit.keeps_length else _speed(loops, stiffness),
     )
+
+
+def _speed(loops: Sequence[Balance], stiffness: float) -> float:
+    """Of the carriage in the start that asks for most [m/s]; 0 where nothing is accelerated."""
+    line, found = loops[0].line, [0.0]
+    for loop in loops:
+        start, lengths = loop.settled.unsteady, loop.line.loop.length
+        if start.acceleration != 0.0:
+            found.append(
+                follow_speed(
+                    start.mean(lengths) - loop.settled.steady.mean(lengths),
+                    time=loop.line.speed / abs(start.acceleration),
+                    stiffness=stiffness,
+                    loop_length=float(line.loop.way[-1]),
+                    strands=line.take_up.strands,
+                )
+            )
+    return max(found)
 
 
 def _mass(line: Line, setting: float) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -11,10 +10,12 @@ from typing import Any, Final, NamedTuple
 
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
-from conveyor.laboratory.cells import TextGrid, TextLine
-from conveyor.laboratory.decimals import decimal_mark, is_number, why_not_a_number
+from conveyor.files.workbook import MAGIC
 from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.workbook import MAGIC, workbook_grids
+from conveyor.laboratory.grid import TextGrid, TextLine
+from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
+from conveyor.laboratory.separated import headed_lines
+from conveyor.laboratory.workbook import workbook_grids
 from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
@@ -97,26 +98,7 @@ class _Head:
 
 
 def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
-    """Read a table of measurements.
-
-    Parameters
-    ----------
-    path : str or Path
-        Text with separators, or a workbook with one sheet that holds cells; the first line names columns.
-    kind : TableKind
-        What it holds.
-
-    Returns
-    -------
-    tuple of MeasuredRow
-        In their order.
-
-    Raises
-    ------
-    InputError
-        ``file:row: column: what, and what to do``, for anything that is no number, unit or column known, for a field
-        that is missing or given twice.
-    """
+    """Read a table of measurements: text, or a workbook with one sheet of cells; the first line names columns."""
     grid = _grid(Path(path), kind)
     lines = [line for line in grid.lines if not line.comment]
     if len(lines) < 2:
@@ -145,15 +127,7 @@ def _grid(path: Path, kind: TableKind) -> TextGrid:
             )
         return filled[0]
     text, _ = decoded(data, path.name)
-    written = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
-    separator = max("\t;,", key=first.count)
-    lines = []
-    for number, line in written:
-        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-        comment = line.lstrip().startswith("#")
-        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
-    return TextGrid(path.name, tuple(lines), ())
+    return TextGrid(path.name, tuple(headed_lines(text)), ())
 
 
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
+from conveyor.laws.sizing import Severity
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.compound import CompoundReference, RubberCompound
 from conveyor.models.listed import Listed, ListedName
@@ -19,6 +20,7 @@ from conveyor.units import (
     LineForce,
     Quantity,
     Speed,
+    Temperature,
     Thickness,
     Time,
     display,
@@ -65,6 +67,17 @@ class TopCover(Model):
     def area_mass(self) -> float:
         """Mass per area [kg/m²]."""
         return si(self.thickness) * _density(self.compound)
+
+
+class BulkWear(Model):
+    """How the bulk wears the top cover, for the thickness that DIN 22101 asks for."""
+
+    lump: Annotated[Length, Bounds(ge="0 mm", le="2 m")]
+    """Largest size of the bulk."""
+    abrasiveness: Severity = "medium"
+    """Low: grain, wood; medium: coal, soft ores; high: hard, sharp-edged ore and stone."""
+    loading: Severity | None = None
+    """How hard the bulk lands: height of fall and difference of speeds; by route.feeding.drop_height without it."""
 
 
 class Carcass(Model):
@@ -141,6 +154,12 @@ class Belt(Listed):
     """Mass per area or per length of the whole belt; else from covers and carcass."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="150 mm")] | None = None
     """Total thickness, to check covers and carcass against."""
+    wear: BulkWear | None = None
+    """How the bulk wears the top cover; without it the covers' thickness is not checked."""
+    lowest_temperature: Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")] | None = None
+    """Lowest temperature that covers and carcass bear, by the belt's maker."""
+    highest_temperature: Annotated[Temperature, Bounds(ge="-100 degC", le="400 degC")] | None = None
+    """Highest temperature that they bear."""
     listed: ListedName | None = None
     """Entry of the belt library that gives what is not given here."""
 
@@ -162,6 +181,12 @@ class Belt(Listed):
                     f"{display(total, 'thickness')}; correct belt.thickness or the part that is wrong",
                 )
             )
+        low, high = self.lowest_temperature, self.highest_temperature
+        if low is not None and high is not None and si(low) >= si(high):
+            message = (
+                f"got {text(high)}, not more than lowest_temperature {text(low)}; correct one of the two"
+            )
+            problems.append(Problem(("highest_temperature",), message))
         if self.mass is None and self.carcass.mass is None:
             problems.append(
                 Problem(

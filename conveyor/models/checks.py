@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from conveyor.errors import RangeError
+from conveyor.laws.idlers import rated_set_load
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
@@ -25,14 +26,18 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _rolls_span,
         _flow_fits,
         _sets_apart,
+        _classes_exist,
+        _wear_known,
         _covers_thin,
         _warm_enough,
         _feeding_fits,
+        _discharges,
         _drives_placed,
         _inertia_reduced,
         _coefficient_holds,
         _flexure_applies,
         _belt_gives,
+        _curves_hold,
     )
     return [problem for check in checks for problem in check(conveyor)]
 
@@ -111,6 +116,30 @@ def _rounded(value: Quantity, *, down: bool) -> str:
     return f"{whole * step:.6g} {unit}"
 
 
+def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A class has ratings for the belt's width, the rolls of the set and their trough."""
+    for strand, idlers in _sets(conveyor):
+        if idlers.cema_class is None:
+            continue
+        try:
+            rated_set_load(
+                idlers.cema_class,
+                belt_width=conveyor.belt_width,
+                trough_angle=si(idlers.trough_angle),
+                rolls=idlers.rolls,
+            )
+        except RangeError as error:
+            yield Problem(("idlers", strand, "cema_class"), f"{error}; give rating, of its maker, instead")
+
+
+def _wear_known(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """How hard the bulk lands is said, or the height it falls from."""
+    wear, feeding = conveyor.belt.wear, conveyor.route.feeding
+    if wear is not None and wear.loading is None and (feeding is None or feeding.drop_height is None):
+        message = "missing: give it, or the height of fall as route.feeding.drop_height"
+        yield Problem(("belt", "wear", "loading"), message)
+
+
 def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Also where a section has its own spacing, rolls of neighbouring sets do not overlap."""
     for i, section in enumerate(conveyor.route.sections):
@@ -180,6 +209,17 @@ def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
             )
 
 
+def _discharges(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """A trajectory leaves over a pulley of known diameter."""
+    route = conveyor.route
+    if route.discharge is None or route.discharge.pulley_diameter is not None:
+        return
+    usual = not route.pulleys and conveyor.calculation.not_given == "usual values"
+    if not usual and all(pulley.position != "head" for pulley in route.pulleys):
+        message = "missing: no pulley of route.pulleys stands at the head; give the diameter, or the pulley"
+        yield Problem(("route", "discharge", "pulley_diameter"), message)
+
+
 def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Every section that a drive stands at exists."""
     drive = conveyor.drive
@@ -242,6 +282,27 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
                 f"has the poisson_ratio {cover.compound.poisson_ratio:g}: the covers of calculation.support "
                 '"belt" are incompressible; set it to 0.5, or take the support "confined"',
             )
+
+
+def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """In a horizontal curve only the wings of a trough hold the belt; more than three rolls have no law."""
+    curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
+    if curved is None:
+        return
+    for strand, idlers in _sets(conveyor):
+        if idlers.rolls not in {2, 3}:
+            yield Problem(
+                ("idlers", strand, "rolls"),
+                f'got {idlers.rolls}, but section "{curved}" is a horizontal curve, in which '
+                f"{'nothing holds a flat belt' if idlers.rolls == 1 else 'the drift is known for 2 and 3 rolls only'}: "
+                "take sets of 2 or 3 rolls",
+            )
+        elif si(idlers.trough_angle) == 0.0:
+            message = (
+                f'got {text(idlers.trough_angle)}, but section "{curved}" is a horizontal curve, in which nothing '
+                "holds a flat belt: take a trough"
+            )
+            yield Problem(("idlers", strand, "trough_angle"), message)
 
 
 def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:

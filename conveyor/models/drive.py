@@ -18,12 +18,15 @@ from conveyor.units import (
     Acceleration,
     Angle,
     Bounds,
+    Energy,
     Force,
     Fraction,
     Inertia,
     Length,
     Mass,
+    Moment,
     Power,
+    Rotation,
     Time,
     quantity,
     si,
@@ -64,6 +67,20 @@ class DrivePulley(Model):
     curve or factor and no start factor."""
     backstop: Switch | None = None
     """Whether it cannot turn backward, for scenarios; without it the first drive of a belt that would roll back."""
+    backstop_torque: Annotated[Moment, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
+    """Torque that its backstop bears, at the pulley."""
+    motors: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
+    """How many equal motors it has."""
+    motor_speed: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] | None = None
+    """Rated speed of its motors, for ratio and torque of the gear."""
+    starts_per_hour: Annotated[Number, Field(gt=0, le=1000)] | None = None
+    """Starts asked of motors that are switched on directly, checked against NEMA's table; needs motor_speed."""
+    diameter_loss: Annotated[Length, Bounds(ge="0 mm", le="100 mm")] | None = None
+    """How much smaller its pulley is than the nominal one, worn or made so, for sharing without control."""
+    brake_disc: Annotated[Mass, Bounds(gt="0 kg", le="100 t")] | None = None
+    """Mass of its brake's disc or drum, for the rise of its temperature in a stop."""
+    brake_heat: Annotated[Energy, Bounds(gt="0 J", le="10 MWh")] | None = None
+    """Heat of one stop that its brake bears, by the brake's maker."""
 
     @model_validator(mode="after")
     def _placed(self) -> Self:
@@ -78,8 +95,30 @@ class DrivePulley(Model):
                 ("gear_ratio", "inertia") if self.gear_ratio is None else ("inertia", "gear_ratio")
             )
             problems.append(Problem((missing,), f"missing: {given} is given and needs it, or remove {given}"))
+        for field, value, asked, other in (
+            ("starts_per_hour", self.starts_per_hour, self.motor_speed, "motor_speed"),
+            ("starts_per_hour", self.starts_per_hour, self.installed_power, "installed_power"),
+            ("brake_disc", self.brake_disc, self.brake_force, "brake_force"),
+            ("brake_heat", self.brake_heat, self.brake_force, "brake_force"),
+        ):
+            if value is not None and asked is None:
+                problems.append(
+                    Problem((other,), f"missing: {field} is given and needs it, or remove {field}")
+                )
+        if self.backstop is False and self.backstop_torque is not None:
+            message = f"got {text(self.backstop_torque)} of a drive without a backstop (backstop: false); remove one"
+            problems.append(Problem(("backstop_torque",), message))
         refuse(type(self).__name__, problems)
         return self
+
+    @property
+    def judged(self) -> bool:
+        """Whether the spec asks for more of its parts than force and power."""
+        given = (
+            self.backstop_torque, self.motor_speed, self.starts_per_hour, self.diameter_loss, self.brake_disc,
+            self.brake_heat,
+        )  # fmt: skip
+        return any(value is not None for value in given)
 
 
 class TorquePoint(Model):
@@ -126,6 +165,8 @@ class Drive(DrivePulley):
     """Time from a power failure until the brakes grip."""
     stop_deceleration: Annotated[Acceleration, Bounds(gt="0 m/s^2", le="5 m/s^2")] | None = None
     """Deceleration wanted when the conveyor is stopped."""
+    coast_time: Annotated[Time, Bounds(gt="0 s", le="1 h")] | None = None
+    """Time wanted from full speed to rest without power and brakes; the flywheel it needs is shown."""
     least_friction: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(LEAST_FRICTION, "fraction")
     """Friction that is certain where it helps to brake, over the computed one."""
     further_drives: Annotated[tuple[FurtherDrive, ...], Field(max_length=20)] = ()

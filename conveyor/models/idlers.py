@@ -8,7 +8,8 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Problem, refuse
+from conveyor.laws.idlers import CemaClass
+from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.rolls import Roll
 from conveyor.units import (
     Angle,
@@ -63,6 +64,22 @@ class IdlerSet(Model):
     """Forward tilt of the outer rolls."""
     sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
     """Largest sag of the belt between sets, over the spacing."""
+    cema_class: CemaClass | None = None
+    """Class of the sets after CEMA 502, for their load; of class F, and of others' sets, give rating."""
+    rating: Annotated[Force, Bounds(gt="0 N", le="1 MN")] | None = None
+    """Load that a whole set bears by its maker, instead of that of its class."""
+    lump_factor: Annotated[Number, Field(ge=1, le=5)] = 1.0
+    """Load of the bulk on a rated set over the steady one, for lumps: K1 of CEMA, 1.0 to 1.4; f1 of SANS 1313."""
+    raised: Annotated[Length, Bounds(ge="0 mm", le="100 mm")] = quantity("0 mm")
+    """How much higher than its neighbours a rated set may stand; the belt's tension loads it then."""
+    flap_margin: Annotated[Fraction, Bounds(gt="0 %", lt="100 %")] | None = None
+    """Distance wanted of the rolls' rotation from the belt's natural frequencies, 10 to 20 %; not checked without."""
+
+    @property
+    def judged(self) -> bool:
+        """Whether the spec asks for more of a set than loads and drag: bearings, a rating, a distance to resonance."""
+        bearings = (self.roll.bearing, self.middle.bearing)
+        return any(given is not None for given in (self.cema_class, self.rating, self.flap_margin, *bearings))
 
     @property
     def middle(self) -> Roll:
@@ -106,6 +123,9 @@ class IdlerSet(Model):
         for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
             problems += self._share_problems(name, shares)
         problems += self._rule_problems()
+        if self.rating is not None and self.cema_class is not None:
+            message = f"got {text(self.rating)} beside cema_class {self.cema_class}; give one of the two"
+            problems.append(Problem(("rating",), message))
         refuse("IdlerSet", problems)
         return self
 

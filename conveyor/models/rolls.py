@@ -16,6 +16,7 @@ from conveyor.laws.resistance import (
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.listed import Listed, ListedName
 from conveyor.units import (
+    Angle,
     Bounds,
     Force,
     ForcePerRotation,
@@ -98,7 +99,7 @@ class BearingDrag(Model):
 
 
 class RollBearing(Model):
-    """The two equal bearings of a roll, for its rating life."""
+    """The two equal bearings of a roll, for its rating life and the slope of its axle."""
 
     dynamic_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")]
     """Dynamic load rating C of a bearing."""
@@ -106,6 +107,27 @@ class RollBearing(Model):
     """Distance of the bearings along the roll, in its middle."""
     kind: Literal["ball", "roller"] = "ball"
     """Rolling elements: decide the exponent of the life."""
+    axle_diameter: Annotated[Length, Bounds(gt="0 mm", le="300 mm")] | None = None
+    """Of the axle between the bearings, for its slope at them."""
+    support_distance: Annotated[Length, Bounds(gt="0 mm", le="6 m")] | None = None
+    """Distance of the places where the frame holds the axle; needed beside axle_diameter."""
+    allowed_slope: Annotated[Angle, Bounds(gt="0 deg", le="5 deg")] = quantity("0.1667 deg")
+    """Slope of the axle that the bearings bear; 10 minutes of arc of greased ball bearings without it."""
+
+    @model_validator(mode="after")
+    def _supported(self) -> Self:
+        if (self.axle_diameter is None) != (self.support_distance is None):
+            names = ("axle_diameter", "support_distance")
+            missing, other = names if self.axle_diameter is None else names[::-1]
+            message = f"missing: {other} is given and needs it, or remove {other}"
+            refuse("RollBearing", [Problem((missing,), message)])
+        if self.support_distance is not None and si(self.support_distance) <= si(self.distance):
+            message = (
+                f"got {text(self.support_distance)}, but the bearings stand {text(self.distance)} apart between them; "
+                "correct one of the two"
+            )
+            refuse("RollBearing", [Problem(("support_distance",), message)])
+        return self
 
 
 class Roll(Listed):
@@ -131,6 +153,12 @@ class Roll(Listed):
     @model_validator(mode="after")
     def _one_drag(self) -> Self:
         problems = []
+        axle = None if self.bearing is None else self.bearing.axle_diameter
+        if axle is not None and si(axle) >= si(self.diameter):
+            message = (
+                f"got {text(axle)}, but the roll's diameter is {text(self.diameter)}; correct one of the two"
+            )
+            problems.append(Problem(("bearing", "axle_diameter"), message))
         if self.drag is not None and self.drag_law is not None:
             message = f"given beside drag {text(self.drag)}; give one of the two, remove the other"
             problems.append(Problem(("drag_law",), message))

@@ -18,21 +18,26 @@ from conveyor.laws.resistance import (
     CLEANER_PRESSURE,
 )
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
+from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
 from conveyor.models.idlers import Spacing
 from conveyor.models.ploughs import Plough
 from conveyor.models.wording import Location
 from conveyor.units import (
     Angle,
+    AreaMass,
     Bounds,
     Duration,
     Force,
     Fraction,
     Length,
+    LineForce,
     Mass,
     Pressure,
     Speed,
+    SpringRate,
     Thickness,
+    from_si,
     quantity,
     si,
     text,
@@ -40,6 +45,9 @@ from conveyor.units import (
 
 Friction = Annotated[Number, Field(gt=0, le=2)]
 Position = Literal["head", "tail", "carry", "return"]
+Banking = Annotated[Angle, Bounds(ge="0 deg", le="20 deg")]
+Skew = Annotated[Angle, Bounds(ge="0 deg", le="5 deg")]
+_MOST_TURN = math.pi  # [rad], a section that turns by more comes back beside itself
 _TURNED = math.radians(90.0)  # wrap from which bulk cannot stay on a belt that lies round a pulley
 SHARE_SUM_TOLERANCE = 1e-9
 """Shares are typed as decimals; anything coarser is a slip."""
@@ -58,7 +66,7 @@ def position_problem(position: str, section: str | None) -> list[Problem]:
 
 
 class Section(Model):
-    """A straight part of the route, both strands; its lift or its slope, up in running direction positive."""
+    """A part of the route, both strands; its lift or its slope, up in running direction positive."""
 
     name: Name
     """Each its own; feeding, drives and pulleys may name it."""
@@ -78,10 +86,22 @@ class Section(Model):
     """Vertical curve: convex over a hill, concave through a valley; straight without."""
     curve_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
     """Radius of the vertical curve; lift or slope are those of its chord."""
+    horizontal_curve: Literal["left", "right"] | None = None
+    """Horizontal curve, to the left or right in running direction of the carry strand; straight without."""
+    horizontal_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
+    """Radius of the horizontal curve."""
+    carry_banking: Banking | None = None
+    """Angle by which the carry sets are raised on the inside of the horizontal curve."""
+    return_banking: Banking | None = None
+    """Angle by which the return sets are raised on the inside of the horizontal curve."""
+    carry_skew: Skew | None = None
+    """Angle in plan by which the carry sets are turned to steer the belt out of the horizontal curve."""
+    return_skew: Skew | None = None
+    """Angle in plan by which the return sets are turned to steer the belt out of the horizontal curve."""
 
     @model_validator(mode="after")
     def _one_slope(self) -> Self:
-        problems = self._curve_problems()
+        problems = [*self._curve_problems(), *self._horizontal_problems()]
         if self.lift is not None and self.slope is not None:
             problems.append(
                 Problem(
@@ -107,6 +127,25 @@ class Section(Model):
         return [
             Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")
         ]
+
+    def _horizontal_problems(self) -> Iterator[Problem]:
+        side, radius = self.horizontal_curve, self.horizontal_radius
+        if (side is None) != (radius is None):
+            missing, given = ("horizontal_curve", "horizontal_radius")[:: 1 if side is None else -1]
+            message = f"missing: {given} is given; a horizontal curve needs both, or remove {given}"
+            yield Problem((missing,), message)
+        elif radius is not None and (turn := si(self.length) / si(radius)) > _MOST_TURN:
+            least = from_si(float(f"{si(self.length) / _MOST_TURN:.6g}"), "length", text(radius).split()[1])
+            yield Problem(
+                ("horizontal_radius",),
+                f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg, more than "
+                f"180 deg in a section: take {text(least)} or more, or a shorter section",
+            )
+        if side is None and radius is None:
+            for name in ("carry_banking", "return_banking", "carry_skew", "return_skew"):
+                if (given := getattr(self, name)) is not None:
+                    message = f"got {text(given)} on the straight; give horizontal_curve and its radius, or remove it"
+                    yield Problem((name,), message)
 
     @property
     def signed_radius(self) -> float:
@@ -143,11 +182,65 @@ class Feeding(Model):
     tripper_lift: Annotated[Length, Bounds(ge="0 m", le="50 m")] | None = None
     """Of a tripper or intermediate drive that feeds the belt's own bulk back here: how high it lifts it over the
     line of the section."""
+    skirtboards: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    """Whole length of the skirtboards as they stand, beside the zone of acceleration; not asked without it."""
+    seal_drag: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] | None = None
+    """Drag of the rubber seals of both sides on the belt, per length of skirtboard; none without it."""
+    drop_height: Annotated[Length, Bounds(gt="0 m", le="100 m")] | None = None
+    """Free fall of the bulk onto the belt; impact is not asked without it."""
+    lump_mass: Annotated[Mass, Bounds(gt="0 kg", le="100 t")] | None = None
+    """Of the heaviest lump; the stream alone without it."""
+    idler_stiffness: Annotated[SpringRate, Bounds(gt="1 kN/m", le="1000000 kN/m")] | None = None
+    """Spring rate under a lump, of an impact set with belt and frame, by its maker; needed for the force of lumps."""
+    idler_spacing: Spacing | None = None
+    """Distance of the sets where the bulk lands; that of carry sets without it."""
+    idler_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
+    """Load that a set there bears, by its maker."""
+
+    @model_validator(mode="after")
+    def _lands(self) -> Self:
+        needs = {
+            "lump_mass": self.lump_mass,
+            "idler_stiffness": self.idler_stiffness,
+            "idler_rating": self.idler_rating,
+        }
+        refuse("Feeding", [
+            Problem((name,), "given without drop_height; give how far the bulk falls, or remove it")
+            for name, value in needs.items()
+            if value is not None and self.drop_height is None
+        ])  # fmt: skip
+        return self
+
+
+class Discharge(Model):
+    """How the bulk leaves over the head pulley, for its trajectory."""
+
+    drop: Annotated[Length, Bounds(ge="0 m", le="200 m")]
+    """Depth below the axis of the pulley down to which the stream is followed."""
+    pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
+    """Of the head pulley with its lagging; that of the first pulley at the head without it."""
+    slope: Annotated[Angle, Bounds(ge="-45 deg", le="45 deg")] | None = None
+    """Of the belt where it meets the pulley, up positive; that of the last section without it."""
+    friction: Friction = BULK_ON_BELT_FRICTION.value
+    """Of bulk on belt before it slips on the pulley."""
+    sliding_friction: Friction | None = None
+    """Of bulk that slips on the belt; friction without it."""
+
+    @model_validator(mode="after")
+    def _slides_easier(self) -> Self:
+        if self.sliding_friction is not None and self.sliding_friction > self.friction:
+            message = (
+                f"got {self.sliding_friction:g}, more than friction {self.friction:g}; correct one of the two"
+            )
+            refuse("Discharge", [Problem(("sliding_friction",), message)])
+        return self
 
 
 class Cleaner(Model):
     """A scraper on the belt, or several alike."""
 
+    kind: Literal["pre-cleaner", "primary", "secondary", "tertiary"] | None = None
+    """Where it stands: before or on the face of the head pulley, behind it, behind a snub; for the report."""
     count: Annotated[int, Field(ge=1, le=100, strict=True)] = 1
     """How many alike."""
     width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
@@ -158,6 +251,10 @@ class Cleaner(Model):
     """Of the blade on the belt."""
     friction: Friction = CLEANER_FRICTION.value
     """Friction of blade on belt μ3."""
+    efficiency: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(
+        CLEANER_EFFICIENCY.value, "fraction"
+    )
+    """Share of what clings to the belt that one takes off; general knowledge without it."""
 
 
 class Pulley(Model):
@@ -245,10 +342,12 @@ class TakeUp(Model):
     """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
     reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
     """Travel kept beyond what is computed, over it."""
+    travel: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    """Way that the carriage has; not checked without it."""
     carriage_mass: Annotated[Mass, Bounds(ge="0 kg", le="1000 t")] = quantity("0 kg")
     """What moves with the carriage beside the weight, for scenarios."""
     winch_speed: Annotated[Speed, Bounds(gt="0 m/s", le="10 m/s")] | None = None
-    """Of the carriage on its winch, for scenarios; without it a winch keeps its pull whatever happens."""
+    """Of the carriage on its winch, checked against what a start asks for; without it a winch always keeps its pull."""
     winch_band: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(0.1, "fraction")
     """Of the tension, up and down, within which the winch rests."""
 
@@ -282,6 +381,13 @@ class Route(Model):
     take_up: TakeUp | None = None
     """Without it the slack side of the drive is kept at the least tension that grip and sag ask for."""
     cleaners: Annotated[tuple[Cleaner, ...], Field(max_length=100)] = ()
+    """In the order in which the belt meets them."""
+    carryback: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="100 kg/m^2")] | None = None
+    """Bulk that clings to the belt before the cleaners; what they leave is not asked without it."""
+    carryback_allowed: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="100 kg/m^2")] | None = None
+    """Most of it that may be left behind them."""
+    discharge: Discharge | None = None
+    """Over the head pulley; no trajectory without it."""
     ploughs: Annotated[tuple[Plough, ...], Field(max_length=100)] = ()
     pulleys: Annotated[tuple[Pulley, ...], Field(max_length=100)] = ()
     head_transition: Transition | None = None

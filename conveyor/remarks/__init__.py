@@ -7,8 +7,9 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from conveyor.checks import Check
+from conveyor.laws.horizontal_curve import FULL_SLIP_TILT, WIND_DRAG
 from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
-from conveyor.laws.resistance import CARCASS_BENDING
+from conveyor.laws.resistance import CARCASS_BENDING, ROLL_ON_BELT_FRICTION
 from conveyor.line.belts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
@@ -37,11 +38,32 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
         "(calculation.rtol); at 1e-4 half widths are good to 0.1 %, peak pressures to about 1.5 %, at 1e-6 to 0.1 %.",
         *roll_assumptions(conveyor),
-        "The bearings of driven pulleys are included in the drive's efficiency; tension changes the load of the rolls "
-        "on vertical curves only.",
+        "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
+        "efficiency; tension changes the load of the rolls on curves only.",
+        *_horizontal(conveyor),
         f"Covers are at {figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
         *_energy(conveyor),
     )
+
+
+def _horizontal(conveyor: Conveyor) -> Iterator[str]:
+    """What the drift in horizontal curves rests on."""
+    if all(section.horizontal_curve is None for section in conveyor.route.sections):
+        return
+    slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
+    yield (
+        "Horizontal curves: T - m' v² over the radius against the weights along the wings (Grimmer, Kessler 1987, "
+        "Part II, load factors 1). Belt and bulk keep their place on each other as the belt drifts; the rolls bear "
+        "what then lies over them, and the part of the pull that is square to them. Each section has one drift, of its "
+        f"mean tension: divide long curves. Tilted and skewed rolls guide by a friction of at most {friction:g}, "
+        f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
+        "into the banking at the ends of a curve, and edge rolls, are left out."
+    )
+    if conveyor.ambient.wind_speed is not None:
+        yield (
+            f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across "
+            "the belt, either way; it lifts nothing, and no hood shelters."
+        )
 
 
 def method(found: CalculatedConveyor) -> tuple[str, ...]:

@@ -259,9 +259,11 @@ def _set_warnings(found: CalculatedConveyor) -> Iterator[Said]:
     widest, idlers_of = widest_spacings(), found.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in found.line.stretches if stretch.strand == strand]
-        if stretches[0].tilt_angle > 0.0:
+        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.skew for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
-            yield said(f"idlers.{strand}: tilt with μ0 = {friction:g}, general knowledge, not a source")
+            yield said(
+                f"idlers.{strand}: tilt or skew with μ0 = {friction:g}, general knowledge, not a source"
+            )
         if idlers.offset.magnitude > 0.0:
             yield said(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")
         spacing = max(stretch.spacing for stretch in stretches)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import growing
 from conveyor.report.files import plain
@@ -20,11 +23,14 @@ from conveyor.units.presentation import MONEY, labelled, unit
 if TYPE_CHECKING:
     from conveyor.models import Conveyor
     from conveyor.models.study import Value
-    from conveyor.studies.campaign import Campaign
+    from conveyor.studies.campaign import Campaign, Keyed
     from conveyor.studies.designs import Design
     from conveyor.studies.explored import Explored, VariedField
 
+PART: Final = 1024
+"""Points of a part of a table that is written while its study runs."""
 _ROWS: Final = 10_000  # of a group of a Parquet file
+_PART_NAME: Final = re.compile(r"part-\d+\.(csv|parquet)")
 
 Cells = tuple[Any, ...]
 Row: TypeAlias = "tuple[int, tuple[Value, ...], Sequence[Any] | str]"
@@ -61,12 +67,14 @@ class CampaignTable:
         headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
         inputs = (labelled(field.path, field.unit) for field in fields)
         self.headings = (row, *inputs, *headed, "no answer because")
+        given = ("text" if field.words else "number" for field in fields)
+        self._kinds = ("count", *given, *(_STORED.get(kind, "number") for _, kind in figures), "text")
 
     def cells(self, row: Row) -> Cells:
         """A row."""
         number, values, answer = row
         given = [
-            value if field.words else field.number(value)
+            str(value) if field.words else field.number(value)
             for field, value in zip(self._fields, values, strict=True)
         ]
         if isinstance(answer, str):
@@ -107,24 +115,76 @@ class CampaignTable:
         import pyarrow as pa
         from pyarrow import parquet
 
-        count, writer = 0, None
-        while part := list(islice(rows, _ROWS)):
-            columns = dict(zip(self.headings, zip(*part, strict=True), strict=True))
-            if writer is None:
-                known = pa.schema([(name, _type(values, pa)) for name, values in columns.items()])
-                writer = parquet.ParquetWriter(path, known.with_metadata({marks.PARQUET: marks.maker()}))
-            writer.write_table(pa.table(columns, schema=writer.schema))
-            count += len(part)
-        if writer is not None:
-            writer.close()
+        stored = {"count": pa.int64(), "number": pa.float64(), "text": pa.string()}
+        columns = [(name, stored[kind]) for name, kind in zip(self.headings, self._kinds, strict=True)]
+        schema, count = pa.schema(columns, {marks.PARQUET: marks.maker()}), 0
+        with parquet.ParquetWriter(path, schema) as writer:
+            while part := list(islice(rows, _ROWS)):
+                cells = dict(zip(self.headings, zip(*part, strict=True), strict=True))
+                writer.write_table(pa.table(cells, schema=schema))
+                count += len(part)
         return count
 
 
-def _type(values: Sequence[Any], pa: Any) -> Any:
-    known = [value for value in values if value is not None]
-    if known and all(isinstance(value, int) for value in known):
-        return pa.int64()
-    return pa.string() if not known or any(isinstance(value, str) for value in known) else pa.float64()
+_STORED: Final = {"count": "count", "text": "text", "verdict": "text"}
+"""How figures stand in a Parquet file, by kind; others are numbers."""
+
+
+class PartedTable:
+    """A table in a folder, a file for every so many points: each is there, whole, as soon as they have answers.
+
+    Parameters
+    ----------
+    table : CampaignTable
+        Of the points.
+    folder : Path
+        Made if it is not there; parts of an older run in it are removed.
+    count : int
+        Points of the study.
+    row : callable
+        Row of a point of a number, with the key of its answer.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written, or holds something else than parts of such a table.
+    """
+
+    def __init__(
+        self, table: CampaignTable, folder: Path, count: int, row: Callable[[int, Keyed], Row]
+    ) -> None:
+        self._table, self._folder, self._count, self._row = table, folder, count, row
+        self._ending = ".csv" if find_spec("pyarrow") is None else ".parquet"
+        self._waiting: dict[int, dict[int, Keyed]] = {}
+        try:
+            folder.mkdir(exist_ok=True)
+            older = sorted(folder.iterdir())
+            for path in older:
+                known = {marks.TABLE, table.mark}
+                if _PART_NAME.fullmatch(path.name) is None or marks.mark(path.read_bytes()) not in known:
+                    raise InputError(
+                        f"{path}: is no part of such a table; give an empty folder, or a new one"
+                    )
+            for path in older:
+                path.unlink()
+        except OSError as error:
+            raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
+
+    def take(self, before: int, points: Sequence[Keyed]) -> None:
+        """Take points that have answers, with how many there are before them; write the parts that are whole now.
+
+        Raises
+        ------
+        InputError
+            A part cannot be written.
+        """
+        for number, keyed in enumerate(points, start=before):
+            self._waiting.setdefault(number // PART, {})[number] = keyed
+        for part in {before // PART, (before + len(points) - 1) // PART}:
+            if len(self._waiting[part]) == min(PART, self._count - part * PART):
+                held = self._waiting.pop(part)
+                path = self._folder / f"part-{part + 1:05}{self._ending}"
+                self._table.write(path, (self._row(number + 1, held[number]) for number in sorted(held)))
 
 
 def _line(cells: Iterable[Any]) -> str:

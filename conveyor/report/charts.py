@@ -8,6 +8,7 @@ from typing import Any
 
 from openpyxl.chart import BarChart, LineChart, Reference, ScatterChart, Series
 from openpyxl.chart.axis import ChartLines
+from openpyxl.chart.layout import Layout, ManualLayout
 from openpyxl.chart.legend import Legend
 from openpyxl.chart.shapes import GraphicalProperties
 from openpyxl.chart.text import RichText, Text
@@ -26,6 +27,9 @@ _WIDTH, _HEIGHT, _WIDE = 17.0, 9.0, 24.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _RED = "B3261E"
+_STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
+_STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
+_BESIDE, _AROUND = 2.4, 4.2  # beside and round the area of a chart that is drawn to scale [cm]
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
@@ -174,6 +178,39 @@ def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart
     chart.x_axis.number_format, chart.y_axis.number_format = "#,##0", "#,##0"
     chart.x_axis.tickLblPos = "low"
     chart.y_axis.crosses = "min"
+    return chart
+
+
+def trajectory(sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System) -> ScatterChart:
+    """The stream over the head pulley and the belt round it, both axes in one scale."""
+    words = [spelled(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
+    chart = _scatter("Discharge over the head pulley, to scale", *words)
+    drawn = [(outline, "belt", "belt"), *((place, name, name.replace("_", " ")) for name in _STREAM)]
+    spans: list[list[float]] = [[], []]
+    for at, name, title in drawn:
+        columns = [at.column(f"{name}_{axis}") for axis in ("forward", "up")]
+        across, up = (
+            Reference(sheet, min_col=column, min_row=at.header + 1, max_row=at.last) for column in columns
+        )
+        _line(chart, up, across, title.replace("booth", "Booth"))
+        for span, column in zip(spans, columns, strict=True):
+            cells = (sheet.cell(row, column).value for row in range(at.header + 1, at.last + 1))
+            span += [float(value) for value in cells if isinstance(value, int | float)]
+    least = max(max(span) - min(span) for span in spans) / _STEPS
+    decade = 10.0 ** math.floor(math.log10(least))
+    step = decade * next(part for part in (1.0, 2.0, 5.0, 10.0) if part * decade >= least)
+    ends = [(step * math.floor(min(span) / step), step * math.ceil(max(span) / step)) for span in spans]
+    wide, high = (end - begin for begin, end in ends)
+    scale = min(_WIDTH / wide, 2.0 * _HEIGHT / high)  # [cm] for one unit
+    for axis, (begin, end) in zip((chart.x_axis, chart.y_axis), ends, strict=True):
+        axis.scaling.min, axis.scaling.max = begin, end
+        axis.majorUnit = step  # type: ignore[union-attr]
+        axis.number_format, axis.tickLblPos = "General", "low"
+    width, height = scale * wide + _BESIDE, scale * high + _AROUND
+    sized(chart, width, height)
+    inside = (_BESIDE - 0.6) / width, 1.2 / height, scale * wide / width, scale * high / height
+    x, y, w, h = inside
+    chart.layout = Layout(ManualLayout(xMode="edge", yMode="edge", layoutTarget="inner", x=x, y=y, w=w, h=h))
     return chart
 
 

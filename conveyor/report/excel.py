@@ -36,6 +36,7 @@ SHEETS: Final = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.beside,
+    "Transfer": sheets.transfer,
     "Load cases": sheets.cases,
     "Case checks": sheets.single,
     "Duty": sheets.beside,
@@ -59,12 +60,21 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
-_WHERE_ASKED: Final = ("Load cases", "Case checks", "Duty", "Scenarios", "Histories", "Uncertainty")
+_WHERE_ASKED: Final = (
+    "Transfer",
+    "Load cases",
+    "Case checks",
+    "Duty",
+    "Scenarios",
+    "Histories",
+    "Uncertainty",
+)
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
     "Given",
     "Resistances",
     "Tension diagram",
+    "Transfer",
     "Load cases",
     "Rubber",
     CHECKS_AND_NOTES,

@@ -31,6 +31,7 @@ PARTS: Final = (
     ("dynamics", "Starting and stopping"),
     ("through-time", "Through time"),
     ("belt", "Belt, pulleys and curves"),
+    ("transfer", "Loading, cleaning and discharge"),
     ("load-states", "Load states"),
     ("load-cases", "Load cases"),
     ("duty", "Duty of a year"),

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.laws.tension import grip_tension
+from conveyor.line.stretches import STRANDS
 from conveyor.loop.settled import holds
 from conveyor.report.columns import FAILS
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
@@ -18,15 +21,21 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.line.line import Line
+    from conveyor.line.stretches import RouteSection
     from conveyor.loop.balance import Balance
+    from conveyor.loop.horizontal import HorizontalCheck
     from conveyor.loop.starting import Motions
     from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor
+    from conveyor.pipeline import CalculatedConveyor
 
+Array = NDArray[np.float64]
 _HEIGHT = 4.4
 _MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
 """How what stands along the route is drawn: marker, its size, its colour."""
 _FAILS = "#B3261E"
+_PIECES = 24  # chords of a curve in plan
+_BEYOND = 1.5  # of the room on the rolls, to where a drift without end is drawn
 _ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
@@ -88,6 +97,71 @@ def route_profile(
     return figure
 
 
+def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
+    """Steps of a section in plan (x, y) from its tail end [m], shape (k, 2), and the heading behind it [rad]."""
+    level = math.sqrt(section.length**2 - section.rise**2)
+    bend = section.horizontal
+    turned = 0.0 if bend is None else level / bend.radius * (1.0 if bend.side == "left" else -1.0)
+    pieces = 1 if bend is None else _PIECES
+    middles = heading + turned * (np.arange(pieces) + 0.5) / pieces
+    return level / pieces * np.stack([np.cos(middles), np.sin(middles)], axis=1), heading + turned
+
+
+def plan(line: Line, *, system: System = "SI") -> Figure:
+    """The route seen from above, from the tail, which heads along x; sections on horizontal curves in red."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    length = unit("length", system, large=True)
+    at, heading = np.zeros(2), 0.0
+    for section in line.sections:
+        steps, heading = _drawn(section, heading)
+        points = np.concatenate([[at], at + np.cumsum(steps, axis=0)])
+        x, y = length(points.T)
+        label = "straight" if section.horizontal is None else "horizontal curve"
+        axis.plot(
+            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=3, label=label
+        )
+        axis.plot(x[:1], y[:1], ".", color="0.3")
+        at = points[-1]
+    axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.set(xlabel=length.beside("along, from the tail"), ylabel=length.beside("across"))
+    titled(figure, "Plan of the route")
+    for scaled in (axis.xaxis, axis.yaxis):
+        grouped(scaled)
+    keyed(axis)
+    return figure
+
+
+def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
+    """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
+    bends, size = loads[0][1], unit("thickness", system)
+    figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))
+    thick = 0.8 / len(loads)
+    for i, bend in enumerate(bends):
+        room = float(size(bend.turn.room))
+        axis.barh(i, 2.0 * room, left=-room, height=0.9, color="0.88", zorder=1)
+        for k, (name, found) in enumerate(loads):
+            outside, inside = found[i].farthest_out.outside, found[i].farthest_in.inside
+            y, ends = i - 0.4 + (k + 0.5) * thick, (outside, inside)
+            low, high = (
+                math.copysign(_BEYOND * room, end) if math.isinf(end) else float(size(end)) for end in ends
+            )
+            runs_off = any(map(math.isinf, ends))
+            axis.plot(
+                [low, high], [y, y], color=colour(k), linewidth=max(1.5, 14.0 * thick), label=name,
+                linestyle=":" if runs_off else "-", solid_capstyle="butt", zorder=3,
+            )  # fmt: skip
+            if runs_off:
+                axis.annotate("runs off", (max(low, high, key=abs), y), fontsize=7, color=_FAILS, va="center")
+    axis.axvline(0.0, color="0.5", linewidth=0.8)
+    axis.set_yticks(range(len(bends)), [f"{bend.section}, {bend.strand}" for bend in bends])
+    axis.invert_yaxis()
+    axis.set(xlabel=size.beside("drift, outside negative, inside positive"))
+    titled(figure, "Drift in the horizontal curves")
+    keyed(axis)
+    return figure
+
+
 def tension_diagram(found: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
     """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
     figure, (axis,) = stacked(1, _HEIGHT)
@@ -119,5 +193,41 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
     titled(figure, "Tension round the loop")
+    keyed(axis)
+    return figure
+
+
+def flap_diagram(found: CalculatedConveyor, *, system: System = "SI") -> Figure:
+    """Natural frequencies of the belt between the sets round the loop, steady running, beside the rolls' rotation."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    length, frequency, shape = unit("length", system, large=True), unit("swing", system), found.line.loop
+    places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}
+    named: set[str] = set()
+
+    def once(label: str) -> str | None:
+        if label in named:
+            return None
+        named.add(label)
+        return label
+
+    for duty in found.set_duty:
+        x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand]))
+        for mode, line in ((1, "-"), (2, "--")):
+            label = once(f"belt, mode {mode}, {duty.stretch.strand}")
+            ink = colour(STRANDS.index(duty.stretch.strand))
+            axis.plot(x, mode * np.array(duty.swings), line, color=ink, label=label)
+        margin = duty.limits.flap_margin or 0.0
+        for each in dict.fromkeys(duty.rotations):
+            axis.plot(x, [each, each], color=_FAILS, linewidth=1, label=once("rotation of the rolls"))
+            axis.fill_between(
+                x, each * (1 - margin), each * (1 + margin), color=_FAILS, alpha=0.15, linewidth=0
+            )
+    axis.set_ylim(bottom=0.0)
+    axis.set(
+        xlabel=length.beside("distance from the head along the belt, return strand first"),
+        ylabel=frequency.beside("frequency"),
+    )
+    grouped(axis.xaxis)
+    titled(figure, "Belt between the idlers and rotation of the rolls")
     keyed(axis)
     return figure

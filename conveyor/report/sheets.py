@@ -76,6 +76,18 @@ def tensions(page: Page) -> None:
         sheet.add_chart(charts.tension(sheet, place, page.contents.system), f"A{row}")
 
 
+def transfer(page: Page) -> None:
+    """Loading points, cleaners and discharge, with the trajectory as a chart to scale."""
+    contents, keys = page.contents, page.contents.of("Transfer")
+    row = (
+        max(place.last for place in page.stacked([key for key in keys if contents[key].printed]).values()) + 4
+    )
+    drawn = page.stacked([key for key in keys if not contents[key].printed], row + 2 * CHART_ROWS)
+    if drawn:
+        pair = drawn["trajectory"], drawn["pulley_outline"]
+        page.sheet.add_chart(charts.trajectory(page.sheet, *pair, contents.system), f"A{row}")
+
+
 def uncertainty(page: Page) -> None:
     """The power with its band, and which input matters, with its chart."""
     page.beside([key for key in page.contents.of("Uncertainty") if key != "sensitivity"], ["sensitivity"])

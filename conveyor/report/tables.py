@@ -19,8 +19,9 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from conveyor.checks import Check, checks, deciding, leading
+from conveyor.checks import Check, checks, deciding, leading, reach
 from conveyor.indentation import RollContact
+from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.belts import BeltContacts
 from conveyor.line.contacts import Contacts
@@ -29,7 +30,9 @@ from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
+from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.estimates import CemaEstimate, Classical
+from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.models import Conveyor, RubberCompound
@@ -54,6 +57,8 @@ from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
+from conveyor.report.transfer_tables import drawing as of_discharge
+from conveyor.report.transfer_tables import of_transfer
 from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
@@ -108,6 +113,7 @@ def of_analysis(
         cema(analysis),
         breakdown(analysis),
         distinct_rolls(analysis),
+        idler_sets(analysis, studies),
         rolls(analysis),
         section_ends(analysis),
         tensions(analysis),
@@ -118,12 +124,17 @@ def of_analysis(
         conditions(analysis),
         start_stop(analysis),
         brakes(analysis),
+        drive_parts(analysis, studies),
         belt_strength_table(analysis),
         pulleys(analysis),
         pulley_loads(analysis, studies),
         pulley_states(analysis, studies),
         vertical_curves(analysis),
+        horizontal_curves(analysis),
+        curve_edges(analysis),
+        drift_states(analysis, studies),
         transitions(analysis),
+        *of_transfer(analysis),
         convergence(analysis),
         *studied,
         what_if(analysis, studies, maximum_motor_power(analysis, studies)),
@@ -141,7 +152,7 @@ def of_analysis(
     kept = tuple(part for part in parts if not part.empty)
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     shown = () if further is None else further.drawings
-    return Contents(about, kept, system, (*drawings(analysis, system), *drawn, *shown))
+    return Contents(about, kept, system, (*drawings(analysis, system, studies), *drawn, *shown))
 
 
 def _every_check(
@@ -150,7 +161,8 @@ def _every_check(
     """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
     of_cases = () if studies is None or studies.cases is None else studies.cases.checks
     of_states = () if studies is None or studies.states is None else studies.states.checks
-    return (*checks(analysis), *of_cases, *of_states, *(() if further is None else further.checks))
+    together = () if studies is None or studies.cases is None else reach(studies.cases.take_up)
+    return (*checks(analysis), *together, *of_cases, *of_states, *(() if further is None else further.checks))
 
 
 def document(
@@ -497,6 +509,88 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
     return Table("distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), page, note, named=3)
 
 
+def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
+    system, alike = a.conveyor.report.units, dict[tuple[Strand, float], _AlikeSets]()
+    for label, found in _loads(a, studies) if a.set_duty else ():
+        for duty in found.set_duty:
+            key = (duty.stretch.strand, duty.stretch.spacing)
+            alike.setdefault(key, _AlikeSets()).add(label.text(system), duty)
+    columns = (
+        Column("strand", "text", lambda row: row.first.stretch.strand),
+        Column("spacing", "spacing", lambda row: row.first.stretch.spacing),
+        Column("sets", "count", attrgetter("sets")),
+        Column("turning mass of a set", "mass", lambda row: row.first.stretch.set_mass),
+        Column("rotation", "rotation", lambda row: max(one.rotations[1] for one in row.of)),
+        Column("load of a set", "force", lambda row: row.heaviest.limits.load),
+        Column("of the case", "text", attrgetter("case"), page=None),
+        Column("rating", "force", lambda row: row.first.limits.rating, sparse=True),
+        Column("CEMA class", "text", lambda row: row.first.limits.cema_class, sparse=True),
+        Column("least CEMA class", "text", lambda row: row.heaviest.limits.least_class, sparse=True),
+        Column("slope of the axle", "angle", attrgetter("slope"), sparse=True),
+        Column("L10 life of a set", "life", attrgetter("life"), sparse=True),
+        Column("rolls turn at", "swing", lambda row: row.closest.rotations[1]),
+        Column("belt swings from", "swing", lambda row: row.closest.frequencies[0]),
+        Column("belt swings to", "swing", lambda row: row.closest.frequencies[1]),
+        Column("distance from resonance", "share", lambda row: row.closest.distance),
+        Column("in section", "text", lambda row: row.closest.stretch.section),
+        Column("spacing at most, against flap", "spacing",
+               lambda row: min((one.still_spacing for one in row.of if one.still_spacing), default=None), sparse=True),
+    )  # fmt: skip
+    heading = "Idler sets, the worst of all cases"
+    note = (
+        "Load with lump_factor and the tension on a raised set. Belt: first natural frequency between two sets in the "
+        "section closest to resonance; rolls out of round excite it and twice it; distance 0 where a span is hit."
+    )
+    return Table("idler_sets", "Sections", heading, columns, tuple(alike.values()), (OnPage("rolls", heading),),
+                 note if alike else "", named=2)  # fmt: skip
+
+
+class _AlikeSets:
+    """Sets of one strand and spacing in every case."""
+
+    def __init__(self) -> None:
+        self.of: list[SetDuty] = []
+        self.cases: list[str] = []
+
+    def add(self, case: str, duty: SetDuty) -> None:
+        self.cases.append(case)
+        self.of.append(duty)
+
+    @property
+    def first(self) -> SetDuty:
+        return self.of[0]
+
+    @property
+    def sets(self) -> float:
+        """Of one case: each counts once."""
+        first = self.cases[0]
+        return math.fsum(
+            one.stretch.sets for case, one in zip(self.cases, self.of, strict=True) if case == first
+        )
+
+    @property
+    def heaviest(self) -> SetDuty:
+        return max(self.of, key=lambda one: one.limits.load)
+
+    @property
+    def case(self) -> str:
+        return self.cases[self.of.index(self.heaviest)]
+
+    @property
+    def closest(self) -> SetDuty:
+        """To resonance."""
+        return min(self.of, key=lambda one: one.distance)
+
+    @property
+    def slope(self) -> float | None:
+        return max((one.limits.axle.slope for one in self.of if one.limits.axle is not None), default=None)
+
+    @property
+    def life(self) -> float | None:
+        return min((one.life.hours * _HOUR for one in self.of if one.life is not None), default=None)
+
+
 def _of_first(get: Getter) -> Getter:
     return lambda rows: get(rows[0])
 
@@ -636,6 +730,8 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
     duty, governed_by = take_up_of(a, studies)
     mass, travel = duty.mass, duty.travel
     mean = a.balance.settled.steady.mean(a.line.loop.length)
+    winch = duty.unit.kind == "winch"
+    screws = 0.5 * duty.unit.strands * duty.setting if duty.unit.kind == "screw" else None
     rows = [
         Figure("setting", "force", duty.setting, "cover"),
         Figure("required setting", "force", duty.needed, key="least_setting"),
@@ -643,6 +739,10 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
         Figure("strands at the take-up", "count", float(duty.unit.strands), key="strands"),
         Figure("mass of a gravity take-up", "mass", mass, key="mass"),
         Figure("pull on the rope of a winch", "force", None if mass is None else mass * a.line.gravity, key="pull"),
+        Figure("force of each of two screws", "force", screws),
+        Figure("carriage speed through a start", "speed", duty.speed if winch else None),
+        Figure("power of the winch", "power",
+               None if duty.speed is None or not winch else duty.speed * duty.unit.strands * max(duty.setting, 0.0)),
         Figure("change of mean tension by temperature", "force", duty.mean_change),
     ]  # fmt: skip
     if travel is not None:
@@ -654,6 +754,7 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
             Figure("travel, temperature of the belt", "length", travel.temperature),
             Figure("travel, reserve", "length", travel.reserve),
             Figure("travel", "length", travel.whole),
+            Figure("travel given", "length", duty.unit.travel),
         ]
     note = f"kind: {duty.unit.kind}, governed by: {governed_by.text(a.conveyor.report.units)}{_travel_note(a, duty)}"
     page = (OnPage("tensions", "Take-up"),)
@@ -726,6 +827,7 @@ def start_stop(a: CalculatedConveyor) -> Table:
                key="brake_for_the_deceleration_wanted"),
         Figure(f"{holder} to hold", "force", moving.brake_to_hold),
         Figure("torque to hold, at the first drive's pulley", "torque", torque, key="torque_to_hold"),
+        Figure("flywheel for the coasting time, at the motors", "inertia", coasting_flywheel(a.line, moving)),
         Figure("runaway, drives and brakes off", "acceleration", moving.runaway),
         Figure("speed at which the brakes grip", "speed", gripping),
         Figure("maximum deceleration without material slip", "acceleration", braking,
@@ -752,9 +854,54 @@ def brakes(a: CalculatedConveyor) -> Table:
     return Table("brakes", "Loop", "Brakes", columns, rows, (OnPage("start-stop", "Brakes"),))
 
 
+def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
+    loads = [found.drive_duty for _, found in _loads(a, studies)] if a.drive_duty else []
+    rows = [(own, [every[i] for every in loads]) for i, own in enumerate(a.drive_duty)]
+
+    def worst(of: Callable[[Iterable[Any]], Any], get: Getter) -> Getter:
+        def found(row: Any) -> float | None:
+            values = [value for duty in row[1] if isinstance(value := get(duty), float)]
+            return of(values) if values else None
+
+        return found
+
+    motor = a.balance.frame.motor
+    columns = (
+        Column("drive", "text", lambda row: row[0].drive.name),
+        Column("motors", "count", lambda row: float(row[0].parts.motors), page=None),
+        Column("pulley speed", "rotation", lambda row: row[0].rotation),
+        Column("gear ratio", "ratio", lambda row: row[0].ratio, sparse=True),
+        Column("preferred ratio", "ratio", lambda row: row[0].standard_ratio, sparse=True),
+        Column("gear size", "torque", lambda row: row[0].gear, sparse=True),
+        Column("backstop, holding", "torque", worst(max, attrgetter("holding")), sparse=True),
+        Column("backstop, motors stalled", "torque",
+               worst(max, lambda duty: None if duty.holding is None else duty.stalled), sparse=True),
+        Column("backstop size", "torque",
+               lambda row: None if (most := worst(max, attrgetter("backstop"))(row)) is None else next_preferred(most),
+               sparse=True),
+        Column("load at a motor's shaft", "inertia", worst(max, attrgetter("load_inertia")), sparse=True),
+        Column("starts an hour", "ratio", worst(min, attrgetter("allowed_starts")), sparse=True),
+        Column("heat of a stop", "heat", worst(max, attrgetter("heat")), sparse=True),
+        Column("rise of the disc", "rise", worst(max, attrgetter("disc_rise")), sparse=True),
+        Column("motor power, uncontrolled", "power",
+               worst(max, lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+    )  # fmt: skip
+    note = (
+        "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
+        "even share (general knowledge). Starts of motors switched on directly, NEMA MG 10. Uncontrolled: nothing but "
+        "the belt couples the drives."
+    )
+    heading = "Parts of the drives, all cases"
+    page = (OnPage("start-stop", heading),)
+    return Table("drive_parts", "Loop", heading, columns, tuple(rows), page, note if rows else "")
+
+
 def belt_strength_table(a: CalculatedConveyor) -> Table:
     """Strength of the belt; figures without which a row has no answer are left out with it."""
-    duty = a.belt_duty
+    duty, strength = a.belt_duty, a.line.belt.strength
+    needed = duty.strength_needed.values()
+    used = max(needed) / strength if needed and strength is not None else None
     rows = (
         Figure("maximum tension, steady", "force", duty.largest_steady, us="Tmax", key="largest_tension_steady"),
         Figure("maximum tension, all states", "force", duty.largest, us="Tmax", key="largest_tension_all_states"),
@@ -764,8 +911,13 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
         Figure("tension per width, steady", "strength", duty.per_width_steady),
         Figure("tension per width, all states", "strength", duty.per_width),
         Figure("rated tension per width", "strength", duty.rating),
-        Figure("belt strength required by the splice", "strength", duty.strength_needed,
+        Figure("belt strength required by the splice", "strength", max(needed, default=None),
                key="strength_the_splice_asks_for"),
+        Figure("utilisation of the splice", "share", used),
+        *(
+            Figure(f"required {cover.cover} cover", "thickness", cover.least + cover.wear)
+            for cover in a.line.belt.covers
+        ),
         Figure("minimum diameter of drive pulleys", "size", duty.drive_diameter,
                key="least_diameter_of_drive_pulleys"),
     )  # fmt: skip
@@ -779,6 +931,7 @@ def pulleys(a: CalculatedConveyor) -> Table:
         Column("pulley", "text", attrgetter("name")),
         Column("position", "text", attrgetter("position")),
         Column("group", "text", attrgetter("group")),
+        Column("utilisation", "share", attrgetter("utilisation"), sparse=True),
         Column("diameter", "size", attrgetter("diameter")),
         Column("minimum", "size", attrgetter("least"), key="least"),
         Column("standard size", "size", attrgetter("next_size"), key="of_the_series"),
@@ -885,6 +1038,81 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
     page = (OnPage("belt", "Vertical curves"),)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
     return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page, note)
+
+
+def horizontal_curves(a: CalculatedConveyor) -> Table:
+    """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("to the", "text", attrgetter("turn.side")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("banking", "angle", attrgetter("turn.banking")),
+        Column("skew", "angle", attrgetter("turn.skew")),
+        Column("drift, steady", "thickness", attrgetter("turn.drift")),
+        Column("farthest inside", "thickness", attrgetter("farthest_in.inside")),
+        Column("farthest outside", "thickness", attrgetter("farthest_out.outside")),
+        Column("room on the rolls", "thickness", attrgetter("turn.room")),
+        Column("minimum against drift", "length", lambda row: max(s.least for s in row.states)),
+        Column("maximum against drift", "length", lambda row: min(s.most for s in row.states)),
+    )
+    note = (
+        "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
+        "its rolls, or no radius is too large."
+    )
+    page = (OnPage("belt", "Horizontal curves"),)
+    return Table(
+        "horizontal_curves",
+        "Loop",
+        "Horizontal curves",
+        columns,
+        a.horizontal,
+        page,
+        note if a.horizontal else "",
+    )
+
+
+def curve_edges(a: CalculatedConveyor) -> Table:
+    """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("minimum against overstress", "length", attrgetter("overstress")),
+        Column("minimum against a slack edge", "length", attrgetter("buckling")),
+        Column("highest at the outer edge", "strength", attrgetter("most")),
+        Column("lowest at the inner edge", "strength", attrgetter("least")),
+    )
+    rows = tuple(curve for curve in a.horizontal if curve.most is not None)
+    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
+    heading = "Edges of the belt in horizontal curves"
+    return Table("curve_edges", "Loop", heading, columns, rows, (OnPage("belt", heading),), note)
+
+
+def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a horizontal curve, strand, case and state: tensions, drift, radii."""
+    system = a.conveyor.report.units
+    rows = tuple(
+        (bend, label.text(system), state)
+        for label, found in (_loads(a, studies) if a.horizontal else ())
+        for bend in found.horizontal
+        for state in bend.states
+    )
+    columns = (
+        Column("section", "text", lambda row: row[0].section),
+        Column("strand", "text", lambda row: row[0].strand),
+        Column("case", "text", itemgetter(1)),
+        Column("state", "text", lambda row: row[2].state),
+        Column("lowest tension", "force", lambda row: row[2].lowest),
+        Column("highest tension", "force", lambda row: row[2].highest),
+        Column("farthest inside", "thickness", lambda row: row[2].inside),
+        Column("farthest outside", "thickness", lambda row: row[2].outside),
+        Column("minimum against drift", "length", lambda row: row[2].least),
+        Column("maximum against drift", "length", lambda row: row[2].most),
+    )
+    heading = "Drift in horizontal curves in every case and state"
+    return Table("drift_states", "States", heading, columns, rows, printed=False)
 
 
 def transitions(a: CalculatedConveyor) -> Table:
@@ -1253,7 +1481,9 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
+def drawings(
+    a: CalculatedConveyor, system: System, studies: CalculatedStudies | None = None
+) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
@@ -1274,12 +1504,40 @@ def drawings(a: CalculatedConveyor, system: System) -> Iterator[Drawing]:
         lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
+    yield from of_discharge(a, system)
+    if a.horizontal:
+        yield Drawing(
+            "plan",
+            "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
+            lambda: loop_plots.plan(a.line, system=system),
+            "sections",
+        )
+        yield Drawing(
+            "drift",
+            "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
+            lambda: loop_plots.drift(
+                [
+                    (label.text(system).removeprefix("load state "), found.horizontal)
+                    for label, found in _loads(a, studies)
+                ],
+                system=system,
+            ),
+            "horizontal_curves",
+        )
     yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
         lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
         "distinct_rolls",
     )
+    if any(duty.limits.flap_margin is not None for duty in a.set_duty):
+        yield Drawing(
+            "flap",
+            "Natural frequencies of the belt between the idlers in steady running, and rotation of the rolls with the "
+            "distance wanted.",
+            lambda: loop_plots.flap_diagram(a, system=system),
+            "idler_sets",
+        )
     strands = compounds_by_strand(conveyor)
     worked = {compound.name: compound for compound in strands.values()}
     for k, (name, compound) in enumerate(worked.items(), start=1):

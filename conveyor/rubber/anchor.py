@@ -67,34 +67,13 @@ class Anchor:
     points: int
 
     def factor(self, line_load: ArrayLike, temperature: float) -> FloatArray:
-        """Measured over calculated indentation.
-
-        Parameters
-        ----------
-        line_load : array_like
-            w, any shape [N/m]; beyond the tested loads the factor of the nearest is held.
-        temperature : float
-            T [K]; beyond the tested temperatures that of the nearest is held.
-
-        Returns
-        -------
-        ndarray
-            Shape of `line_load` [-].
-        """
+        """Measured over calculated indentation [-] at line loads [N/m] and a temperature [K], held beyond the tests."""
         held = np.clip(np.asarray(line_load, dtype=np.float64), *self.loads)
         level = float(np.interp(temperature, self.temperatures, self.levels))
         return np.asarray(np.exp(level + self.slope * np.log(held / self.load)))
 
     def band(self, line_load: float, temperature: float) -> float:
-        """Half-width of ln factor that holds nine tenths, wider beyond the tests.
-
-        Parameters
-        ----------
-        line_load : float
-            w [N/m].
-        temperature : float
-            T [K].
-        """
+        """Half-width of ln factor that holds nine tenths [-], at a load [N/m] and temperature [K]."""
         beyond = abs(temperature - min(max(temperature, self.temperatures[0]), self.temperatures[-1]))
         outside = abs(math.log(line_load / min(max(line_load, self.loads[0]), self.loads[1])))
         return math.hypot(self.half_width, PER_KELVIN * beyond, PER_LOAD * outside)
@@ -108,19 +87,7 @@ class Anchor:
 def fit_anchor(
     line_load: ArrayLike, temperature: ArrayLike, ratio: ArrayLike, *, uncertainty: float
 ) -> Anchor:
-    """Fit the factor to ratios of measured and calculated indentation.
-
-    Parameters
-    ----------
-    line_load, temperature, ratio : array_like, shape (n,)
-        w [N/m], T [K], measured over calculated [-] of every test.
-    uncertainty : float
-        Half-width of nine tenths of repeated tests, relative [-], at least 0.
-
-    Raises
-    ------
-    InputError
-        A value is not finite and > 0, or lengths differ.
+    """Fit the factor to ratios of measured and calculated indentation [-] at line loads [N/m] and temperatures [K].
 
     Notes
     -----

@@ -14,29 +14,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 def positive(name: str, value: float, unit: str, advice: str = "") -> float:
-    """Refuse a number that is not finite and > 0.
-
-    Parameters
-    ----------
-    name : str
-        Name shown in the message [-].
-    value : float
-        The number to check [unit].
-    unit : str
-        Its unit, shown in the message [-].
-    advice : str
-        What to do instead, appended to the message [-].
-
-    Returns
-    -------
-    float
-        `value` as a plain float [unit].
-
-    Raises
-    ------
-    InputError
-        If `value` is not finite or not > 0.
-    """
+    """A number, refused unless finite and > 0."""
     number = float(value)
     if not (math.isfinite(number) and number > 0.0):
         raise InputError(f"{name} = {number:g} {unit} must be finite and > 0{advice}")
@@ -44,27 +22,7 @@ def positive(name: str, value: float, unit: str, advice: str = "") -> float:
 
 
 def finite_vector(name: str, values: ArrayLike, unit: str) -> FloatArray:
-    """Copy a one-dimensional array and refuse entries that are not finite.
-
-    Parameters
-    ----------
-    name : str
-        Name shown in the message [-].
-    values : array_like
-        Shape `(n,)` [unit].
-    unit : str
-        Unit shown in the message [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        A copy, shape `(n,)` [unit].
-
-    Raises
-    ------
-    InputError
-        If the shape is not `(n,)` or an entry is not finite.
-    """
+    """Copy of a one-dimensional array, refused unless finite."""
     array = np.array(values, dtype=np.float64)
     if array.ndim != 1:
         raise InputError(f"{name} must be one-dimensional, shape (n,); got shape {array.shape}")
@@ -75,27 +33,7 @@ def finite_vector(name: str, values: ArrayLike, unit: str) -> FloatArray:
 
 
 def positive_vector(name: str, values: ArrayLike, unit: str) -> FloatArray:
-    """Copy a one-dimensional array and refuse entries that are not finite and > 0.
-
-    Parameters
-    ----------
-    name : str
-        Name shown in the message [-].
-    values : array_like
-        Shape `(n,)` [unit].
-    unit : str
-        Unit shown in the message [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        A copy, shape `(n,)` [unit].
-
-    Raises
-    ------
-    InputError
-        If the shape is not `(n,)` or an entry is not finite and > 0.
-    """
+    """Copy of a one-dimensional array, refused unless finite and > 0."""
     array = finite_vector(name, values, unit)
     bad = np.flatnonzero(array <= 0.0)
     if bad.size:
@@ -104,27 +42,7 @@ def positive_vector(name: str, values: ArrayLike, unit: str) -> FloatArray:
 
 
 def non_negative(name: str, values: ArrayLike, unit: str) -> FloatArray:
-    """Refuse anything but finite numbers >= 0, of any shape.
-
-    Parameters
-    ----------
-    name : str
-        Name shown in the message [-].
-    values : array_like
-        Any shape [unit].
-    unit : str
-        Unit shown in the message [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        The values, same shape [unit].
-
-    Raises
-    ------
-    InputError
-        If an entry is negative or not finite.
-    """
+    """Numbers of any shape, refused unless finite and >= 0."""
     array = np.asarray(values, dtype=np.float64)
     bad = array[~(np.isfinite(array) & (array >= 0.0))]
     if bad.size:
@@ -135,29 +53,7 @@ def non_negative(name: str, values: ArrayLike, unit: str) -> FloatArray:
 def spectrum(
     weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
-    """Check and sort the lines of a discrete spectrum.
-
-    Parameters
-    ----------
-    weight_name : str
-        Name of the weights in messages [-].
-    weights : array_like
-        Moduli or compliances, shape `(n,)`, > 0 [unit].
-    unit : str
-        Their unit [-].
-    times : array_like
-        Distinct times, shape `(n,)`, > 0 [s].
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Weights [unit] and times [s] in ascending order of time, read-only, shape `(n,)`.
-
-    Raises
-    ------
-    InputError
-        If shapes differ, an entry is not finite and > 0, or two times are equal.
-    """
+    """Weights and times [s] of a discrete spectrum, checked, by ascending time, read-only."""
     w = positive_vector(weight_name, weights, unit)
     t = positive_vector("times", times, "s")
     if w.shape != t.shape:

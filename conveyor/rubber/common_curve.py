@@ -49,20 +49,7 @@ class Basis:
 
 
 def basis(x: FloatArray, spacing: float) -> Basis:
-    """Set up the splines.
-
-    Parameters
-    ----------
-    x : numpy.ndarray
-        log10 of the reduced frequency, shape `(n,)` [decades].
-    spacing : float
-        Distance of the knots [decades].
-
-    Returns
-    -------
-    Basis
-        Splines over the range of `x`.
-    """
+    """Splines over log10 of the reduced frequency, shape `(n,)`, with knots at a distance [decades]."""
     from scipy.interpolate import BSpline
 
     first, last = int(np.floor(x.min() / spacing)), int(np.floor(x.max() / spacing)) + 1
@@ -152,15 +139,10 @@ class Smoother:
         return free * float(np.log(max(one.cost, np.finfo(np.float64).tiny))) + one.occam
 
     def best_stiffness(self) -> float:
-        """Stiffness of highest restricted likelihood.
+        """Stiffness of highest restricted likelihood: log10 of the factor on the penalty [-].
 
         G. Wahba, Ann. Statist. 13 (1985) 1378-1402 (generalised maximum likelihood); P. H. C. Eilers,
         B. D. Marx, Statist. Sci. 11 (1996) 89-121 (penalised B-splines).
-
-        Returns
-        -------
-        float
-            log10 of the factor on the penalty [-].
         """
         coarse = STIFFNESS[int(np.argmin([self.likelihood(float(s)) for s in STIFFNESS]))]
         near = coarse + FINE

@@ -319,29 +319,7 @@ def _judged(
 
 
 def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
-    """Error that the best of all positive spectra leaves, without a fit: see `PronyFit.consistency_floor`.
-
-    Parameters
-    ----------
-    frequency : array_like
-        Cyclic frequency, shape `(n,)` [Hz].
-    storage : array_like
-        E', shape `(n,)` [Pa].
-    loss : array_like
-        E'', shape `(n,)` [Pa].
-
-    Returns
-    -------
-    float
-        Root mean square of the errors of E' and E'' relative to a dense fit [-].
-
-    Raises
-    ------
-    InputError
-        As `fit_prony`.
-    NoSolutionError
-        If no term is active.
-    """
+    """Error that the best of all positive spectra leaves [-], without a fit: see `PronyFit.consistency_floor`."""
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
     best = _best_errors(
         relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None)

@@ -18,31 +18,6 @@ def interlaced(
 ) -> tuple[FloatArray, FloatArray]:
     r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``.
 
-    Parameters
-    ----------
-    constant : float
-        Value at s = 0, > 0 [modulus or compliance].
-    weights : numpy.ndarray
-        Weights, shape `(n,)`, > 0 [as `constant`].
-    times : numpy.ndarray
-        Times in ascending order, distinct, shape `(n,)` [s].
-    reciprocal : bool
-        Work on 1/`times` instead (the retardation form has s and 1/s exchanged); the differences
-        of the reciprocals are then formed without rounding them first [-].
-
-    Returns
-    -------
-    excess : numpy.ndarray
-        Root i relative to pole i: ``L_i = t_i (1 + excess_i)``, shape `(n,)` [-]. With `reciprocal`
-        poles and roots are 1/t in ascending order.
-    residues : numpy.ndarray
-        Weights of the inverse, shape `(n,)`, > 0 [1/`constant`].
-
-    Raises
-    ------
-    NoSolutionError
-        If the iteration does not settle (weights beyond the range of double precision).
-
     Notes
     -----
     With s = -1/L the roots solve ``1 = sum_j g_j t_j/(L - t_j)``, ``g_j = weights_j/constant``: one root

@@ -122,23 +122,7 @@ class JointShift:
         self.lower, self.upper = np.vstack([limits, free]).T
 
     def minimum(self, start: FloatArray) -> Placed:
-        """Alternate between the choice of stiffness, noise, weights and the steps of the shifts.
-
-        Parameters
-        ----------
-        start : numpy.ndarray
-            log10 a_T, then ln b_T, of each isotherm less its hotter neighbour, shape `(2, n - 1)`.
-
-        Returns
-        -------
-        Placed
-            The minimum.
-
-        Raises
-        ------
-        NoSolutionError
-            If the data do not determine the shifts, or no minimum is found.
-        """
+        """Alternate between stiffness, noise, weights and steps of log10 a_T and ln b_T less a neighbour's."""
         place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
         share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
         state = self._choose(place, weight, share)
@@ -157,24 +141,7 @@ class JointShift:
         )
 
     def score(self, place: FloatArray, residual: FloatArray) -> float:
-        """Rao's score of a place: how far the cost would fall from it, were it the parabola it looks like.
-
-        Parameters
-        ----------
-        place : numpy.ndarray
-            Unknowns, shape `(n - 1,)` or `(2n - 2,)`.
-        residual : numpy.ndarray
-            ln E about its curve there, shape `(moduli, m)` [-].
-
-        Returns
-        -------
-        float
-            Chi squared, of as many degrees of freedom as unknowns that are not at their minimum [-].
-
-        Raises
-        ------
-        NoSolutionError
-            If the data do not determine the unknowns.
+        """Rao's score of a place: chi squared, how far the cost would fall, were it the parabola it seems.
 
         References
         ----------

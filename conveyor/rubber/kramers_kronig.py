@@ -201,45 +201,6 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     )
 
 
-def local_loss(frequency: ArrayLike, storage: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    r"""Quick look, ``E'' = (pi/2) dE'/d ln omega``, between neighbouring rows.
-
-    Booij & Thoone (1982), the first of their approximations: exact where E' is a straight line in ln omega,
-    too large at a peak of E'' and too small beside it.
-
-    Parameters
-    ----------
-    frequency : array_like
-        Cyclic frequency, shape `(n,)`, ascending [Hz].
-    storage : array_like
-        E' at them, shape `(n,)` [Pa].
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Geometric mean frequencies [Hz] and E'' at them [Pa], shape `(n - 1,)`.
-
-    Raises
-    ------
-    InputError
-        If shapes differ or the frequencies do not ascend.
-
-    Examples
-    --------
-    >>> f, loss = local_loss([1.0, np.e], [1e6, 2e6])
-    >>> round(float(loss[0] / 1e6), 4)
-    1.5708
-    """
-    f, e1 = np.asarray(frequency, dtype=np.float64), np.asarray(storage, dtype=np.float64)
-    if f.ndim != 1 or f.shape != e1.shape or f.size < 2:
-        raise InputError(f"frequency and storage must have one shape (n,), n >= 2; got {f.shape}, {e1.shape}")
-    if not (np.all(f > 0.0) and np.all(np.diff(f) > 0.0)):
-        raise InputError(
-            "frequency must be > 0 and ascend without repetition: sort, and average repeated rows"
-        )
-    return np.sqrt(f[1:] * f[:-1]), np.asarray(0.5 * np.pi * np.diff(e1) / np.diff(np.log(f)))
-
-
 def _one_sided(rows: Rows, tau: FloatArray, ignored: slice) -> tuple[FloatArray, float]:
     """Spectrum of one modulus, equilibrium first [Pa], and its misfit to that modulus [-]."""
     scale = rows.scale.copy()

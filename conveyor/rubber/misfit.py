@@ -39,18 +39,6 @@ class Misfit:
 def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
     """Sum up relative errors.
 
-    Parameters
-    ----------
-    error : numpy.ndarray
-        Model over data minus one, shape `(n,)` [-].
-    frequency : numpy.ndarray
-        Cyclic frequencies, shape `(n,)` [Hz].
-
-    Returns
-    -------
-    Misfit
-        Root mean square and worst row.
-
     Examples
     --------
     >>> import numpy as np
@@ -62,17 +50,7 @@ def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
 
 
 def trust(error: FloatArray) -> FloatArray:
-    """Weights that bound, and then end, the pull of a residual: Hampel's three-part loss.
-
-    Parameters
-    ----------
-    error : numpy.ndarray
-        Relative residuals of one modulus, shape `(n,)` [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape `(n,)`: 1 for what scatters, 0 for what is something else, by the median absolute residual [-].
+    """Weights, 1 to 0, that bound, and then end, the pull of a residual: Hampel's three-part loss.
 
     References
     ----------
@@ -90,23 +68,11 @@ def trust(error: FloatArray) -> FloatArray:
 
 
 def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
-    r"""Noise of the data themselves, without any model: each row against the line through its neighbours.
+    r"""Relative standard deviation of a row from the line through its neighbours [-]; None below three rows.
 
     Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633: with
     ``eps_i = a y_{i-1} + b y_{i+1} - y_i`` (linear interpolation of y = ln modulus in x = ln frequency),
     ``sigma^2 = mean of eps_i^2/(a^2 + b^2 + 1)``.
-
-    Parameters
-    ----------
-    frequency : numpy.ndarray
-        Ascending frequencies, shape `(n,)` [Hz].
-    modulus : numpy.ndarray
-        Modulus at them, shape `(n,)` [Pa].
-
-    Returns
-    -------
-    float or None
-        Relative standard deviation of a row [-]; None for fewer than three rows.
 
     Notes
     -----
@@ -131,18 +97,7 @@ def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
 
 
 def neighbour_correlation(error: FloatArray) -> float:
-    """Correlation of each residual with the next one in frequency.
-
-    Parameters
-    ----------
-    error : numpy.ndarray
-        Residuals in ascending frequency, shape `(n,)` [-].
-
-    Returns
-    -------
-    float
-        ``sum e_i e_{i+1} / sum e_i^2`` [-]: within 2/sqrt(n) of zero for noise, near one for a misfit with a
-        shape; 0 for residuals that vanish.
+    """Correlation of each residual with the next in frequency [-]: 0 for noise, 1 for a misfit with a shape.
 
     Examples
     --------

@@ -48,13 +48,13 @@ class MonotoneCubic:
     def __call__(self, at: ArrayLike) -> FloatArray:
         """Values at places between the first and the last, shape of `at`."""
         at = np.asarray(at, dtype=float)
-        i = np.clip(np.searchsorted(self._x, at, side="right") - 1, 0, self._x.size - 2)
-        step = self._x[i + 1] - self._x[i]
-        t = (at - self._x[i]) / step
-        rise = self._y[i + 1] - self._y[i]
+        i = np.minimum(np.maximum(np.searchsorted(self._x, at, side="right"), 1), self._x.size - 1) - 1
+        low, base = self._x[i], self._y[i]
+        step, rise = self._x[i + 1] - low, self._y[i + 1] - base
+        t = (at - low) / step
         first, last = step * self._slope[i], step * self._slope[i + 1]
         return np.asarray(
-            self._y[i] + t * (first + t * (3.0 * rise - 2.0 * first - last + t * (first + last - 2.0 * rise)))
+            base + t * (first + t * (3.0 * rise - 2.0 * first - last + t * (first + last - 2.0 * rise)))
         )
 
 

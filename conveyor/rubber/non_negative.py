@@ -14,18 +14,6 @@ SLACK = 10.0
 def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
     r"""Weights >= 0 of least \|matrix weights - target\|.
 
-    Parameters
-    ----------
-    matrix : numpy.ndarray
-        Columns to be combined, shape `(m, n)` [-].
-    target : numpy.ndarray
-        What they are to give, shape `(m,)` [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape `(n,)` [-].
-
     Notes
     -----
     The answer of `scipy.optimize.nnls` is taken where it meets the Kuhn-Tucker conditions to rounding
@@ -52,23 +40,7 @@ def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
-    r"""How far weights >= 0 are from the Kuhn-Tucker conditions of the minimum.
-
-    Parameters
-    ----------
-    matrix : numpy.ndarray
-        Columns, shape `(m, n)` [-].
-    target : numpy.ndarray
-        What they are to give, shape `(m,)` [-].
-    weights : numpy.ndarray
-        Shape `(n,)` [-].
-
-    Returns
-    -------
-    float
-        Largest slope of the error along a column, of either sign where its weight is > 0, else the falling ones;
-        over \|column\| and over \|target\| and the sizes that cancel in the error [-].
-    """
+    r"""How far weights >= 0 are from the Kuhn-Tucker conditions: the largest slope that should be 0 [-]."""
     length = _lengths(matrix)
     falls = (target - matrix @ weights) @ matrix / length
     steepest = float(np.where(weights > 0.0, np.abs(falls), falls).max())
@@ -78,18 +50,6 @@ def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
 
 def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
     """Follow Lawson and Hanson's active set, with unit columns, as long as the computed error falls.
-
-    Parameters
-    ----------
-    matrix : numpy.ndarray
-        Columns, shape `(m, n)` [-].
-    target : numpy.ndarray
-        What they are to give, shape `(m,)` [-].
-
-    Returns
-    -------
-    numpy.ndarray
-        Weights, shape `(n,)` [-].
 
     Notes
     -----

@@ -75,22 +75,7 @@ class Overlap:
 
 
 def differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> FloatArray:
-    """Difference of the moduli, cold less hot, at every row of both; NaN outside the overlap.
-
-    Parameters
-    ----------
-    cold : LogIsotherm
-        The colder isotherm.
-    hot : LogIsotherm
-        The hotter one.
-    shift : numpy.ndarray
-        log10 a_T of the cold one less that of the hot one, shape `(m,)` [decades].
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape `(2, m, rows)`: ln E', then ln E'' [-].
-    """
+    """Cold less hot of ln E' and ln E'' at `m` shifts [decades], `(2, m, rows)`; NaN outside the overlap."""
     on_hot, on_cold = cold.x + shift[:, None], hot.x - shift[:, None]
     outside = {"left": np.nan, "right": np.nan}
     return np.array(
@@ -107,22 +92,7 @@ def differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> Float
 
 
 def reach(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERLAP) -> tuple[float, float]:
-    """Shifts between which a share of the shorter isotherm lies in the overlap.
-
-    Parameters
-    ----------
-    cold : LogIsotherm
-        The colder isotherm.
-    hot : LogIsotherm
-        The hotter one.
-    share : float
-        Of the shorter isotherm [-].
-
-    Returns
-    -------
-    tuple of float
-        Least and largest log10 a_T of the cold one less that of the hot one [decades].
-    """
+    """Least and largest shift [decades] at which a share of the shorter isotherm lies in the overlap."""
     least = share * min(float(np.ptp(cold.x)), float(np.ptp(hot.x)))
     return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
 
@@ -130,29 +100,7 @@ def reach(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERLAP) -> 
 def first_guess(
     cold: LogIsotherm, hot: LogIsotherm, *, moduli: tuple[int, ...], vertical: bool
 ) -> tuple[float, float]:
-    """Shift that makes the mean square difference in the overlap smallest, on a grid.
-
-    Parameters
-    ----------
-    cold : LogIsotherm
-        The colder isotherm.
-    hot : LogIsotherm
-        The hotter one.
-    moduli : tuple of int
-        Those that count: 0 is E', 1 is E'' [-].
-    vertical : bool
-        Whether the moduli may be scaled too [-].
-
-    Returns
-    -------
-    tuple of float
-        log10 a_T [decades] and ln b_T [-] of the cold one less those of the hot one.
-
-    Raises
-    ------
-    InputError
-        If no modulus E' occurs in both.
-    """
+    """Shift [decades] and ln b_T [-] of the least mean square difference in the overlap, on a grid."""
     _check_common_modulus(cold, hot)
     nearest, farthest = reach(cold, hot, FIRST_OVERLAP)
     nearest = min(max(0.0, nearest), farthest)
@@ -169,26 +117,7 @@ def first_guess(
 
 
 def overlap(cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool) -> Overlap:
-    """Sum up the overlap of two neighbours.
-
-    Parameters
-    ----------
-    cold : LogIsotherm
-        The colder isotherm.
-    hot : LogIsotherm
-        The hotter one.
-    shift : float
-        log10 a_T of the cold one less that of the hot one [decades].
-    offset : float
-        ln b_T of the cold one less that of the hot one [-].
-    held : bool
-        Whether the shift is at the limit of `reach` [-].
-
-    Returns
-    -------
-    Overlap
-        Length and differences.
-    """
+    """Length and differences at a shift [decades] and offset of ln b_T; `held`: at a limit of `reach`."""
     decades = min(cold.x[-1] + shift, hot.x[-1]) - max(cold.x[0] + shift, hot.x[0])
     error = differences(cold, hot, np.array([shift])) - offset
     rms = np.sqrt(np.nanmean(error[:, 0] ** 2, axis=1))

@@ -60,20 +60,7 @@ class Rows:
 
 
 def kernel(omega: FloatArray, tau: FloatArray) -> FloatArray:
-    """E' above E'' of a unit equilibrium modulus and of a unit term at each time.
-
-    Parameters
-    ----------
-    omega : numpy.ndarray
-        Angular frequencies, shape `(n,)` [rad/s].
-    tau : numpy.ndarray
-        Relaxation times, shape `(m,)` [s].
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape `(2n, 1 + m)` [-].
-    """
+    """E' above E'' of a unit equilibrium modulus and of a unit term at each time."""
     x = np.outer(omega, tau)
     debye = x / np.square(np.hypot(1.0, x))
     top = np.column_stack([np.ones_like(omega), x * debye])
@@ -88,32 +75,7 @@ def checked_rows(
     storage_error: ArrayLike | None,
     loss_error: ArrayLike | None,
 ) -> Rows:
-    """Check every row, then sort by frequency.
-
-    Parameters
-    ----------
-    frequency : array_like
-        Cyclic frequency, shape `(n,)`, any order [Hz].
-    storage : array_like
-        E', shape `(n,)` [Pa].
-    loss : array_like
-        E'', shape `(n,)` [Pa].
-    storage_error : array_like or None
-        Relative standard error of E', a number or shape `(n,)` [-].
-    loss_error : array_like or None
-        Relative standard error of E'', a number or shape `(n,)` [-].
-
-    Returns
-    -------
-    Rows
-        With errors relative to the data.
-
-    Raises
-    ------
-    InputError
-        If shapes differ, a value is not finite and > 0, one error is given without the other, or fewer than
-        two frequencies are distinct.
-    """
+    """Rows, checked and sorted by frequency [Hz, Pa], with errors relative to the data."""
     columns = {"frequency": (frequency, "Hz"), "storage": (storage, "Pa"), "loss": (loss, "Pa")}
     arrays = {name: np.array(values, dtype=np.float64) for name, (values, _) in columns.items()}
     f = arrays["frequency"]
@@ -151,25 +113,7 @@ def _spread(size: int, storage_error: ArrayLike | None, loss_error: ArrayLike | 
 
 
 def held_equilibrium(equilibrium: float, storage: FloatArray) -> float:
-    """Refuse an equilibrium modulus that is not below every E'.
-
-    Parameters
-    ----------
-    equilibrium : float
-        E_e to hold [Pa].
-    storage : numpy.ndarray
-        E', shape `(n,)` [Pa].
-
-    Returns
-    -------
-    float
-        `equilibrium` [Pa].
-
-    Raises
-    ------
-    InputError
-        If it is not finite, > 0 and below every E'.
-    """
+    """An equilibrium modulus [Pa], refused unless below every E'."""
     value = positive("equilibrium", equilibrium, "Pa")
     if value >= storage.min():
         raise InputError(
@@ -179,48 +123,13 @@ def held_equilibrium(equilibrium: float, storage: FloatArray) -> float:
 
 
 def even_times(omega: FloatArray, per_decade: float, extra: float = 0.0) -> FloatArray:
-    """Space times evenly in log over the window 1/omega, ends included.
-
-    Parameters
-    ----------
-    omega : numpy.ndarray
-        Ascending angular frequencies, shape `(n,)` [rad/s].
-    per_decade : float
-        Density of the times [1/decade].
-    extra : float
-        Reach beyond both ends of the window [decades].
-
-    Returns
-    -------
-    numpy.ndarray
-        At least two times, ascending [s].
-    """
+    """Times [s], even in log over the window 1/omega, ends included."""
     low, high = -np.log10(omega[-1]) - extra, -np.log10(omega[0]) + extra
     return np.logspace(low, high, max(2, round((high - low) * per_decade) + 1))
 
 
 def given_times(times: ArrayLike, omega: FloatArray, held: float | None) -> FloatArray:
-    """Check times chosen by the user.
-
-    Parameters
-    ----------
-    times : array_like
-        Relaxation times, shape `(m,)`, any order [s].
-    omega : numpy.ndarray
-        Ascending angular frequencies, shape `(n,)` [rad/s].
-    held : float or None
-        Equilibrium modulus held; without one the times stay inside the window [Pa].
-
-    Returns
-    -------
-    numpy.ndarray
-        Distinct times, ascending [s].
-
-    Raises
-    ------
-    InputError
-        If a time is not finite and > 0, or outside the window while E_e is free.
-    """
+    """Times chosen by the user [s], distinct and ascending."""
     tau = np.unique(positive_vector("times", times, "s"))
     low, high = 1.0 / omega[-1], 1.0 / omega[0]
     slack = 1e-9  # a time typed as the rounded end of the window is not outside it
@@ -234,21 +143,7 @@ def given_times(times: ArrayLike, omega: FloatArray, held: float | None) -> Floa
 
 
 def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
-    """Non-negative least squares of the rows as they stand.
-
-    Parameters
-    ----------
-    rows : Rows
-        The measurements.
-    tau : numpy.ndarray
-        Relaxation times, shape `(m,)` [s].
-    held : float or None
-        Equilibrium modulus held; fitted without one [Pa].
-
-    Returns
-    -------
-    numpy.ndarray
-        Moduli, equilibrium first, shape `(1 + m,)` [Pa].
+    """Moduli [Pa], equilibrium first: non-negative least squares of the rows as they stand.
 
     References
     ----------
@@ -271,25 +166,6 @@ def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
 
 def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
     """Replace the data in the denominators by the fit, by a few passes of `plain`, and end the pull of outliers.
-
-    Parameters
-    ----------
-    rows : Rows
-        The measurements, relative to the data.
-    tau : numpy.ndarray
-        Relaxation times of the passes, shape `(m,)` [s].
-    held : float or None
-        Equilibrium modulus held; fitted without one [Pa].
-
-    Returns
-    -------
-    Rows
-        The same measurements, relative to a fit.
-
-    Raises
-    ------
-    NoSolutionError
-        If no term is active.
 
     Notes
     -----

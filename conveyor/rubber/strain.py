@@ -262,7 +262,8 @@ class AmplitudeFactors:
         for level, weight in self._between(positive("temperature", temperature, "K")):
             runs = self._runs[name][level]
             label = f"factor of the {name} modulus at {self.temperatures[level]:.2f} K"
-            out += weight * np.mean([run.at(flat, label) for run in runs], axis=0)
+            for run in runs:
+                out += (weight / len(runs)) * run.at(flat, label)
         return out.reshape(array.shape)[()]
 
     def _between(self, temperature: float) -> list[tuple[int, float]]:

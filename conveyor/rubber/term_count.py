@@ -200,20 +200,6 @@ def aicc(count: int, freedom: float, residual: float) -> float:
     C. M. Hurvich, J. S. Simonoff, C.-L. Tsai, J. R. Stat. Soc. B 60 (1998) 271-293, Eq. for AICc with k the
     trace of the hat matrix: it chooses the number of terms and the strength of the penalty alike.
 
-    Parameters
-    ----------
-    count : int
-        Number N of rows, E' and E'' together [-].
-    freedom : float
-        Effective number k of parameters, below N - 2 [-].
-    residual : float
-        Root mean square relative error s [-].
-
-    Returns
-    -------
-    float
-        AICc [-].
-
     Examples
     --------
     >>> aicc(100, 10.0, 0.01) < aicc(100, 20.0, 0.0099)
@@ -226,27 +212,7 @@ def aicc(count: int, freedom: float, residual: float) -> float:
 def choose(
     rows: Rows, held: float | None, strengths: tuple[float, ...] = STRENGTHS
 ) -> tuple[FloatArray, float, tuple[Candidate, ...]]:
-    """Fit every density and strength and take the fewest terms that the data support.
-
-    Parameters
-    ----------
-    rows : Rows
-        The measurements.
-    held : float or None
-        Equilibrium modulus held; fitted without one [Pa].
-    strengths : tuple of float
-        Strengths of the penalty to offer [-].
-
-    Returns
-    -------
-    tuple
-        Times offered by the chosen candidate [s], its strength [-], and the table, chosen candidate first,
-        the rest by score.
-
-    Raises
-    ------
-    InputError
-        If there are too few rows to judge even the smallest series.
+    """Times [s], strength and table of the fit with the fewest terms that the data support.
 
     Notes
     -----

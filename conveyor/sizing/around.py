@@ -53,16 +53,16 @@ def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
     """
     base = replace(design.choice, graduated=())
     axes = list(_axes(task, base, design.chosen.bottom))
-    varied = [choice for _, _, _, points in axes for _, choice in points if choice is not None]
+    varied = list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
     begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
-    found = iter(settled(task, begin, design.found))
+    found = dict(zip(varied, settled(task, begin, []), strict=True))
     return tuple(
         VariedChoice(
             name,
             kind,
             tuple(value for value, _ in points),
             tuple(
-                "keeps no rule of filling, speed or rolls" if choice is None else next(found)
+                "keeps no rule of filling, speed or rolls" if choice is None else found[choice]
                 for _, choice in points
             ),
             at,

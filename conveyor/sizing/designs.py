@@ -9,12 +9,12 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Final
 
 import numpy as np
 
-from conveyor.checks import checks
+from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.energy import next_motor
@@ -24,7 +24,15 @@ from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many, take_up_of
+from conveyor.pipeline import (
+    Anchors,
+    CalculatedConveyor,
+    NoAnswer,
+    Progress,
+    Variant,
+    calculate_many,
+    take_up_of,
+)
 from conveyor.sizing.costs import Costs, Parts, costs
 from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
 from conveyor.studies.states import at_one_take_up, load_states
@@ -156,13 +164,13 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
             "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
             "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
         )
-    levels = first_levels(len(duty.covers))
+    candidates, choices, levels = len(choices), choices.taken_up(), first_levels(len(duty.covers))
     estimate = screen(task, choices, levels)
     probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
     if not probes:
         raise NoSolutionError(_TOO_MUCH)
-    first = _first(task, choices, estimate, probes)
-    known = next((one for one in first if one is not None), None)
+    anchors: Anchors = []
+    first = _first(task, choices, estimate, probes, anchors)
     levels = _levels(choices, estimate, probes, first, levels)
     found: dict[int, SizedDesign | str] = {}
     for _ in range(_SCREENINGS):
@@ -170,20 +178,20 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
         new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in found]
         if progress is not None:
             progress(len(found), len(found) + len(new))
-        found |= zip(new, _designs(task, choices, estimate, new, known), strict=True)
+        found |= zip(new, _designs(task, choices, estimate, new, anchors), strict=True)
         made = {i: one for i, one in found.items() if isinstance(one, SizedDesign)}
         levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
     if not found:
         raise NoSolutionError(_TOO_MUCH)
     reasons = Counter(one for one in found.values() if isinstance(one, str))
-    final = _final(task, made.values(), best, known, reasons)
+    final = _final(task, made.values(), best, anchors, reasons)
     if not final:
         told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
         raise NoSolutionError(f"no candidate of {len(found)} calculated keeps every check: {told}")
     return CalculatedSizing(
         duty,
         tuple(final[:best]),
-        len(choices),
+        candidates,
         int(np.isfinite(estimate.year).sum()),
         len(found),
         reasons,
@@ -195,18 +203,18 @@ def _final(
     task: SizingTask,
     designs: Iterable[SizedDesign],
     best: int,
-    known: CalculatedConveyor | None,
+    anchors: Anchors,
     reasons: Counter[str],
 ) -> list[SizedDesign]:
     """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
     ranked = sorted(designs, key=_year)
     if task.rules.graduated and len(task.sections) > 1:
-        ranked = sorted([*_graduated(task, ranked[:best]), *ranked[best:]], key=_year)
+        ranked = sorted([*_graduated(task, ranked[:best], anchors), *ranked[best:]], key=_year)
     final: list[SizedDesign] = []
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
-        batch, ranked = ranked[:best], ranked[best:]
-        begin = [(design.choice, design.chosen, design.estimate) for design in batch]
-        for one in settled(task, begin, known, every_load=True, made=batch):
+        batch, ranked = ranked[: max(1, best - len(final))], ranked[max(1, best - len(final)) :]
+        begin = [(design.choice, _foreseen(task, design), design.estimate) for design in batch]
+        for one in settled(task, begin, anchors, every_load=True, made=batch):
             if isinstance(one, SizedDesign):
                 final.append(one)
             else:
@@ -238,13 +246,13 @@ def _shortlist(
 
 
 def _first(
-    task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int]
+    task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int], anchors: Anchors
 ) -> list[CalculatedConveyor | None]:
     """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
     specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
     return [
         one if isinstance(one, CalculatedConveyor) else None
-        for one in calculate_many([Variant(spec) for spec in specs], RTOL)
+        for one in calculate_many([Variant(spec) for spec in specs], RTOL, anchors=anchors)
     ]
 
 
@@ -289,17 +297,17 @@ def _designs(
     choices: Candidates,
     estimate: Screened,
     chosen: Sequence[int],
-    known: CalculatedConveyor | None,
+    anchors: Anchors,
 ) -> list[SizedDesign | str]:
     """Candidates calculated exactly."""
     begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
-    return settled(task, begin, known)
+    return settled(task, begin, anchors)
 
 
 def settled(
     task: SizingTask,
     begin: Sequence[tuple[Choice, Chosen, float]],
-    known: CalculatedConveyor | None,
+    anchors: Anchors,
     *,
     every_load: bool = False,
     made: Sequence[SizedDesign] = (),
@@ -312,8 +320,8 @@ def settled(
         The duty.
     begin : sequence of (Choice, Chosen, float)
         Candidates, class and motors to begin with, cost of a year by the estimate.
-    known : CalculatedConveyor, optional
-        Calculated already: the anchors of its compounds are taken over.
+    anchors : list
+        Of the compounds, from calculations before; what is new is added.
     every_load : bool
         Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
     made : sequence of SizedDesign
@@ -331,7 +339,7 @@ def settled(
                 found[i] = str(error)
         coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
         held = {i: made[i].coldest for i in coldest if made and now[i] == made[i].chosen}
-        new = _calculated({i: spec for i, spec in coldest.items() if i not in held}, known)
+        new = _calculated({i: spec for i, spec in coldest.items() if i not in held}, anchors)
         again = {}
         for i, answer in {**held, **new}.items():
             try:
@@ -351,7 +359,7 @@ def settled(
             break
     held = {i: made[i].found for i, (chosen, _, _) in sized.items() if made and chosen == made[i].chosen}
     left = {i: spec for i, (_, spec, _) in sized.items() if task.cold and i not in held}
-    warm = {**held, **_calculated(left, known)}
+    warm = {**held, **_calculated(left, anchors)}
     for i, (chosen, _, loads) in sized.items():
         answer = warm.get(i, loads[0])
         found[i] = (
@@ -362,12 +370,14 @@ def settled(
     return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
 
 
-def _calculated(
-    specs: Mapping[int, Conveyor], known: CalculatedConveyor | None
-) -> dict[int, CalculatedConveyor | NoAnswer]:
+def _calculated(specs: Mapping[int, Conveyor], anchors: Anchors) -> dict[int, CalculatedConveyor | NoAnswer]:
     """Calculations of specs, side by side."""
     return dict(
-        zip(specs, calculate_many([Variant(spec) for spec in specs.values()], RTOL, known=known), strict=True)
+        zip(
+            specs,
+            calculate_many([Variant(spec) for spec in specs.values()], RTOL, anchors=anchors),
+            strict=True,
+        )
     )
 
 
@@ -412,6 +422,31 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
     return Chosen(carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, settling=True)
 
 
+def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
+    """Class and motors that the worst loading is likely to ask for, so that calculating the loads once mostly does.
+
+    Bulk is left out where the belt alone pulls harder; its friction is taken in proportion to the load.
+    """
+    one, chosen = design.coldest, design.chosen
+    steady = one.balance.forces.total
+    if steady <= 0.0:
+        return chosen
+    more = 0.0
+    for of in one.stretches[: one.line.count]:
+        bulk = of.stretch.bulk_mass / of.stretch.line_mass
+        more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
+    motor = next_motor(
+        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve),
+        reserve=task.rules.motor_reserve,
+    )
+    needed = partial(_needed, choice=design.choice, tension=_tension([one]) + more)
+    carcass = next(
+        (each for each in task.carcasses[design.choice.kind] if needed(each) <= each.strength), chosen.carcass
+    )
+    covers, motors = task.covers(design.choice, carcass), (motor,) * len(chosen.motors)
+    return Chosen(carcass, *covers, motors, chosen.brake, settling=False)
+
+
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
     """Strength that a tension asks of a class [N/m]."""
     return (
@@ -421,7 +456,7 @@ def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
 
 def _powers(one: CalculatedConveyor) -> list[float]:
     """Highest power of every drive, with the friction at both ends of its band [W]."""
-    return [check.calculated or 0.0 for check in checks(one, contacts=False) if check.key == "motor_power"]
+    return [check.calculated or 0.0 for check in motor_power(one)]
 
 
 def _design(
@@ -490,7 +525,7 @@ def _costs(
     return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
 
 
-def _graduated(task: SizingTask, designs: Sequence[SizedDesign]) -> list[SizedDesign]:
+def _graduated(task: SizingTask, designs: Sequence[SizedDesign], anchors: Anchors) -> list[SizedDesign]:
     """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
     apart = {i: graduated_spacing(task, design) for i, design in enumerate(designs)}
     varied = {i: one for i, one in apart.items() if len(set(one)) > 1}
@@ -498,7 +533,7 @@ def _graduated(task: SizingTask, designs: Sequence[SizedDesign]) -> list[SizedDe
         (replace(designs[i].choice, graduated=one), designs[i].chosen, designs[i].estimate)
         for i, one in varied.items()
     ]
-    made = dict(zip(varied, settled(task, begin, designs[0].found), strict=True)) if begin else {}
+    made = dict(zip(varied, settled(task, begin, anchors), strict=True)) if begin else {}
     return [
         new if isinstance(new := made.get(i), SizedDesign) and new.year < old.year else old
         for i, old in enumerate(designs)

@@ -110,6 +110,15 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.numbers)
 
+    def only(self, rows: NDArray[np.int64] | NDArray[np.bool_]) -> Candidates:
+        """Some of them."""
+        return Candidates(self.task, self.running, self.numbers[rows])
+
+    def taken_up(self) -> Candidates:
+        """Those whose permanent stretch the take-up's travel holds, whatever the tensions."""
+        travel = [_stretch(kind) * self.task.length <= self.task.take_up_travel for kind in self.task.kinds]
+        return self.only(np.array(travel)[self.numbers[:, 4]])
+
     def __getitem__(self, i: int) -> Choice:
         ran, carry, back, cover, kind, drives = self.numbers[i].tolist()
         task = self.task
@@ -186,58 +195,51 @@ class _Series(NamedTuple):
         )
 
 
+def _stretch(kind: str) -> float:
+    """Permanent, of a kind of carcass [-]."""
+    return (PERMANENT_STRETCH_STEEL_CORD if kind == "steel cord" else PERMANENT_STRETCH_TEXTILE).value
+
+
+class _Loop(NamedTuple):
+    """Candidates with a class of belt each: covers [m], load of the middle roll, indentation, force on all drives,
+    tension behind the head [N]; the class that the tensions ask for, and whether there is one."""
+
+    covers: Array
+    middle: Array
+    indentation: Array
+    force: Array
+    slack: Array
+    carcass: NDArray[np.int64]
+    strong: NDArray[np.bool_]
+
+
 def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     """Estimate every candidate."""
-    g, length, numbers, sections = task.gravity, task.length, every.numbers, np.array(task.sections)
+    length, numbers = task.length, every.numbers
     ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
     width, speed = every.runs(lambda on: on.trough.width.belt), every.runs(lambda on: on.speed)
-    diameter, three = every.runs(lambda on: on.roll.diameter), every.runs(lambda on: on.trough.width.three)
     carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
-    count, flat = (
-        every.runs(lambda on: on.trough.width.return_rolls[0]),
-        every.runs(lambda on: on.trough.width.return_rolls[1]),
-    )
-    of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
-    of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
-    bulk, wear = task.flow / speed, np.array([task.wear(v) for _, v, _, _ in every.running])
+    bulk, wear = task.flow / speed, [task.wear(v) for _, v, _, _ in every.running]
     skirts = _SKIRTS * bulk**2 / (task.density * width**2) * speed
     rest = levels.rest * (task.flow * speed + _CLEANERS * width + skirts)
-    per_metre = np.array([3.0 / carry, count / back])
+    per_metre = np.array([3.0 / carry, every.runs(lambda on: on.trough.width.return_rolls[0]) / back])
     steel = np.array([one == "steel cord" for one in task.kinds])[kind]
-    series = _Series.of(task, wear.tolist())
-    safety = np.where(steel, CLASSIC_SAFETY["steel cord"], CLASSIC_SAFETY["textile"])
+    series = _Series.of(task, wear)
     carcass = np.zeros(len(every), dtype=np.int64)
-    stretched = np.where(steel, PERMANENT_STRETCH_STEEL_CORD.value, PERMANENT_STRETCH_TEXTILE.value) * length
-    possible = stretched <= task.take_up_travel
-    on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
-    k_carry, k_back = np.array(levels.carry)[cover], np.array(levels.back)[cover]
-    sags = np.array(task.sags)[:, None]
-    for _ in range(_ROUNDS):
-        top, bottom = series.covers[kind, carcass, ran].T
-        belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
-        middle = (of_bulk * bulk + of_belt * belt) * g * carry
-        wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
-        per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
-        indentation = np.array([
-            k_carry * (bottom / diameter**2) ** (1.0 / 3.0) * per_set * length / carry,
-            k_back * (top / diameter**2) ** (1.0 / 3.0) * wide * (belt * g * back / wide) ** _LOAD * length / back,
-        ])  # fmt: skip
-        bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
-        friction = indentation / length + levels.drag * per_metre + bent
-        up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
-        down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
-        up[:, 0] += rest
-        force = up.sum(axis=1) + down.sum(axis=1)
-        spans = belt * g * back, (belt + bulk) * g * carry
-        slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
-        needed = safety * largest / width
-        carcass = (series.strengths[kind] < needed[:, None]).sum(axis=1)
-        strong = carcass <= series.last[kind]
-        carcass = np.minimum(carcass, series.last[kind])
+    around = _around(every, levels, series, carcass, rest)
+    for _ in range(_ROUNDS - 1):
+        rows = np.flatnonzero(around.carcass != carcass)  # of the others nothing changes any more
+        carcass = around.carcass.copy()
+        again = _around(every.only(rows), levels, series, carcass[rows], rest[rows])
+        for figure, found in zip(around, again, strict=True):
+            figure[rows] = found
+    (top, bottom), carcass, force = around.covers.T, around.carcass, around.force
     power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
-    life = _roll_life(every, middle)
-    possible &= (
-        strong & (power * task.rules.motor_reserve <= drives * task.largest_motor) & (life >= task.roll_life)
+    life = _roll_life(every, around.middle)
+    possible = (
+        around.strong
+        & (power * task.rules.motor_reserve <= drives * task.largest_motor)
+        & (life >= task.roll_life)
     )
     possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
     first = cover == 0
@@ -246,13 +248,54 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
         rolls=length * per_metre.sum(axis=0), roll_mass=length * _turning(every, carry, back),
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
-        pulley_mass=series.pulleys[kind, carcass] * width, take_up=slack,
+        pulley_mass=series.pulleys[kind, carcass] * width, take_up=around.slack,
     )  # fmt: skip
     drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
     worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
     cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
     year = np.where(possible, cost.year, np.inf)
-    return Screened(year, carcass, force, indentation.T, length * per_metre.sum(axis=0), rest)
+    return Screened(year, carcass, force, around.indentation, length * per_metre.sum(axis=0), rest)
+
+
+def _around(
+    every: Candidates, levels: Levels, series: _Series, carcass: NDArray[np.int64], rest: Array
+) -> _Loop:
+    """Friction and tensions with a class of belt, and the class that they ask for."""
+    task, numbers = every.task, every.numbers
+    g, length, sections = task.gravity, task.length, np.array(task.sections)
+    ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
+    width, bulk = every.runs(lambda on: on.trough.width.belt), task.flow / every.runs(lambda on: on.speed)
+    diameter, three = every.runs(lambda on: on.roll.diameter), every.runs(lambda on: on.trough.width.three)
+    carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
+    count, flat = (every.runs(lambda on, k=k: on.trough.width.return_rolls[k]) for k in (0, 1))
+    of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
+    of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
+    on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
+    safety = np.array([CLASSIC_SAFETY["steel cord" if k == "steel cord" else "textile"] for k in task.kinds])[
+        kind
+    ]
+    top, bottom = (covers := series.covers[kind, carcass, ran]).T
+    belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
+    middle = (of_bulk * bulk + of_belt * belt) * g * carry
+    wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
+    per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
+    indentation = np.array([
+        np.array(levels.carry)[cover] * np.cbrt(bottom / diameter**2) * per_set * length / carry,
+        np.array(levels.back)[cover] * np.cbrt(top / diameter**2) * wide * (belt * g * back / wide) ** _LOAD
+        * length / back,
+    ])  # fmt: skip
+    sags = np.array(task.sags)[:, None]
+    bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
+    friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent
+    up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
+    down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
+    up[:, 0] += rest
+    force = up.sum(axis=1) + down.sum(axis=1)
+    spans = belt * g * back, (belt + bulk) * g * carry
+    slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
+    asked = (series.strengths[kind] < (safety * largest / width)[:, None]).sum(axis=1)
+    last = series.last[kind]
+    return _Loop(covers, middle, indentation.T, force, slack, np.minimum(asked, last), asked <= last)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:

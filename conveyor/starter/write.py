@@ -7,11 +7,11 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, Final, Literal
 
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout
+from conveyor.forms.limits import like, limits_like
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.starter.values import LEFT_OUT, OPTIONAL, Kind, in_units, read
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, layout
-from conveyor.template.limits import like, limits_like
 from conveyor.units import System
 from conveyor.units.kinds import KINDS as QUANTITIES
 from conveyor.units.misreadings import on_one_line
@@ -131,7 +131,7 @@ class _Writer:
         """Write what the fields of a row mean, then the rows."""
         indent = "  " * len(path)
         shown = dict.fromkeys(key for row in data for key in row)
-        fields = [part for part in table.item.parts if part.key in shown]
+        fields = [part for part in table.parts if part.key in shown]
         widest = max(len(part.key) for part in fields)
         for part in fields:
             opening = f"{indent}# {part.key.ljust(widest)}  "

@@ -44,6 +44,10 @@ Progress: TypeAlias = Callable[[int, int, int], None]
 """Called with points that have been gone through, all, and those of them that this run found without an answer."""
 Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
 """Number of a point, its values of `plan.paths`, its answer."""
+Keyed: TypeAlias = tuple[bytes, Changes]
+"""A point with the key of its answer."""
+Answered: TypeAlias = Callable[[int, Sequence[Keyed]], None]
+"""Called with points in their order that all have answers, and how many there are before them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,6 +218,7 @@ def run(
     executor: Executor | None = None,
     workers: int = 1,
     progress: Progress | None = None,
+    answered: Answered | None = None,
 ) -> None:
     """Calculate every point whose answer is not known.
 
@@ -231,6 +236,8 @@ def run(
         Of the executor: as many batches are handed out at once, and as many again.
     progress : callable, optional
         Called with points gone through, all, and those that this run found without an answer.
+    answered : callable, optional
+        Called with every batch once all of it has answers, in whatever order they come.
 
     Raises
     ------
@@ -240,26 +247,26 @@ def run(
     whole, every = (
         (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
     )
-    asked: dict[Future[list[Answer]], list[bytes]] = {}
+    asked: dict[Future[list[Answer]], _Batch] = {}
     size = min(BATCH, max(SMALLEST, -(-whole // SHARES)))
     new, most = _batches(campaign, known, every, size), 1 if executor is None else AHEAD * workers
     done = without = 0
     try:
         while True:
             while len(asked) < most and (batch := next(new, None)) is not None:
-                done += batch.known
-                if batch.points:
-                    task = (campaign.job, batch.points)
-                    asked[_here(*task) if executor is None else executor.submit(answers, *task)] = batch.keys
+                done += len(batch.every) - len(batch.new)
+                asked[_asked(campaign.job, batch, executor)] = batch
             if progress is not None:
                 progress(done, whole, without)
             if not asked:
                 return
             for future in wait(asked, return_when=FIRST_COMPLETED).done:
-                keys, found = asked.pop(future), future.result()
-                known.add(zip(keys, found, strict=True))
-                done += len(keys)
+                batch, found = asked.pop(future), future.result()
+                known.add(zip(batch.new, found, strict=True))
+                done += len(batch.new)
                 without += sum(isinstance(answer, str) for answer in found)
+                if answered is not None:
+                    answered(batch.before, batch.every)
     except (BrokenExecutor, CancelledError):
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
@@ -269,33 +276,47 @@ def run(
             future.cancel()
 
 
-def _here(job: Job, points: list[Changes]) -> Future[list[Answer]]:
-    """The answers of a batch, calculated in this process."""
-    future: Future[list[Answer]] = Future()
-    future.set_result(answers(job, points))
-    return future
-
-
 class _Batch(NamedTuple):
-    """Points without an answer and their keys, and points before them that have one."""
+    """Points in their order, how many there are before them, and by key those without an answer."""
 
-    keys: list[bytes]
-    points: list[Changes]
-    known: int
+    before: int
+    every: list[Keyed]
+    new: dict[bytes, Changes]
+
+
+def _asked(job: Job, batch: _Batch, executor: Executor | None) -> Future[list[Answer]]:
+    """The answers of what is new in a batch: on the executor, or calculated in this process."""
+    points = list(batch.new.values())
+    if executor is not None and points:
+        return executor.submit(answers, job, points)
+    future: Future[list[Answer]] = Future()
+    future.set_result(answers(job, points) if points else [])
+    return future
 
 
 def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes], size: int) -> Iterator[_Batch]:
     """Points without an answer, of every `size` points in their order: whoever calculates them, the same batches."""
-    every = iter(points)
-    while part := list(islice(every, size)):
-        new = {key: point for point in part if (key := campaign.key(point)) not in known}
-        yield _Batch(list(new), list(new.values()), len(part) - len(new))
+    keyed, before = ((campaign.key(point), point) for point in points), 0
+    while every := list(islice(keyed, size)):
+        yield _Batch(before, every, {key: point for key, point in every if key not in known})
+        before += len(every)
 
 
 def rows(campaign: Campaign, known: Answers) -> Iterator[Point]:
     """Every point, in the order of the plan."""
+    return (point_of(campaign, known, number, keyed) for number, keyed in keyed_points(campaign))
+
+
+def keyed_points(campaign: Campaign) -> Iterator[tuple[int, Keyed]]:
+    """Every point with its number from 1 and its key, in the order of the plan."""
     for number, point in enumerate(campaign.listed.points(), start=1):
-        yield number, tuple(point[path] for path in campaign.plan.paths), known[campaign.key(point)]
+        yield number, (campaign.key(point), point)
+
+
+def point_of(campaign: Campaign, known: Answers, number: int, keyed: Keyed) -> Point:
+    """A point of a number whose answer is known."""
+    key, point = keyed
+    return number, tuple(point[path] for path in campaign.plan.paths), known[key]
 
 
 def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:

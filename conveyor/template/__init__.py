@@ -1,5 +1,1 @@
-"""The input template: a workbook made from the models, filled in by people, read back as plain data.
-
-`layout` turns models into fields and tables, `plan` places them on sheets, `values` converts between spec
-data and cells; `write` and `read` are the two directions. Nothing here lists the fields of a conveyor.
-"""
+"""The input template: the sheets of `conveyor.forms` drawn as a workbook and filled in from a conveyor."""

@@ -11,9 +11,9 @@ from pydantic import BaseModel
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, Path
-from conveyor.template.plan import Plan, references, whole, written_out
-from conveyor.template.values import Value, to_cells
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, Path
+from conveyor.forms.plan import Plan, references, whole, written_out
+from conveyor.forms.values import Value, to_cells
 
 Cells: TypeAlias = dict[Path, tuple[Value, str | None]]
 

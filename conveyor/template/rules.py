@@ -10,10 +10,10 @@ from openpyxl.workbook import Workbook
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.forms.layout import Leaf
+from conveyor.forms.plan import LISTS
+from conveyor.forms.values import EMPTY, NO, YES, to_cells
 from conveyor.report.cells import put
-from conveyor.template.layout import Leaf
-from conveyor.template.plan import LISTS
-from conveyor.template.values import EMPTY, NO, YES, to_cells
 
 _ENDLESS: Final = 1e300
 """Stands for no limit: spreadsheet programs reach a little further."""

@@ -43,7 +43,7 @@ _SAME: Final = {
     "error": _Kind("-", ".1E"), "time": _Kind("s", ".2E"), "duration": _Kind("s", ",.1f"), "life": _Kind("h", ",.0f"),
     "frequency": _Kind("Hz", ".2E"), "passing": _Kind("Hz", ",.0f"), "rotation": _Kind("rpm", ",.1f"),
     "angle": _Kind("deg", ".2f"), "carbon dioxide": _Kind("t", ",.0f"), "energy": _Kind("MWh", ",.1f"),
-    "heat": _Kind("MJ", ",.3f"),
+    "heat": _Kind("MJ", ",.3f"), "rise": _Kind("K", ",.0f"), "swing": _Kind("Hz", ".1f"),
     "emission factor": _Kind("kg/kWh", ".3f"), "years": _Kind("a", ".1f"), "margin": _Kind("-", ".1%"),
 }  # fmt: skip
 """Kinds that every system writes alike."""
@@ -57,7 +57,9 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "strength": _Kind("N/mm", ",.1f"), "pressure": _Kind("MPa", ",.3f"), "mass": _Kind("kg", ",.0f"),
         "line mass": _Kind("kg/m", ".2f"), "mass flow": _Kind("t/h", ",.1f"), "power": _Kind("kW", ",.1f"),
         "torque": _Kind("N m", ",.0f"), "temperature": _Kind("degC", ".1f"), "density": _Kind("kg/m³", ",.0f"),
-        "conveyed": _Kind("t", ",.0f"), "specific energy": _Kind("kWh/(t km)", ".4f"),
+        "inertia": _Kind("kg m²", ",.2f"),
+        "conveyed": _Kind("t", ",.0f"), "area mass": _Kind("kg/m²", ".3f"), "carryback": _Kind("kg/h", ",.1f"),
+        "specific energy": _Kind("kWh/(t km)", ".4f"),
     },
     "US": {
         **_SAME,
@@ -68,13 +70,15 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
         "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
+        "inertia": _Kind("lb ft²", ",.1f"),
         "carbon dioxide": _Kind("metric ton", ",.0f"), "conveyed": _Kind("short ton", ",.0f"),
+        "area mass": _Kind("lb/ft²", ".4f"), "carryback": _Kind("lb/h", ",.1f"),
         "specific energy": _Kind("kWh/(short ton mile)", ".4f"),
     },
 }  # fmt: skip
 _SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
     "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048, "short ton": 907.18474, "metric ton": 1000.0,
-    "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344),
+    "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg m²": 1.0, "lb ft²": 0.45359237 * 0.3048**2, "K": 1.0,
 }  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
 

@@ -121,7 +121,7 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
 def _sizes(kind: str, unit: str) -> tuple[float, float]:
     """Smallest and largest size of a kind as numbers of a unit; a scale with an offset counts its own degrees."""
     scale = _si_scale(_UNITS[unit])
-    one = 1.0 if scale is None else scale[0] / scale[1]
+    one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
     return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
 
 
@@ -156,8 +156,10 @@ def si(value: Quantity) -> float:
     >>> si(quantity("20 degC", "temperature")), si(quantity("95 %", "fraction"))
     (293.15, 0.95)
     """
-    scale = _si_scale(value.units)
-    return float(value.to_base_units().magnitude if scale is None else value.magnitude * scale[0] / scale[1])
+    scale = _si_scale(value._units)  # noqa: SLF001 a Unit is made, and compared, at each call of .units
+    if scale is None:
+        return float(value.to_base_units().magnitude)
+    return float(value.magnitude * scale[0] / scale[1] + scale[2])
 
 
 def in_si(value: str, kind: str) -> float:
@@ -215,12 +217,14 @@ def same(one: Quantity, other: Quantity) -> bool:
 
 
 @cache
-def _si_scale(unit: Any) -> tuple[float, float] | None:
-    """Factor and divisor to SI, None of a temperature scale with an offset; asked of pint once for each unit."""
-    if unit == _PERCENT:
-        return 1.0, 100.0
+def _si_scale(unit: Any) -> tuple[float, float, float] | None:
+    """Factor, divisor and offset to SI, None of degrees unlike kelvin; asked of pint once for each unit."""
+    if _registry.Unit(unit) == _PERCENT:
+        return 1.0, 100.0, 0.0
     zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
-    return (one, 1.0) if zero == 0.0 else None
+    if zero == 0.0:
+        return one, 1.0, 0.0
+    return (1.0, 1.0, zero) if one == zero + 1.0 else None
 
 
 def text(value: Quantity) -> str:
@@ -436,6 +440,7 @@ Inertia = Annotated[Quantity, Measure("inertia")]
 Density = Annotated[Quantity, Measure("density")]
 Force = Annotated[Quantity, Measure("force")]
 LineForce = Annotated[Quantity, Measure("line force")]
+SpringRate = Annotated[Quantity, Measure("spring rate")]
 Pressure = Annotated[Quantity, Measure("pressure")]
 Modulus = Pressure
 Time = Annotated[Quantity, Measure("time")]

@@ -20,7 +20,7 @@ CASES = [
     ("empty.csv", 1, "1", "the file is empty", "export the table again"),
     ("pdf_report.csv", 1, "1", "a PDF report", "export the table as CSV"),
     ("old_workbook.xls", 1, "1", "an old .xls workbook", "save it as .xlsx or CSV"),
-    ("damaged.xlsx", 1, "A", "not a readable .xlsx workbook", "save it again"),
+    ("damaged.xlsx", 1, "A", "damaged or cut short", "save or copy it again"),
     ("utf16_without_mark.txt", 1, "1", "UTF-16 without its mark", "save it as UTF-8"),
     ("html_table.xls", 1, "1", "this is HTML", "export it as CSV"),
     ("header_only.csv", 2, "1", "no row of numbers below it", "one row for each measurement"),

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from conveyor import laboratory
 from conveyor.errors import InputError
 from conveyor.laboratory import read_dma
 
@@ -86,13 +88,33 @@ def test_a_gap_of_a_million_rows_costs_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("rows", "message"),
     [
-        (TABLE + row(99_999_999_999, 1.0, 2.0, 0.3), "made.xlsx[S]:14: column A: row 99999999999 follows"),
-        (row(3, 1.0, 2.0, 0.3) + TABLE, "made.xlsx[S]:3: column A: row 1 follows, out of order"),
-        (TABLE + '<row r="20"><c r="ZZZ20"><v>1</v></c></row>', "column ZZZ: a cell beyond column 16,384"),
-        (TABLE + '<row r="20">' + "<c/>" * 1_000_001 + "</row>", "more than 1,000,000 cells"),
+        (TABLE + row(99_999_999_999, 1.0, 2.0, 0.3), "cell or row 99999999999, beyond the last of a sheet"),
+        (row(3, 1.0, 2.0, 0.3) + TABLE, "sheet 'S' has cell A3 twice; open and save the workbook again"),
+        (
+            TABLE + '<row r="20"><c r="ZZZ20"><v>1</v></c></row>',
+            "cell or row ZZZ20, beyond the last of a sheet",
+        ),
+        (
+            TABLE + "<a>" * 101 + "</a>" * 101,
+            "nested deeper than 100 levels; this is no table of a laboratory",
+        ),
     ],
-    ids=["row far away", "order", "column far away", "empty cells"],
+    ids=["row far away", "row twice", "column far away", "nested"],
 )
 def test_rows_that_cannot_be_are_refused(tmp_path: Path, rows: str, message: str) -> None:
-    with pytest.raises(InputError, match=re.escape(message)):
+    with pytest.raises(InputError, match=r"made.xlsx:1: column A: .*" + re.escape(message)):
         read_dma(workbook(tmp_path, rows))
+
+
+def test_more_cells_than_are_read_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    few = replace(laboratory.workbook.LIMITS, elements=100)
+    monkeypatch.setattr(laboratory.workbook, "LIMITS", few)
+    with pytest.raises(
+        InputError, match=r"holds more than 100 cells and other elements; .* export it as CSV"
+    ):
+        read_dma(workbook(tmp_path, TABLE + '<row r="20">' + "<c/>" * 100 + "</row>"))
+
+
+def test_rows_in_any_order_are_read_by_their_numbers(tmp_path: Path) -> None:
+    found = read_dma(workbook(tmp_path, row(20, 1e-3, 1.0, 0.05) + TABLE))
+    assert found.row_numbers[0] == 20

@@ -30,7 +30,7 @@ def test_worse_conditions_ask_for_more(table):
 
 def test_groups_are_steps_of_the_r10_series():
     # 10^(1/10) per step, R10 values are rounded to 1.5 %
-    factors = [belt_check.GROUP_FACTOR[group] for group in ("A", "B", "C")]
+    factors = [belt_check.pulley_group_diameter(1.0, group=group) for group in ("A", "B", "C")]
     for large, small in pairwise(factors):
         assert large / small == pytest.approx(10**0.1, rel=0.015)
     assert belt_check.pulley_group_diameter(0.5, group="B") == pytest.approx(0.4, rel=ROUNDING)
@@ -44,6 +44,31 @@ def test_next_pulley_is_the_first_that_is_large_enough():
     assert belt_check.next_pulley_diameter(belt_check.pulley_group_diameter(0.5, group="C")) == 0.315
     with pytest.raises(RangeError, match=r"2\.1 m is more than the largest pulley of the series, 2 m"):
         belt_check.next_pulley_diameter(2.1)
+
+
+# DIN 22101: groups A, B, C over 60 %, over 30 % and up to 30 % of the allowed tension [mm]
+TABLE = {
+    200: ((200, 160, 125), (160, 125, 100), (125, 125, 100)),
+    500: ((500, 400, 315), (400, 315, 250), (315, 315, 250)),
+    1400: ((1400, 1250, 1000), (1250, 1000, 800), (1000, 1000, 800)),
+    1600: ((1600, 1250, 1000), (1250, 1000, 800), (1000, 1000, 800)),
+    2000: ((2000, 1600, 1250), (1600, 1250, 1000), (1250, 1250, 1000)),
+}
+
+
+@pytest.mark.parametrize("drive", TABLE)
+def test_standard_pulleys_as_printed(drive):
+    for used, sizes in zip((0.61, 0.31, 0.3), TABLE[drive], strict=True):
+        found = [
+            belt_check.standard_pulley_diameter(drive / 1e3, group=group, utilisation=used) for group in "ABC"
+        ]
+        assert found == pytest.approx([size / 1e3 for size in sizes], rel=ROUNDING)
+
+
+def test_covers_protect_the_carcass():
+    assert belt_check.least_cover(4e-3, steel_cord=True) == 4e-3
+    assert belt_check.least_cover(10e-3, steel_cord=True) == pytest.approx(7e-3, rel=ROUNDING)
+    assert [belt_check.fall_severity(h) for h in (0.0, 0.5, 1.5)] == ["low", "medium", "high"]
 
 
 @pytest.mark.parametrize(

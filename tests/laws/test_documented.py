@@ -9,14 +9,26 @@ import pytest
 
 from conveyor.contact import closed_forms
 from conveyor.laws import belt as belt_check
+from conveyor.laws import (
+    discharge,
+    drives,
+    idlers,
+    loading,
+    power,
+    resistance,
+    roll_life,
+    take_up,
+    tension,
+    transfer,
+    vertical_curve,
+)
 from conveyor.laws import energy as energy_laws
-from conveyor.laws import loading, power, resistance, roll_life, take_up, tension, vertical_curve
 from conveyor.laws import motion as motion_laws
 
 WITHOUT_UNIT = {"minima", "carcass"}  # a mapping whose text states the unit; a name
 MODULES = (
     loading, resistance, tension, power, closed_forms, take_up, motion_laws, vertical_curve, roll_life,
-    energy_laws, belt_check,
+    energy_laws, belt_check, drives, idlers, discharge, transfer,
 )  # fmt: skip
 
 

@@ -151,7 +151,7 @@ def workbooks() -> Iterator[Case]:
         "merged": end + b'<mergeCells><mergeCell ref="B40:XFD1048576"/></mergeCells>',
         "merged columns": end + b'<mergeCells><mergeCell ref="A:XFD"/></mergeCells>',
         "merged beyond": end + b'<mergeCells><mergeCell ref="A1:ZZZZ99999999"/></mergeCells>',
-        "linked": end + b'<hyperlinks><hyperlink ref="A1:XFD1048576" location="a"/></hyperlinks>',
+        "a cell twice": b'<row r="60"><c r="B60"><v>1</v></c><c r="B60"><v>2</v></c></row>' + end,
         "empty cells": b'<row r="60">' + b"<c/>" * 1_500_000 + b"</row>" + end,
         "empty rows": b"<row/>" * 1_000_000 + end,
         "a far row": b'<row r="99999999999"><c/></row>' + end,

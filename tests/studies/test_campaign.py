@@ -19,7 +19,8 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import calculate
-from conveyor.studies.campaign import BATCH, Answers, Campaign, rows, run
+from conveyor.report.campaigning import PartedTable, of_points
+from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
 from conveyor.studies.points import OUTPUTS, RTOL
 from tests.command_line import run as command
 
@@ -225,6 +226,50 @@ def test_parquet_is_the_same_table(tmp_path):
     pd.testing.assert_frame_equal(
         pd.read_parquet(tmp_path / "t.parquet").iloc[:, :-1], table.iloc[:, :-1], check_dtype=False
     )
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypatch, ending):
+    if ending == "parquet":
+        pytest.importorskip("pyarrow")
+    else:
+        monkeypatch.setattr("conveyor.report.campaigning.find_spec", lambda _: None)
+    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
+    monkeypatch.setattr("conveyor.report.campaigning.PART", 4)
+    calls = []
+
+    def instead(_, points):
+        calls.extend(points)
+        return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
+
+    study, folder = campaign(line), tmp_path / "points"
+
+    def run_into(folder, path, **options):
+        with Answers(path) as known:
+
+            def row(number, keyed):
+                return point_of(study, known, number, keyed)
+
+            parts = PartedTable(of_points(study, "SI"), folder, study.plan.count, row)
+            run(study, known, answered=parts.take, **options)
+        return {file.name: file.read_bytes() for file in folder.iterdir()}
+
+    def stopping(done, *_):
+        if done == 4:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("conveyor.studies.campaign.answers", instead)
+    with pytest.raises(KeyboardInterrupt):
+        run_into(folder, tmp_path / "a", progress=stopping)
+    assert [file.name for file in folder.iterdir()] == [f"part-00001.{ending}"]  # 4 of 6 points, whole
+    (folder / f"part-00007.{ending}").write_bytes((folder / f"part-00001.{ending}").read_bytes())
+    found = run_into(folder, tmp_path / "a")
+    assert len(calls) <= 6 + 2  # what was under way is lost, no more
+    assert found == run_into(tmp_path / "whole", tmp_path / "b")
+    assert sorted(found) == [f"part-00001.{ending}", f"part-00002.{ending}"]
+    (folder / "mine.csv").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="is no part of such a table"):
+        run_into(folder, tmp_path / "a")
 
 
 def test_every_figure_can_be_asked_for(line, tmp_path):

@@ -106,6 +106,7 @@ def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
         ("hours\n1\n", "every state has to change a field"),
         ("hours,ambient.temperature [degC]\n,5\n", "row 2: expected 2 cells"),
         ("hours,ambient.temperature [degC]\n-1,5\n", "row 2: hours: expected a time above 0"),
+        ("# measured\nhours,ambient.temperature [degC]\n\n-1,5\n", "row 4: hours: expected a time above 0"),
         ("hours,ambient temperature\n1,5\n", "expected a column a field"),
         ("hours,belt.speed [m/s]\n1,5\n", "belt.speed: varied twice"),
     ):

@@ -13,13 +13,13 @@ from pydantic import BaseModel, Field
 
 from conveyor import shelf, spec
 from conveyor.errors import InputError
+from conveyor.forms.layout import Leaf, layout, leaves
+from conveyor.forms.plan import Row, whole, written_out
+from conveyor.forms.read import read_filled, read_template
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.base import Model, Name, Number
 from conveyor.template.draw import Book
 from conveyor.template.fill import filled, stated
-from conveyor.template.layout import Leaf, layout, leaves
-from conveyor.template.plan import Row, whole, written_out
-from conveyor.template.read import read_filled, read_template
 from conveyor.template.write import write_template
 from conveyor.units import Bounds, Force, Length, Power
 

@@ -96,10 +96,8 @@ def oil_viscosity(
         require(least <= value < math.inf, name, value, f"at least {least:g} m²/s is needed")
     falls = (second_temperature - first_temperature) * (first_viscosity - second_viscosity) > 0.0
     require(falls, "second_viscosity", second_viscosity, "the hotter of the two must be the thinner")
-    first = math.log(math.log10(first_viscosity / CENTISTOKES + WALTHER_OFFSET))
-    second = math.log(math.log10(second_viscosity / CENTISTOKES + WALTHER_OFFSET))
-    slope = (first - second) / math.log(second_temperature / first_temperature)
-    log_z = math.exp(first - slope * math.log(temperature / first_temperature))
+    turn, slope = walther(first_temperature, first_viscosity, second_temperature, second_viscosity)
+    log_z = math.exp(turn - slope * math.log(temperature))
     require(log_z < math.log10(1e9), "temperature", temperature, "the oil is solid there, give hotter ones")
     viscosity: float = 10.0**log_z - WALTHER_OFFSET
     if viscosity < WALTHER_LEAST:
@@ -109,6 +107,18 @@ def oil_viscosity(
             stacklevel=2,
         )
     return viscosity * CENTISTOKES
+
+
+def walther(
+    first: float, first_viscosity: float, second: float, second_viscosity: float
+) -> tuple[float, float]:
+    """A and B of log log(ν + 0.7) = A - B log T through two points [K, m²/s]."""
+    thick, thin = (
+        math.log(math.log10(viscosity / CENTISTOKES + WALTHER_OFFSET))
+        for viscosity in (first_viscosity, second_viscosity)
+    )
+    slope = (thick - thin) / math.log(second / first)
+    return thick + slope * math.log(first), slope
 
 
 def bearing_no_load_moment(f0: float, *, viscosity: float, rotation: float, mean_diameter: float) -> float:

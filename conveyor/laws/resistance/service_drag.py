@@ -7,20 +7,29 @@ list them. Which bearing, grease and seal is usual, and how they cool, is genera
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from conveyor.laws.resistance.defaults import Default
-from conveyor.laws.resistance.rim_drag import RollDragParts, bearing_roll_drag, roll_rotation
+from conveyor.laws.resistance.rim_drag import bearing_roll_drag, roll_rotation
 from conveyor.laws.resistance.roll_bearing import (
     BEARING_F0,
     BEARING_F1_EXPONENT,
     BEARING_F1_FACTOR,
-    bearing_no_load_moment,
+    PALMGREN_FED,
+    PALMGREN_SLOW,
+    PALMGREN_SWITCH,
+    PER_MINUTE,
+    WALTHER_OFFSET,
     oil_viscosity,
+    walther,
 )
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.require import require, require_positive
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,29 +90,23 @@ SERVICE_DRAG: Final = Default(
     "drag over the central one: f0, z and the stress in the seal all at the ends of their ranges",
     True,
 )  # [-]
-_FIRST_STEP: Final = 8.0  # [K], above the air
 _CLOSED: Final = 1e-10  # [K]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class ServiceDrag:
-    """Drag of a roll in service.
+    """Drag of rolls in service, of the shape of their loads.
 
     Parameters
     ----------
-    parts : RollDragParts
-        At the rim, by cause [N].
-    bearing_temperature : float
+    force : ndarray
+        At the rim [N].
+    bearing_temperature : ndarray
         Of the running bearings [K].
     """
 
-    parts: RollDragParts
-    bearing_temperature: float
-
-    @property
-    def force(self) -> float:
-        """Whole drag at the rim [N]."""
-        return self.parts.force
+    force: Array
+    bearing_temperature: Array
 
 
 def usual_bearing(roll_diameter: float) -> Bearing:
@@ -168,14 +171,19 @@ def roll_end_cooling(roll_diameter: float, *, roll_length: float) -> float:
 
 
 def service_roll_drag(
-    roll_load: float, *, belt_speed: float, roll_diameter: float, roll_length: float, air_temperature: float
+    roll_load: ArrayLike,
+    *,
+    belt_speed: float,
+    roll_diameter: float,
+    roll_length: float,
+    air_temperature: float,
 ) -> ServiceDrag:
-    """Drag of a roll in service with usual bearings, grease and labyrinth seals that warm themselves (Palmgren).
+    """Drag of rolls in service with usual bearings, grease and labyrinth seals that warm themselves (Palmgren).
 
     Parameters
     ----------
-    roll_load : float
-        P, radial, of both bearings together [N], at least 0.
+    roll_load : array_like
+        P of each roll, radial, of both bearings together [N], at least 0.
     belt_speed : float
         v [m/s], positive.
     roll_diameter : float
@@ -211,65 +219,55 @@ def service_roll_drag(
     >>> round(drag.force, 1), round(drag.bearing_temperature - 293.15, 1)
     (2.4, 4.0)
     """
-    require_not_negative(roll_load=roll_load)
+    load = np.asarray(roll_load, dtype=float)
+    borne = bool(np.all((load >= 0.0) & (load < math.inf)))
+    require(borne, "roll_load", roll_load, "finite numbers of at least 0 are needed")
     require_positive(belt_speed=belt_speed, air_temperature=air_temperature)
     bearing, cooling = usual_bearing(roll_diameter), roll_end_cooling(roll_diameter, roll_length=roll_length)
     seal = SEAL_STRESS.value * 2.0 * math.pi * (bearing.outside / 2.0) ** 2 * SEAL_LENGTH
     rotation = roll_rotation(belt_speed, roll_diameter=roll_diameter)
     (cool, thick), (warm, thin) = USUAL_OIL
-
-    def oil(temperature: float) -> float:
-        return oil_viscosity(
-            temperature,
+    unit = bearing_roll_drag(
+        1.0,
+        belt_speed=belt_speed,
+        roll_diameter=roll_diameter,
+        mean_diameter=bearing.mean_diameter,
+        viscosity=oil_viscosity(
+            air_temperature,
             first_temperature=cool,
             first_viscosity=thick,
             second_temperature=warm,
             second_viscosity=thin,
-        )
-
-    cold = bearing_roll_drag(
-        roll_load,
-        belt_speed=belt_speed,
-        roll_diameter=roll_diameter,
-        mean_diameter=bearing.mean_diameter,
-        viscosity=oil(air_temperature),
+        ),
         static_rating=bearing.static_rating,
         f0=SERVICE_F0,
         f1_factor=SERVICE_F1_FACTOR,
         f1_exponent=BEARING_F1_EXPONENT.value,
         seal_moment=seal,
     )
+    rest = unit.seals + unit.load * load ** (1.0 + BEARING_F1_EXPONENT.value)
+    turn, slope = walther(cool, thick, warm, thin)
 
-    def parts(temperature: float) -> RollDragParts:
-        """At this temperature only the oil is another."""
-        moment = bearing_no_load_moment(
-            SERVICE_F0, viscosity=oil(temperature), rotation=rotation, mean_diameter=bearing.mean_diameter
-        )
-        return replace(cold, no_load=2.0 * moment / (roll_diameter / 2.0))
+    def film(temperature: Array) -> tuple[Array, Array]:
+        """Palmgren's f(ν n) of the oil at temperatures, and its slope [1/K]."""
+        log_z = np.exp(turn - slope * np.log(temperature))
+        z = 10.0**log_z
+        fed = (z - WALTHER_OFFSET) * (rotation * PER_MINUTE) >= PALMGREN_SWITCH
+        found = PALMGREN_FED * ((z - WALTHER_OFFSET) * (rotation * PER_MINUTE)) ** (2.0 / 3.0)
+        falls = -2.0 / 3.0 * found * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
+        return np.where(fed, found, PALMGREN_SLOW), np.where(fed, falls, 0.0)
 
-    def surplus(temperature: float) -> float:
-        """Heat of one end that the air does not take [W]."""
-        return 0.5 * parts(temperature).force * belt_speed - cooling * (temperature - air_temperature)
-
-    low, step = air_temperature, _FIRST_STEP
-    while surplus(low + step) > 0.0:  # friction falls as the oil warms, so this ends
-        low, step = low + step, 2.0 * step
-    balanced = _falling_root(surplus, low, low + step)
-    return ServiceDrag(parts(balanced), balanced)
-
-
-def _falling_root(value: Callable[[float], float], low: float, high: float) -> float:
-    """Root of a falling function between two places of opposite sign, by false position (Illinois)."""
-    at_low, at_high, place, last = value(low), value(high), high, math.inf
-    above: bool | None = None
-    while abs(place - last) > _CLOSED:
-        last, place = place, low + (high - low) * at_low / (at_low - at_high)
-        found = value(place)
-        if found > 0.0:
-            low, at_low, at_high = place, found, 0.5 * at_high if above is True else at_high
-        elif found < 0.0:
-            high, at_high, at_low = place, found, 0.5 * at_low if above is False else at_low
-        else:
-            return place
-        above = found > 0.0
-    return place
+    # F v = 2 G (T - T_air), by Newton's steps within a bracket that shrinks: friction falls as the oil warms
+    air = np.full(load.shape, air_temperature)
+    scale = unit.no_load / film(air)[0]
+    cooled = 2.0 * cooling / belt_speed
+    low, high = air, air + (rest + unit.no_load) / cooled
+    place, step = low, math.inf
+    while step > _CLOSED:
+        viscous, falls = film(place)
+        surplus = rest + scale * viscous - cooled * (place - air_temperature)
+        low, high = np.where(surplus >= 0.0, place, low), np.where(surplus > 0.0, high, place)
+        newton = place - surplus / (scale * falls - cooled)
+        following = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+        step, place = float(np.max(np.abs(following - place), initial=0.0)), following
+    return ServiceDrag(rest + scale * film(place)[0], place)

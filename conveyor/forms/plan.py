@@ -9,7 +9,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Part, Path, layout, leaves
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, Path, layout, leaves
 
 LONGEST_NAME: Final = 31
 """Characters of a sheet's name (Excel specifications and limits)."""

@@ -11,17 +11,23 @@ from typing import Any, Final
 from pydantic import BaseModel
 
 from conveyor.errors import InputError
+from conveyor.files.content import file_content
+from conveyor.files.document import first_lines
+from conveyor.files.workbook import MAGIC, Limits, Sheet, read_sheets
+from conveyor.forms.entries import NAMED, Content, FieldEntry, Item, SheetReader, problem_of
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Path
+from conveyor.forms.plan import Plan, references, whole, written_out
+from conveyor.forms.values import from_cells
 from conveyor.models import Conveyor
 from conveyor.models.base import field_path
 from conveyor.models.wording import Location
-from conveyor.template.entries import NAMED, Content, FieldEntry, Item, SheetReader
-from conveyor.template.layout import FieldGroup, FieldTable, Leaf, Path
-from conveyor.template.plan import Plan, references, whole, written_out
-from conveyor.template.values import from_cells
-from conveyor.template.workbook import grids, read_workbook
 
-MOST_LINES: Final = 100
-"""Errors listed of one workbook; the rest are counted."""
+LARGEST_FILE: Final = 3_000_000
+"""Bytes; a template of a thousand sections has a twentieth of it."""
+LIMITS: Final = Limits(content=10_000_000, parts=2_000, elements=150_000, expected="input workbook")
+"""A template of a thousand sections has a tenth of the content (so much takes some seconds) and 40,000 elements."""
+_OLE: Final = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_ENCRYPTED: Final = "EncryptedPackage".encode("utf-16-le")
 
 
 @dataclass(frozen=True)
@@ -64,25 +70,36 @@ def read_template(path: str | FilePath) -> Filled:
 
 
 def read_filled(where: FilePath, model: type[BaseModel], content: bytes | None = None) -> Filled:
-    """Read a workbook of any model's plan, as `read_template` does that of a conveyor; or its bytes, if given.
-
-    Raises
-    ------
-    InputError
-        As `read_template`.
-    """
-    sheets = SheetReader(str(where), read_workbook(where) if content is None else grids(where, content))
+    """Read a workbook of any model's plan, as `read_template` does that of a conveyor; or its bytes, if given."""
+    sheets = SheetReader(str(where), sheets_of(where, content))
     plan = whole(model)
     held = sheets.content(plan)
     reader = _Reader(sheets, {} if sheets.problems else _written_out(plan, sheets))
     reader.cells[()] = held.places[plan.forms[0].name]
     data = {} if sheets.problems else reader.group(plan.root, _At(held, held.entries, (), (), None))[0]
     if sheets.problems:
-        lines = sheets.problems[:MOST_LINES]
-        if len(sheets.problems) > MOST_LINES:
-            lines = [*lines, f"{where}: and {len(sheets.problems) - MOST_LINES} more errors"]
-        raise InputError("\n".join(lines))
+        raise InputError(first_lines(sheets.problems, str, str(where)))
     return Filled(str(where), data, reader.cells)
+
+
+def sheets_of(path: FilePath, content: bytes | None = None) -> dict[str, Sheet]:
+    """Read every sheet of a workbook, by name."""
+    read = read_sheets(_content(path) if content is None else content, str(path), LIMITS)
+    return {sheet.name: sheet for sheet in read}
+
+
+def _content(path: FilePath) -> bytes:
+    if path.suffix.lower() != ".xlsx":
+        raise InputError(f'{path}: expected a workbook that ends in .xlsx, got "{path.name}"')
+    content = file_content(path, largest=LARGEST_FILE, expected="input workbook")
+    if content.startswith(_OLE):
+        if _ENCRYPTED in content:
+            raise InputError(f"{path}: protected by a password; save it without one")
+        raise InputError(f"{path}: not a workbook of the .xlsx format; save it as .xlsx")
+    if not content.startswith(MAGIC):
+        found = "empty" if not content else "not a workbook (.xlsx)"
+        raise InputError(f"{path}: {found}; write one with: conveyor template input.xlsx")
+    return content
 
 
 def _written_out(plan: Plan, sheets: SheetReader) -> dict[str, Content]:
@@ -196,8 +213,9 @@ class _Reader:
     def _refused(entry: FieldEntry) -> tuple[str, str] | None:
         """Return the place and the reason why the cells of a field cannot be taken."""
         for found, place in ((entry.value, entry.place), (entry.unit, entry.unit_place)):
-            if found is not None and found.problem:
-                return place, found.problem
+            problem = "" if found is None else problem_of(found)
+            if problem:
+                return place, problem
         if entry.value is not None and entry.value.percent and entry.unit is not None and entry.unit.value:
             advice = "format the cell as a number, or empty the unit cell"
             return entry.place, f'shown as a percentage beside the unit "{entry.unit.value}"; {advice}'

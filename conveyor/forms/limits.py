@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Final
 
-from conveyor.template.layout import Leaf
+from conveyor.forms.layout import Leaf
 from conveyor.units import KINDS, System, quantity, text
 
 _BOUND: Final = re.compile(r"([<>≤≥]) ([^ ,]+ [^ ,]+)")

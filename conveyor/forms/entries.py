@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Final
 
-from conveyor.template.layout import Leaf, Path
-from conveyor.template.plan import Form, ListSheet, Plan
-from conveyor.template.workbook import CellGrid, CellValue, address
+from openpyxl.utils import get_column_letter
+
+from conveyor.files.workbook import Sheet, SheetCell
+from conveyor.forms.layout import Leaf, Path
+from conveyor.forms.plan import Form, ListSheet, Plan
 
 KEY, VALUE, UNIT = "Key", "Value", "Unit"
 """Headers by which the columns of a form are found."""
@@ -22,13 +25,43 @@ _HEADER_ROWS: Final = 60
 """Rows in which the header of a form or list is looked for."""
 
 
+def problem_of(cell: SheetCell) -> str:
+    """Why a cell cannot be taken for a value; "" where it can."""
+    if cell.kind == "no result":
+        return (
+            "holds a formula without a result; open the workbook in a spreadsheet program, let it calculate "
+            "and save it, or type the value"
+        )
+    if cell.kind == "error":
+        return f"holds the error {cell.value}; correct its formula or type the value"
+    if cell.kind == "date":
+        return (
+            f"holds a date or time ({cell.value}): the spreadsheet program took the number for one; "
+            "format the cell as a number and type it again"
+        )
+    infinite = isinstance(cell.value, float) and not math.isfinite(cell.value)
+    return "holds a number that is not finite" if infinite else ""
+
+
+def address(sheet: str, row: int, column: int) -> str:
+    """Write the place of a cell as spreadsheets do.
+
+    Examples
+    --------
+    >>> address("Belt", 4, 3), address("Rubber compound 1", 4, 3)
+    ('Belt!C4', "'Rubber compound 1'!C4")
+    """
+    quoted = sheet if sheet.isidentifier() else "'" + sheet.replace("'", "''") + "'"
+    return f"{quoted}!{get_column_letter(column)}{row}"
+
+
 @dataclass(frozen=True)
 class FieldEntry:
     """The cells of one field."""
 
     place: str
-    value: CellValue | None
-    unit: CellValue | None
+    value: SheetCell | None
+    unit: SheetCell | None
     unit_place: str
 
 
@@ -55,7 +88,7 @@ class Content:
 class SheetReader:
     """Reads the sheets of a plan and notes every problem it meets."""
 
-    def __init__(self, path: str, grids: dict[str, CellGrid]) -> None:
+    def __init__(self, path: str, grids: dict[str, Sheet]) -> None:
         self.path, self.grids = path, grids
         self.problems: list[str] = []
 
@@ -85,7 +118,7 @@ class SheetReader:
                 self._check_parents(content, sheet, sheet.parent)
         return content
 
-    def _sheet(self, name: str, *, required: bool) -> CellGrid | None:
+    def _sheet(self, name: str, *, required: bool) -> Sheet | None:
         """Return a sheet; one that may be empty may be missing too, unless another looks like it."""
         if name in self.grids:
             return self.grids[name]
@@ -100,7 +133,7 @@ class SheetReader:
             )
         return None
 
-    def _form(self, grid: CellGrid, form: Form, content: Content) -> None:
+    def _form(self, grid: Sheet, form: Form, content: Content) -> None:
         top, columns = self._header(grid, (KEY, VALUE, UNIT))
         if not columns:
             return
@@ -123,7 +156,7 @@ class SheetReader:
                 unit_place = address(grid.name, row, columns[UNIT])
                 content.entries[wanted[key]] = FieldEntry(place, value, unit, unit_place)
 
-    def _table(self, grid: CellGrid, sheet: ListSheet, content: Content) -> list[Item]:
+    def _table(self, grid: Sheet, sheet: ListSheet, content: Content) -> list[Item]:
         top, columns = self._header(grid, (NUMBER,))
         if not columns:
             return []
@@ -149,7 +182,7 @@ class SheetReader:
                 self._refuse_strays(grid, row, set(columns.values()))
         return items
 
-    def _header(self, grid: CellGrid, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
+    def _header(self, grid: Sheet, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
         """Find the row that names the columns, and its names; no names where there is none."""
         for row in range(1, _HEADER_ROWS + 1):
             columns: dict[str, int] = {}
@@ -175,28 +208,28 @@ class SheetReader:
         guess = f'; did you mean "{near[0]}"?' if near else ""
         self.refuse(place, f'unknown key "{key[:80]}"{guess}')
 
-    def _refuse_merged(self, grid: CellGrid, top: int, columns: set[int]) -> None:
+    def _refuse_merged(self, grid: Sheet, top: int, columns: set[int]) -> None:
         for first_row, first, last_row, last in grid.merged:
             if last_row > top and any(first <= column <= last for column in columns):
                 begin = address(grid.name, first_row, first)
                 end = address(grid.name, last_row, last).rpartition("!")[2]
                 self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
 
-    def _refuse_strays(self, grid: CellGrid, row: int, columns: set[int]) -> None:
+    def _refuse_strays(self, grid: Sheet, row: int, columns: set[int]) -> None:
         """Refuse what stands beside the columns of a list in a row that gives no item."""
         for (r, column), found in grid.cells.items():
-            if r == row and column not in columns and found.value is not None:
+            if r == row and column not in columns and not problem_of(found):
                 place = address(grid.name, row, column)
                 self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
 
-    def _whole(self, grid: CellGrid, row: int, column: int) -> int | None:
+    def _whole(self, grid: Sheet, row: int, column: int) -> int | None:
         found = grid.cells.get((row, column))
         if found is None:
             return None
         value = found.value
         if isinstance(value, int | float) and not isinstance(value, bool) and value == int(value):
             return int(value)
-        message = found.problem or f'got "{value}", expected the number of an item'
+        message = problem_of(found) or f'got "{value}", expected the number of an item'
         self.refuse(address(grid.name, row, column), message)
         return None
 
@@ -210,7 +243,7 @@ class SheetReader:
                 self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {found}')
 
 
-def _entry(grid: CellGrid, row: int, column: int, of_unit: int | None) -> FieldEntry:
+def _entry(grid: Sheet, row: int, column: int, of_unit: int | None) -> FieldEntry:
     unit = None if of_unit is None else grid.cells.get((row, of_unit))
     unit_place = "" if of_unit is None else address(grid.name, row, of_unit)
     return FieldEntry(address(grid.name, row, column), grid.cells.get((row, column)), unit, unit_place)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, Final, TypeAlias
 
 from conveyor.errors import InputError
-from conveyor.template.layout import Leaf, LeafKind
+from conveyor.forms.layout import Leaf, LeafKind
 from conveyor.units.misreadings import NUMBER, NUMBER_UNIT
 
 Value: TypeAlias = str | int | float | bool | None
@@ -31,7 +31,7 @@ def to_cells(leaf: Leaf, data: Any) -> tuple[Value, str | None]:
     Examples
     --------
     >>> from conveyor.models import Roll
-    >>> from conveyor.template.layout import layout
+    >>> from conveyor.forms.layout import layout
     >>> diameter = layout(Roll).parts[0]
     >>> to_cells(diameter, "159 mm"), from_cells(diameter, 159, "mm")
     ((159, 'mm'), '159 mm')
@@ -102,11 +102,6 @@ def from_cells(leaf: Leaf, value: Value, unit: str | None = None) -> Any:
     """Return the plain data of a value cell and its unit cell.
 
     What a model will refuse is passed on as it stands, so that the model says what it allows.
-
-    Raises
-    ------
-    InputError
-        Value and unit contradict each other, or the cell cannot be taken for one value.
     """
     if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"got {value}, expected a finite number")

@@ -1,0 +1,98 @@
+"""Points of a study that one core calculates in a second: overland belt, speed, spacing, temperature and compound.
+
+    python benchmarks/study_rate.py [WORKERS]
+
+Time is that of the processor, beside ten dense solves of 200 equations in the same minute (2 ms on an idle core of
+2024), so that a busy machine says the same. With WORKERS, wall time of processes against one, by turns.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ["OMP_NUM_THREADS"] = "1"  # before numpy: BLAS reads it once
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import sys
+import tempfile
+from itertools import islice
+from multiprocessing import forkserver
+from pathlib import Path
+from time import perf_counter, process_time
+
+import numpy as np
+
+import conveyor
+from conveyor import shelf
+from conveyor.cli.workers import begin, executor_of
+from conveyor.models.study import StudyPlan
+from conveyor.studies import campaign as running
+from conveyor.studies.points import answers
+
+SPEC = Path(__file__).parent.parent / "examples" / "specs" / "overland.yaml"
+AXES = {
+    "belt.bottom_cover.compound": ["standard-cover", "low-rolling-resistance-cover"],
+    "ambient.temperature": "-10:25:5 degC",
+    "belt.speed": "5:6.4:0.2 m/s",
+    "idlers.carry.spacing": "1.2:2.2:0.2 m",
+}
+
+
+def study(**axes: object) -> running.Campaign:
+    data = {"name": "rate", "base": SPEC.name, "axes": AXES | axes, "outputs": ["energy_per_tonne_km"]}
+    return running.Campaign.of(StudyPlan.from_data(data), conveyor.load(SPEC), shelf.compound)
+
+
+def reference() -> float:
+    """Least processor time of ten dense solves of 200 equations [s]."""
+    rng = np.random.default_rng(0)
+    matrix, right = rng.standard_normal((200, 200)) + 20.0 * np.eye(200), rng.standard_normal(200)
+    times = []
+    for _ in range(51):
+        began = process_time()
+        for _ in range(10):
+            np.linalg.solve(matrix, right)
+        times.append(process_time() - began)
+    return min(times)
+
+
+def rate(campaign: running.Campaign) -> None:
+    """Batch after batch of one process, after one to warm up."""
+    points = campaign.listed.points()
+    answers(campaign.job, list(islice(points, running.BATCH)))
+    count, spent, unit = 0, 0.0, reference()
+    while batch := list(islice(points, running.BATCH)):
+        began = process_time()
+        answers(campaign.job, batch)
+        count, spent, unit = count + len(batch), spent + process_time() - began, min(unit, reference())
+    print(
+        f"{count} points, {count / spent:.0f} a second of the processor, {1e3 * spent / count:.1f} ms each; "
+        f"reference {1e3 * unit:.2f} ms, {spent / count / unit:.2f} of it a point",
+        flush=True,
+    )
+
+
+def scaled(campaign: running.Campaign, workers: int) -> None:
+    """Wall and processor time of a whole run, processes against one, by turns; start-up of the processes is in it."""
+    for turn in range(3):
+        wall, processor = [], []
+        for many in (1, workers):
+            begun, before = perf_counter(), sum(os.times()[:4])
+            with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
+                begin(None, many)
+                with executor_of(None, many) as executor:
+                    running.run(campaign, known, executor=executor, workers=many)
+            wall.append(perf_counter() - begun)
+            forkserver._forkserver._stop()  # noqa: SLF001 its processes' time is told when it ends
+            processor.append(sum(os.times()[:4]) - before)
+        print(
+            f"turn {turn + 1}: {wall[0]:.1f} s, {workers} processes {wall[1]:.1f} s: {wall[0] / wall[1]:.2f}; "
+            f"of the processor {processor[0]:.1f} s, {processor[1]:.1f} s",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    rate(study())
+    if len(sys.argv) > 1:
+        scaled(study(), int(sys.argv[1]))

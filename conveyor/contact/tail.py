@@ -1,0 +1,247 @@
+"""The orders beyond those that layer and images reach: the isolated half-space alone couples them, and without end.
+
+An edge layer of width ζ j∞ asks for orders n ~ 4 sqrt(α/(ζ j∞)), thousands of them, but J_v(mα) of such orders is zero
+wherever the correction of spectral.py is not. Beyond its core the matrix is diagonal and, for each retardation term,
+I_max K_min: what the orders above n know of those below is F_t = Σ_{v≤n} K_v x_v, x_v = v c_v, and what they give back
+is B_t = Σ_{v>n} (-1)^v I_v x_v = Z F. Orders are eliminated from the top, block by block (V = d K_n Z K_n, scaled so
+that nothing overflows), and close the core exactly:
+
+    g_i += (2-δ_i0) (-1)^i (K_i/K_n)ᵀ V F/K_n.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.bessel import ProductIK
+from conveyor.contact.creep import CreepSpectrum
+
+Array = NDArray[np.float64]
+
+_BLOCK = 32
+_SEGMENT = 4096  # orders whose tables are held together
+_SMOOTH, _PLAIN = (
+    8,
+    4,
+)  # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
+
+
+def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:
+    """I_{v+1}/I_v and K_v/K_{v+1} of the orders `first` … `last`, at least 16, without a loop over them.
+
+    Both solve a recurrence r_{v-1} (2v/b + r_v) = 1, h_v (2v/b + h_{v-1}) = 1 whose solution is smooth in v: with the
+    neighbour's difference from the sweep before, each equation is a quadratic of its own, and a sweep gains a factor
+    of v. The recurrence itself takes the last digits where b < v.
+
+    Parameters
+    ----------
+    first, last : int
+        Orders [-].
+    b : ndarray, shape (t,)
+        Arguments [-], positive.
+
+    Returns
+    -------
+    tuple of ndarray, shape (last - first + 1, t)
+
+    Examples
+    --------
+    >>> from scipy import special
+    >>> upper, lower = neighbour_ratios(40, 40, np.array([3.0]))
+    >>> round(float(upper[0, 0] / (special.iv(41, 3.0) / special.iv(40, 3.0))), 12)
+    1.0
+    """
+    spare = _SMOOTH + _PLAIN
+    v = np.arange(first - spare, last + spare + 1.0)[:, None]
+    rise = 2.0 * v / b
+    upper = b / (v + 0.5 + np.hypot(v + 1.5, b))
+    lower = b / (v - 0.5 + np.hypot(v + 0.5, b))
+    for sweep in range(1, _SMOOTH + 1):
+        change, step = upper[:-1] - upper[1:], rise[sweep:]
+        upper = _root(step + change, 1.0 - change * step)
+        lower = _root(step + (lower[:-1] - lower[1:]), 1.0)
+    for sweep in range(_PLAIN):
+        upper = 1.0 / (rise[_SMOOTH + 1 : upper.shape[0] + _SMOOTH] + upper[1:])
+        lower = 1.0 / (rise[_SMOOTH + 1 + sweep :] + lower[:-1])
+    count = last - first + 1
+    return upper[_PLAIN : _PLAIN + count], lower[:count]
+
+
+def _root(linear: Array, constant: Array | float) -> Array:
+    """Positive root of x² + linear x = constant."""
+    root: Array = 2.0 * constant / (linear + np.sqrt(linear * linear + 4.0 * constant))
+    return root
+
+
+class _Segment:
+    """Blocks of `block` orders between `first` and `last` of one half width; arrays over blocks k, orders m, terms t.
+
+    `rows` are the equations of a block's own x, `up` = d I_i K_l with l the order below the block, `down` = K_i/K_n
+    with n its highest, `across` = K_l/K_n, `sign` = (-1)^i.
+    """
+
+    def __init__(
+        self, creep: tuple[float, Array, Array], alpha: float, first: int, last: int, block: int
+    ) -> None:
+        instantaneous, weights, times = creep
+        b = alpha / times
+        upper, lower = neighbour_ratios(first - 1, last, b)
+        v = np.arange(first, last + 1.0)[:, None]
+        # I_v K_v = 1/(2v + δ), 1/(2v) - I_v K_v = δ/(2v (2v + δ)): bessel.ProductIK
+        delta = b * (upper[1:] + lower[:-1])
+        diagonal = 1.0 / (2.0 * v + delta)
+        deficit = delta * diagonal / (2.0 * v)
+        shape = ((last - first) // block, block, b.size)
+        rising, falling = upper[1:-1].reshape(shape), lower[1:-1].reshape(shape)
+        self.up = weights * diagonal[:-1].reshape(shape)[:, :1] * np.cumprod(rising, axis=1)
+        back = np.cumprod(falling[:, ::-1], axis=1)[:, ::-1]
+        self.down = np.concatenate([back[:, 1:], np.ones_like(back[:, :1])], axis=1)
+        self.across = np.asarray(back[:, 0], dtype=np.float64)
+        orders = v[1:].reshape(shape[:2])
+        self.sign = np.where(orders % 2.0 == 0.0, 1.0, -1.0)[..., None]
+        self.rows = np.zeros((*shape[:2], block))
+        product = 2.0 * weights * diagonal[1:].reshape(shape)
+        for step in range(1, block):
+            product = product[:, :-1] * rising[:, step:]
+            along, at = product.sum(axis=2), np.arange(block - step)
+            self.rows[:, at + step, at] = along
+            self.rows[:, at, at + step] = along if step % 2 == 0 else -along
+        at = np.arange(block)
+        self.rows[:, at, at] = -(instantaneous / orders + 2.0 * (deficit[1:].reshape(shape) @ weights))
+
+
+@dataclass(frozen=True, eq=False)
+class _Answers:
+    """What a segment answers to F/K_l of the orders below each of its blocks: x = X F/K_l."""
+
+    answers: Array
+    down: Array
+    across: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Tail:
+    """The orders beyond a core of n, up to `last`, of one contact of given half width.
+
+    Attributes
+    ----------
+    given : ndarray, shape (3, t, t)
+        V at order n of tails that end at `last`, three quarters and half of it.
+    half, most : ndarray, shape (1, t, t)
+        V of the first of them at orders n/2 and 3n/4, whose upper half it then is.
+    """
+
+    alpha: float
+    creep: CreepSpectrum
+    core: int
+    last: int
+    given: Array
+    half: Array
+    most: Array
+    _segments: Sequence[_Answers]
+
+    @classmethod
+    def of(cls, alpha: float, creep: CreepSpectrum, core: int, last: int) -> Tail:
+        """Eliminate the orders from `last` down; `core` is a multiple of 64, `last` of it, four times it at least."""
+        terms = creep.weights.size
+        parts = creep.instantaneous, creep.weights, creep.times
+        starts = {last, last // 2, (3 * last) // 4}
+        given = np.zeros((0, terms, terms))
+        kept = []
+        for low, high in reversed(list(_segments(core, last))):
+            segment = _Segment(parts, alpha, low, high, _BLOCK)
+            answers = []
+            for k in range(segment.up.shape[0] - 1, -1, -1):
+                if low + (k + 1) * _BLOCK in starts:
+                    given = np.concatenate([given, np.zeros((1, terms, terms))])
+                given, found = _eliminated(segment, k, given)
+                answers.append(found[0])
+            kept.append(_Answers(np.array(answers[::-1]), segment.down, segment.across))
+        below = _Segment(parts, alpha, core // 2, core, core // 4)
+        most, _ = _eliminated(below, 1, given[:1])
+        half, _ = _eliminated(below, 0, most)
+        return cls(alpha, creep, core, last, given, half, most, kept[::-1])
+
+    def closed(self, matrix: Array, ik: ProductIK) -> tuple[Array, list[tuple[Array, Array]]]:
+        """The core's matrix, shape (1, n+1, n), with every order up to `last`, and pairs of lower orders of it.
+
+        The first pair has a core of half and three quarters of the order, the second a tail of half and three quarters.
+        """
+        n = self.core
+        whole, longer, shorter = matrix + _closing(n, ik, self.given)
+        cores = [
+            matrix[:, : order + 1, :order] + _closing(order, ik, v)
+            for order, v in ((n // 2, self.half), ((3 * n) // 4, self.most))
+        ]
+        return whole[None], [(cores[0], cores[1]), (shorter[None], longer[None])]
+
+    def coefficients(self, ik: ProductIK, c: Array) -> Array:
+        """c_1 … c_last from those of the core, shape (n,)."""
+        orders = np.arange(1.0, self.last + 1.0)
+        below = ik.falling(self.core)[1:, 0].T @ (orders[: self.core] * c)
+        out = [c]
+        for segment in self._segments:
+            for answers, down, across in zip(segment.answers, segment.down, segment.across, strict=True):
+                x = answers @ below
+                below = across * below + down.T @ x
+                out.append(x)
+        found = np.concatenate(out)
+        found[self.core :] /= orders[self.core :]
+        return found
+
+    def level(self, ik: ProductIK, c: Array) -> float:
+        """Its share of W_0, Σ_t d_t ζ_t K_0 B_t (spectral.level), from the core's coefficients, shape (n,)."""
+        falling = ik.falling(self.core)[:, 0]
+        below = falling[1:].T @ (np.arange(1.0, self.core + 1.0) * c)
+        return float(self.creep.times * falling[0] @ (self.given[0] @ below))
+
+    def quadratic(self, ik: ProductIK, c: Array) -> float:
+        """Its share of `ProductIK.quadratic` with weights d ζ, from all coefficients, shape (last,)."""
+        x = np.arange(1.0, self.last + 1.0) * c
+        weights = self.creep.weights * self.creep.times
+        falling = ik.falling(self.core)[1:, 0]
+        below = np.stack(
+            [falling[parity::2].T @ x[parity : self.core : 2] for parity in (0, 1)]
+        )  # odd, even orders
+        total = 0.0
+        for low, high in _segments(self.core, self.last):
+            segment = _Segment((0.0, weights, self.creep.times), self.alpha, low, high, _BLOCK)
+            mine = x[low:high].reshape(-1, _BLOCK)
+            total -= 0.5 * float(np.einsum("ki,kij,kj->", mine, segment.rows, mine))
+            for k, part in enumerate(mine):
+                for parity in (0, 1):
+                    here = slice(parity, None, 2)
+                    total -= 2.0 * float(below[parity] @ (segment.up[k, here].T @ part[here]))
+                    below[parity] = segment.across[k] * below[parity] + segment.down[k, here].T @ part[here]
+        return total
+
+
+def _closing(order: int, ik: ProductIK, v: Array) -> Array:
+    """What tails V, shape (s, t, t), add to the matrix of the order they begin at, shape (s, order+1, order)."""
+    falling = ik.falling(order)[:, 0]
+    i = np.arange(order + 1.0)
+    sign = np.where(i % 2.0 == 0.0, 2.0, -2.0)
+    sign[0] = 1.0
+    added: Array = (sign[:, None] * (falling @ v)) @ falling[1:].T * i[1:]
+    return added
+
+
+def _segments(core: int, last: int) -> Iterator[tuple[int, int]]:
+    """Ranges of orders, of whole blocks."""
+    edges = [core, *range(_SEGMENT, last, _SEGMENT), last]
+    yield from pairwise(edges)
+
+
+def _eliminated(segment: _Segment, k: int, v: Array) -> tuple[Array, Array]:
+    """V below block k from V above it, and the block's answers; shapes (s, t, t) and (s, m, t)."""
+    down, across, sign = segment.down[k], segment.across[k], segment.sign[k]
+    given = sign * (down @ v)
+    right = segment.up[k] + given * across
+    answers = np.linalg.solve(segment.rows[k] + 2.0 * given @ down.T, -2.0 * right)
+    below = across[:, None] * v * across + (sign * right).swapaxes(1, 2) @ answers
+    return below, answers

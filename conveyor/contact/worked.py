@@ -1,0 +1,200 @@
+"""Working strain of many contacts at once, as `interior` finds it, where the layer forgets a roll before the next.
+
+The sum over the harmonics of a period is then the integral over all wave numbers, and in units of the half width its
+nodes are the same for every contact: Bessel functions and turns are tables, and contacts differ in their layer, creep
+and pressure alone. Paths are followed as far as a particle moves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from conveyor.contact.bessel import bessel_j
+from conveyor.contact.inside import FAR, HARMONICS, MIDDLE, NEAR, OCTAVE, RAMP, Inside
+from conveyor.contact.interior import interior, path_amplitude
+from conveyor.contact.layer_shapes import confined_shapes
+from conveyor.contact.layers import Confined
+from conveyor.contact.solution import ContactSolution
+
+Array = NDArray[np.float64]
+
+FORGETS: Final = 0.4
+"""Thickness k h of an incompressible bonded layer up to which the next roll changes strains by less than 1e-3: four
+(h/λ)³, as of friction (`indentation.MEMORY`)."""
+_REACH: Final = (
+    1.2  # thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4
+)
+_GRADED: Final = (
+    0.0,
+    0.02,
+    0.1,
+    0.4,
+    1.2,
+)  # edges of panels in m α, where the strain rises from nothing as (m h)²
+_PHASE: Final = 8.0  # radians a panel at most: 8 Gauss nodes integrate its waves to 1e-6
+_GAUSS: Final = 8
+_CHUNK: Final = 8  # contacts at once: few enough for the cache
+
+
+class _Waves(NamedTuple):
+    """Wave numbers u = m α, their weights, the window, and the turns u x/α of places."""
+
+    u: Array
+    weights: Array
+    window: Array
+    cos: Array
+    sin: Array
+
+
+def _waves(x: Array, end: float) -> _Waves:
+    """The integral for places x/α, shape (nx,), windowed to end at u = `end`."""
+    span = float(np.abs(x).max())
+    count = math.ceil((end - _GRADED[-1]) * span / _PHASE)
+    edges = np.concatenate([_GRADED, np.linspace(_GRADED[-1], end, count + 1)[1:]])
+    at, gauss = np.polynomial.legendre.leggauss(_GAUSS)
+    half = 0.5 * np.diff(edges)[:, None]
+    u = (edges[:-1, None] + half * (at + 1.0)).ravel()
+    turn = np.multiply.outer(u, x)
+    window = 0.5 * special.erfc((u / end - MIDDLE) / RAMP)
+    return _Waves(u, (half * gauss).ravel(), window, np.cos(turn), np.sin(turn))
+
+
+@lru_cache(maxsize=16)
+def _table(points: int, octaves: int) -> tuple[_Waves, ...]:
+    """Waves of the places within two half widths, and of each octave beyond on either side."""
+    end = HARMONICS * points
+    found = [_waves(np.linspace(-NEAR, NEAR, points + 1), end)]
+    steps = max(2, points // OCTAVE)
+    for octave in range(octaves):
+        begin = NEAR * 2.0**octave
+        away = begin * 2.0 ** np.linspace(0.0, 1.0, steps + 1)[1:]
+        found.append(_waves(np.concatenate([-away, away]), min(end, FAR / (begin - 1.0))))
+    return tuple(found)
+
+
+@lru_cache(maxsize=32)
+def _bessel(order: int, points: int, octaves: int) -> tuple[Array, ...]:
+    """v/2 J_v(u) of v = 1 … order with the signs of (-i)^(v-1), shape (order, k), at the nodes of every table."""
+    v = np.arange(1, order + 1)
+    signed = 0.5 * v * np.where((v - 1) % 4 < 2, 1.0, -1.0)
+    return tuple(signed[:, None] * bessel_j(order, waves.u)[1:] for waves in _table(points, octaves))
+
+
+def working_strains(
+    solutions: Sequence[ContactSolution], *, depths: int = 16, points: int = 48
+) -> list[tuple[float, float]]:
+    """Working strain [-] and wave number m of the dissipation [-] of solved contacts, as `interior` has them.
+
+    Parameters
+    ----------
+    solutions : sequence of ContactSolution
+        Contacts with loss.
+    depths, points : int
+        As of `interior` [-].
+
+    Returns
+    -------
+    list of tuple of float
+        In their order; those whose layer does not forget a roll before the next are taken one by one.
+
+    Raises
+    ------
+    InputError, NoSolutionError
+        As `interior`.
+    """
+    found: dict[int, tuple[float, float]] = {}
+    plain: dict[tuple[int, int], list[int]] = {}
+    for i, solution in enumerate(solutions):
+        if _forgets(solution):
+            plain.setdefault((solution.stats.order, _octaves(solution)), []).append(i)
+        else:
+            one = interior(solution, depths=depths, points=points)
+            found[i] = one.working_strain, one.wave_number
+    for (order, octaves), alike in plain.items():
+        tables = list(zip(_table(points, octaves), _bessel(order, points, octaves), strict=True))
+        for start in range(0, len(alike), _CHUNK):
+            chosen = alike[start : start + _CHUNK]
+            strains = _strains([Inside(solutions[i], points) for i in chosen], tables, depths)
+            found.update(zip(chosen, strains, strict=True))
+    return [found[i] for i in range(len(solutions))]
+
+
+def _forgets(solution: ContactSolution) -> bool:
+    """Whether the contact stands alone under its period."""
+    layer, problem = solution.problem.layer, solution.problem
+    return (
+        isinstance(layer, Confined)
+        and layer.poisson == 0.5
+        and layer.thickness <= FORGETS
+        and problem.creep.weights.size > 0
+        and solution.stats.order > 0
+        and len(solution.patches) == 1
+        and NEAR * 2.0 ** _octaves(solution) * solution.half_width * problem.rho <= 0.5 * math.pi
+    )
+
+
+def _octaves(solution: ContactSolution) -> int:
+    """How many octaves reach from two half widths to where a particle is at rest."""
+    depth = solution.problem.thickness / (solution.half_width * solution.problem.rho)
+    return max(math.ceil(math.log2(_REACH * depth / NEAR)), 1)
+
+
+def _strains(
+    inside: list[Inside], tables: list[tuple[_Waves, Array]], depths: int
+) -> list[tuple[float, float]]:
+    """Working strain and wave number of contacts of one order."""
+    strips = [one.strips[0] for one in inside]
+    alpha, c = np.array([strip.alpha for strip in strips]), np.array([strip.c for strip in strips])
+    thickness = np.array([one.thickness for one in inside]) / alpha
+    z, weights = (
+        np.array(part)[:, 1:-1] for part in zip(*(one.depths(depths) for one in inside), strict=True)
+    )
+    z = z / alpha[:, None]
+    difference, shear = [], []
+    losing = np.zeros(0)
+    for waves, bessel in tables:
+        u = waves.u
+        D, T, _, _ = confined_shapes(
+            thickness[:, None, None] * u,
+            z[:, :, None] * u,
+            np.maximum(thickness[:, None] - z, 0.0)[:, :, None] * u,
+            0.5,
+        )
+        m = u / alpha[:, None]
+        creep = np.array([one.problem.creep.compliance(k) for one, k in zip(inside, m, strict=True)])
+        # p̃̂ and dm/m with it: the sum's 2 Σ is 2 ∫ dm
+        pressure = np.empty(m.shape, dtype=complex)
+        pressure.real = c[:, ::2] @ bessel[::2]
+        pressure.imag = -(c[:, 1::2] @ bessel[1::2])
+        pressure /= m
+        strained = (2.0 * waves.weights * waves.window / alpha[:, None]) * pressure * creep
+        difference.append(_turned(D, strained, waves))
+        shear.append(_turned(T, 1j * strained, waves))
+        if losing.size == 0:
+            square = (waves.weights / alpha[:, None]) * np.abs(pressure) ** 2
+            density = (D * D + T * T) @ (square * m * creep.imag)[:, :, None]
+            losing = density[:, :, 0]
+            surface = np.array(
+                [one.layer.symbol(k, one.problem.creep).imag for one, k in zip(inside, m, strict=True)]
+            )
+            lost = square * surface
+            mean = np.exp(np.sum(lost * np.log(m), axis=1) / lost.sum(axis=1))
+    scale = np.array([one.scale for one in inside])[:, None, None]
+    d, g = (2.0 * scale * np.concatenate(part, axis=2) for part in (difference, shear))
+    d, g = (part.reshape(-1, part.shape[2]) for part in (d, g))
+    amplitude = path_amplitude(difference=d, shear=g, dilatation=np.zeros_like(d)).reshape(-1, depths)
+    weighed = weights * losing
+    strain = np.sum(amplitude * weighed, axis=1) / weighed.sum(axis=1)
+    return list(zip(strain.tolist(), mean.tolist(), strict=True))
+
+
+def _turned(shape: Array, wave: NDArray[np.complex128], waves: _Waves) -> Array:
+    """Re Σ shape · wave e^{iux}, shape (b, nz, nx)."""
+    return (shape * wave.real[:, None, :]) @ waves.cos - (shape * wave.imag[:, None, :]) @ waves.sin

@@ -1,0 +1,65 @@
+"""A laboratory file as a grid of text cells that know their place, and the refusal that names it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+from conveyor.errors import InputError
+
+_LONGEST_LABEL: Final = 60
+"""Characters of a column's name shown in a message."""
+
+
+class TextLine(NamedTuple):
+    """One line of a text file or one row of a sheet."""
+
+    number: int
+    cells: tuple[str, ...]
+    text: str
+    comment: bool
+
+
+@dataclass(frozen=True)
+class TextGrid:
+    """All lines of one text file or one sheet that are not blank.
+
+    Attributes
+    ----------
+    name : str
+        What messages begin with: the file, for a workbook with its sheet.
+    lines : tuple of TextLine
+        In the order of the file.
+    notes : tuple of str
+        Decisions taken while reading: encoding, separator.
+    sheet : str
+        Empty for a text file; columns of a sheet are shown as letters.
+    """
+
+    name: str
+    lines: tuple[TextLine, ...]
+    notes: tuple[str, ...]
+    sheet: str = ""
+
+    def refusal(self, row: int, column: int, message: str, *, header: str = "") -> InputError:
+        """Error that begins with file, row (from 1) and column (from 0)."""
+        return refusal(self.name, row, column, message, header=header, lettered=bool(self.sheet))
+
+
+def refusal(
+    name: str, row: int, column: int, message: str, *, header: str = "", lettered: bool = False
+) -> InputError:
+    """Error of one line that begins with file, row (from 1) and column (from 0).
+
+    Examples
+    --------
+    >>> print(refusal("pad.csv", 3, 1, "not a number", header="E' [MPa]"))
+    pad.csv:3: column 2 "E' [MPa]": not a number
+    """
+    shown = str(column + 1)
+    if lettered:
+        from openpyxl.utils import get_column_letter
+
+        shown = get_column_letter(column + 1)
+    label = f' "{header[:_LONGEST_LABEL]}"' if header else ""
+    return InputError(" ".join(f"{name}:{row}: column {shown}{label}: {message}".split()))

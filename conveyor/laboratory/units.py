@@ -1,0 +1,105 @@
+"""Units as laboratories write them, to SI: a factor and an offset for each."""
+
+from __future__ import annotations
+
+import math
+import re
+from types import MappingProxyType
+from typing import Final, NamedTuple
+
+
+class ColumnUnit(NamedTuple):
+    """SI value = factor * (number + offset)."""
+
+    name: str
+    factor: float
+    offset: float = 0.0
+
+
+_POUND_FORCE_PER_SQUARE_INCH: Final = 6894.757293168361
+"""0.45359237 kg * 9.80665 m/s^2 / (0.0254 m)^2, exact definitions, rounded to double."""
+_STANDARD_GRAVITY: Final = 9.80665
+"""[m/s^2], exact by definition; 1 kgf = 9.80665 N."""
+_Spelled = dict[str, tuple[float, str] | tuple[float, str, float]]
+_PLAIN: Final[_Spelled] = {"-": (1.0, "1 – — none dimensionless")}
+_SPELLED: Final[dict[str, _Spelled]] = {
+    "frequency": {
+        "Hz": (1.0, "hz HZ cps cycles/s"),
+        "rad/s": (
+            1.0 / (2.0 * math.pi),
+            "rads/s rad/sec radian/s radians/s rads^-1 rads-1 radsec^-1 Rad/s rad·s^-1 rad·s-1",
+        ),
+        "kHz": (1e3, "khz KHz"),
+        "mHz": (1e-3, ""),
+        "MHz": (1e6, ""),
+    },
+    "modulus": {
+        "Pa": (1.0, "pascal N/m^2 N/m2"),
+        "kPa": (1e3, "KPa Kpa kpa KPA"),
+        "MPa": (1e6, "Mpa MPA megapascal N/mm^2 N/mm2 MN/m^2 MN/m2"),
+        "GPa": (1e9, "Gpa GPA gpa"),
+        "psi": (_POUND_FORCE_PER_SQUARE_INCH, "PSI lbf/in^2 lbf/in2"),
+        "ksi": (1e3 * _POUND_FORCE_PER_SQUARE_INCH, "KSI"),
+        "dyn/cm^2": (0.1, "dyn/cm2 dyne/cm^2 dyne/cm2 dynes/cm^2 dynes/cm2"),
+        "kgf/cm^2": (_STANDARD_GRAVITY / 1e-4, "kgf/cm2"),
+        "bar": (1e5, ""),
+    },
+    "temperature": {
+        "degC": (1.0, "C degc celsius Celsius oC gradC ℃ centigrade", 273.15),
+        "degF": (5.0 / 9.0, "F degf fahrenheit Fahrenheit oF ℉", 459.67),
+        "K": (1.0, "kelvin Kelvin degK"),
+    },
+    "strain": {
+        "-": (1.0, "1 – — mm/mm m/m in/in strain fraction dimensionless"),
+        "%": (1e-2, "pct percent Prozent % %strain"),
+        "permille": (1e-3, "‰"),
+        "ppm": (1e-6, "um/m microstrain ustrain uε ue"),
+    },
+    "time": {
+        "s": (1.0, "sec secs second seconds Sek"),
+        "ms": (1e-3, "msec"),
+        "min": (60.0, "minute minutes"),
+        "h": (3600.0, "hr hour hours"),
+    },
+    "angle": {"deg": (math.pi / 180.0, "degree degrees Grad"), "rad": (1.0, "radian radians")},
+    "number": _PLAIN,
+    "label": _PLAIN,
+}
+UNITS: Final = MappingProxyType(
+    {
+        dimension: {
+            spelling: ColumnUnit(name, factor, *offset)
+            for name, (factor, spellings, *offset) in units.items()
+            for spelling in (name, *spellings.split())
+        }
+        for dimension, units in _SPELLED.items()
+    }
+)
+"""For each dimension every accepted spelling, blanks removed."""
+_LOOKS: Final = str.maketrans(
+    {"°": "deg", "º": "deg", "˚": "deg", "µ": "u", "μ": "u", "²": "^2", "⋅": "·", "*": "·"}
+)
+
+
+def find_unit(dimension: str, text: str) -> ColumnUnit | None:
+    """The unit of a dimension behind a spelling, brackets allowed; None if it is none.
+
+    Examples
+    --------
+    >>> find_unit("modulus", "[ N/mm² ]"), find_unit("temperature", "°C").offset, find_unit("modulus", "Hz")
+    (ColumnUnit(name='MPa', factor=1000000.0, offset=0.0), 273.15, None)
+    """
+    plain = re.sub(r"\s+", "", text).replace("⁻¹", "^-1")
+    if len(plain) > 1 and plain[0] + plain[-1] in {"[]", "()", "<>"}:
+        plain = plain[1:-1]
+    return UNITS[dimension].get(plain.translate(_LOOKS))
+
+
+def is_any_unit(text: str) -> bool:
+    """Whether a text is a unit of some dimension."""
+    return any(find_unit(dimension, text) for dimension in UNITS)
+
+
+def allowed(dimension: str) -> str:
+    """Names of the units of a dimension, for messages."""
+    return ", ".join(_SPELLED[dimension])

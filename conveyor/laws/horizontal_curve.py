@@ -1,0 +1,379 @@
+"""Horizontal curves: what draws the belt inside, what holds it, how far it drifts on its rolls.
+
+Sources: Grimmer, Kessler, Spezielle Betrachtungen zur Gurtführung bei Gurtförderern mit Horizontalkurven (1987), Parts
+I and II, by the forms and figures that the open library eytelwein 0.1.9 gives for them; the paper itself was not read.
+What is derived here says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+from conveyor.laws.loading import RollLoad
+from conveyor.laws.resistance.defaults import Default
+from conveyor.require import (
+    require,
+    require_angle,
+    require_finite,
+    require_not_negative,
+    require_positive,
+)
+
+FULL_SLIP_TILT: Final = Default(
+    math.radians(3.0), math.radians(2.0), math.radians(4.0),
+    "tilt from which a roll slides across the belt over all of its contact, 2 μ p h/(G a) of usual covers", True,
+)  # fmt: skip
+"""[rad]"""
+LEAST_GUIDANCE: Final = 0.7
+"""Guiding friction to count on over the full one, wet or dirty: Grimmer, Kessler, worked example [-]."""
+WIND_DRAG: Final = Default(1.3, 1.0, 2.0, "drag coefficient of the belt's trough across the wind", True)
+"""[-]"""
+AIR_DENSITY: Final = 1.25
+"""EN 1991-1-4, recommended value [kg/m³]."""
+
+
+def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
+    """Friction across the belt of a roll whose axis is turned, μ [1 - (1 - ε/ε_s)³], from ε_s on μ.
+
+    Parameters
+    ----------
+    tilt : float
+        ε of the roll's axis from square to the belt [rad], of either sign.
+    friction : float
+        μ of belt on roll [-], at least 0.
+    full_slip : float
+        ε_s from which the whole contact slides [rad], positive.
+
+    Returns
+    -------
+    float
+        Force across the belt over the normal force, of the sign of the tilt [-].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Derived: brush model of a rolling contact with parabolic pressure (as of tyres), without turning slip. ISO 5048
+    takes the full μ at any tilt.
+
+    Examples
+    --------
+    >>> (
+    ...     round(guide_friction(0.5, friction=0.4, full_slip=1.0), 12),
+    ...     guide_friction(-2.0, friction=0.4, full_slip=1.0),
+    ... )
+    (0.35, -0.4)
+    """
+    require_finite(tilt=tilt)
+    require_not_negative(friction=friction)
+    require_positive(full_slip=full_slip)
+    sliding = abs(tilt) >= full_slip
+    share = 1.0 if sliding else 1.0 - (1.0 - abs(tilt) / full_slip) ** 3
+    return math.copysign(friction * share, tilt)
+
+
+def outward_pushes(
+    frictions: Sequence[float], *, trough_angle: float, banking_angle: float
+) -> tuple[float, ...]:
+    """Force to the outside of the curve over the weight on each roll, from the inside roll outward.
+
+    Inside sin(λ+β) + κ cos(λ+β), middle sin β + κ_m cos β, outside -sin(λ-β) + κ cos(λ-β); the belt that slides down
+    the wings presses on the middle roll with sin(λ±β) sin λ, which κ_m adds to theirs.
+
+    Parameters
+    ----------
+    frictions : sequence of float
+        κ of each roll to the outside, see `guide_friction` [-]: two or three, the inside roll first.
+    trough_angle : float
+        λ of the outer rolls [rad], above 0 and below pi/2.
+    banking_angle : float
+        β by which the set is raised on the inside [rad], at least 0; λ + β below pi/2.
+
+    Returns
+    -------
+    tuple of float
+        Of each roll [-].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Grimmer, Kessler, Part II ("improved"), their load factors 1: the weight on a wing acts along the wing in full, as
+    of a belt that passes the corner without friction. Part I takes cos λ of it.
+
+    Examples
+    --------
+    >>> pushes = outward_pushes((0.0, 0.0, 0.0), trough_angle=math.radians(30), banking_angle=0.0)
+    >>> [round(push, 3) for push in pushes]
+    [0.5, 0.0, -0.5]
+    """
+    require(len(frictions) in {2, 3}, "frictions", frictions, "those of two or three rolls are needed")
+    require_finite(**{f"frictions_{i}": one for i, one in enumerate(frictions)})
+    require_angle(0.0, trough_angle=trough_angle, banking_angle=banking_angle)
+    require_angle(0.0, sum_of_trough_and_banking=trough_angle + banking_angle)
+    require_positive(trough_angle=trough_angle)
+    inside, outside = trough_angle + banking_angle, trough_angle - banking_angle
+    wings = (
+        math.sin(inside) + frictions[0] * math.cos(inside),
+        -math.sin(outside) + frictions[-1] * math.cos(outside),
+    )
+    if len(frictions) == 2:
+        return wings
+    middle, pressed = frictions[1], frictions[1] * math.sin(trough_angle)
+    return (
+        wings[0] + pressed * math.sin(inside),
+        math.sin(banking_angle) + middle * math.cos(banking_angle),
+        wings[1] + pressed * math.sin(outside),
+    )
+
+
+def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float) -> tuple[RollLoad, ...]:
+    """Loads of a set's rolls whose belt has drifted inside by s, what lies on each strip of belt staying on it.
+
+    Parameters
+    ----------
+    loads : sequence of RollLoad
+        Of the centred belt, inside roll first: two or three [N].
+    drift : float
+        s toward the inside, negative outward [m]; the belt stays on the roll that it leaves.
+    roll_length : float
+        Shell length of the rolls [m], positive: the belt beyond it hangs over.
+
+    Returns
+    -------
+    tuple of RollLoad
+        Inside roll first [N]; their sum is that of the centred belt's.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Derived. The strip that comes on to a wing bears what it bore on the middle roll (of two rolls, at the inner end of
+    the other wing); along a wing the bulk is laid as before, over its new length.
+
+    Examples
+    --------
+    >>> roll = lambda name, belt, length: RollLoad(name, 0.0, belt, length, "uniform")
+    >>> set_ = [roll("left wing", 24.0, 0.24), roll("middle", 32.0, 0.32), roll("right wing", 24.0, 0.24)]
+    >>> moved = drifted_loads(set_, 0.06, roll_length=0.32)
+    >>> [(round(one.belt_force, 9), round(one.length, 9)) for one in moved]
+    [(30.0, 0.3), (32.0, 0.32), (18.0, 0.18)]
+    """
+    require_positive(roll_length=roll_length)
+    require(len(loads) in {2, 3}, "loads", loads, "those of two or three rolls are needed")
+    if drift < 0.0:
+        return tuple(reversed(drifted_loads(loads[::-1], -drift, roll_length=roll_length)))
+    left = loads[-1]
+    require(
+        drift <= left.length,
+        "drift",
+        drift,
+        f"at most the {left.length:.4g} m of belt on the wing are needed",
+    )
+    over = drift / left.length
+    bulk = left.bulk_force * (over * (2.0 - over) if left.shape == "triangular" else over)
+    belt = left.belt_force * over
+    made = [_with(left, -bulk, -belt, left.length - drift)]
+    if len(loads) == 3:
+        middle = loads[1]
+        passed = drift / middle.length
+        bulk_on, belt_on = middle.bulk_force * passed, middle.belt_force * passed
+        made.insert(0, _with(middle, bulk - bulk_on, belt - belt_on, middle.length))
+        bulk, belt = bulk_on, belt_on
+    return (_with(loads[0], bulk, belt, min(loads[0].length + drift, roll_length)), *made)
+
+
+def _with(load: RollLoad, bulk: float, belt: float, length: float) -> RollLoad:
+    return replace(load, bulk_force=load.bulk_force + bulk, belt_force=load.belt_force + belt, length=length)
+
+
+def outward_force(loads: Sequence[RollLoad], pushes: Sequence[float]) -> float:
+    """Force of weight and guiding friction on a set to the outside of its curve, sum of W c over its rolls.
+
+    Parameters
+    ----------
+    loads : sequence of RollLoad
+        W on each roll, inside roll first [N], see `drifted_loads`.
+    pushes : sequence of float
+        c of each roll [-], see `outward_pushes`.
+
+    Returns
+    -------
+    float
+        Force on one set [N], against T a/R of the belt's tension.
+
+    Raises
+    ------
+    ValueError
+        Not as many pushes as loads.
+
+    Examples
+    --------
+    >>> roll = lambda name, belt: RollLoad(name, 0.0, belt, 0.3, "uniform")
+    >>> outward_force([roll("left", 60.0), roll("right", 40.0)], (0.5, -0.5))
+    10.0
+    """
+    return math.fsum(load.force * push for load, push in zip(loads, pushes, strict=True))
+
+
+@dataclass(frozen=True, slots=True)
+class DriftLaw:
+    """The outward force on a set by the belt's drift: one parabola inside of the centre, one outside.
+
+    Parameters
+    ----------
+    centred : float
+        Force with the centred belt [N].
+    inward, outward : tuple of float
+        Slope [N/m] and curvature [N/m²] over the drift's size, and the drift at which the wing it leaves is bare [m].
+    """
+
+    centred: float
+    inward: tuple[float, float, float]
+    outward: tuple[float, float, float]
+
+    @classmethod
+    def of(cls, loads: Sequence[RollLoad], pushes: Sequence[float]) -> DriftLaw:
+        """Return the law of a set.
+
+        Parameters
+        ----------
+        loads : sequence of RollLoad
+            Of the centred belt, inside roll first [N].
+        pushes : sequence of float
+            Of `outward_pushes` [-].
+
+        Raises
+        ------
+        InputError
+            Not two or three rolls.
+        """
+        centred = outward_force(loads, pushes)
+
+        def parabola(reach: float, side: float) -> tuple[float, float, float]:
+            """Through three points: the force is a parabola over the drift."""
+            half, whole = (
+                outward_force(drifted_loads(loads, side * s, roll_length=2.0 * reach), pushes)
+                for s in (0.5 * reach, reach)
+            )
+            curvature = 2.0 * (whole - 2.0 * half + centred) / reach**2
+            return (whole - centred) / reach - curvature * reach, curvature, reach
+
+        return cls(centred, parabola(loads[-1].length, 1.0), parabola(loads[0].length, -1.0))
+
+    def force(self, drift: float) -> float:
+        """Outward force [N] at a drift to the inside [m]."""
+        slope, curvature, reach = self.inward if drift >= 0.0 else self.outward
+        size = abs(drift)
+        require(size <= reach, "drift", drift, f"at most {reach:.4g} m in size is needed")
+        return self.centred + size * (slope + curvature * size)
+
+    def drift(self, pull: float) -> float:
+        """Drift to the inside at which the set balances an inward pull [m]: infinite where it runs off its rolls.
+
+        Parameters
+        ----------
+        pull : float
+            On one set [N], T a/R of the tension and what else acts across.
+        """
+        inside = pull >= self.centred
+        slope, curvature, reach = self.inward if inside else self.outward
+        more, side = pull - self.centred, 1.0 if inside else -1.0
+        if more == 0.0:
+            return 0.0
+        root = slope**2 + 4.0 * curvature * more
+        if root < 0.0 or slope * side <= 0.0:
+            return side * math.inf
+        size = 2.0 * more / (slope + side * math.sqrt(root))
+        return side * (size if size <= reach else math.inf)
+
+
+def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: float) -> float:
+    """Distance of the belt's edge from its middle across the curve, l_M/2 + (B - l_M)/2 cos λ.
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    middle_roll_length : float
+        l_M, belt on the middle roll [m], from 0 (two rolls) to B.
+    trough_angle : float
+        λ [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    float
+        d [m]: on a radius R the outer edge is longer than the middle by d/R, the inner one shorter.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Derived: plane sections. The strips of a vertical curve, `vertical_curve.overstress_radius` and `buckling_radius`,
+    hold with this distance.
+
+    Examples
+    --------
+    >>> round(half_span(1.2, middle_roll_length=0.4, trough_angle=math.radians(60)), 9)
+    0.4
+    """
+    require_positive(belt_width=belt_width)
+    ok = 0.0 <= middle_roll_length <= belt_width
+    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
+    require_angle(0.0, trough_angle=trough_angle)
+    return 0.5 * (middle_roll_length + (belt_width - middle_roll_length) * math.cos(trough_angle))
+
+
+def wind_force(speed: float, *, height: float, length: float, drag: float, air_density: float) -> float:
+    """Force of the wind across a belt, c ρ v²/2 h a.
+
+    Parameters
+    ----------
+    speed : float
+        v of the wind [m/s], at least 0.
+    height : float
+        h that the trough shows to it [m], at least 0.
+    length : float
+        a of belt [m], positive.
+    drag : float
+        c [-], positive, see `WIND_DRAG`.
+    air_density : float
+        ρ [kg/m³], positive.
+
+    Returns
+    -------
+    float
+        Force [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    Dynamic pressure as of EN 1991-1-4, without gusts: take the speed of the gust. Lift on the belt is left out.
+
+    Examples
+    --------
+    >>> wind_force(20.0, height=0.2, length=2.0, drag=1.0, air_density=1.25)
+    100.0
+    """
+    require_not_negative(speed=speed, height=height)
+    require_positive(length=length, drag=drag, air_density=air_density)
+    return drag * 0.5 * air_density * speed**2 * height * length

@@ -1,0 +1,103 @@
+"""What a set of rolls bears, as far as its spec says: load, slope of its axles, distance from resonance; SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from conveyor.errors import RangeError
+from conveyor.laws.idlers import CEMA_CLASSES, CemaClass, raised_set_load, rated_set_load
+from conveyor.laws.pulley import hub_moment, shaft_slope
+from conveyor.line.roll_lives import roll_life
+from conveyor.line.stretches import Stretch
+from conveyor.units import si
+
+
+@dataclass(frozen=True)
+class AxleSlope:
+    """Slope of a roll's axle at its bearings, and what these bear [-]."""
+
+    roll: str
+    slope: float
+    allowed: float
+
+
+@dataclass(frozen=True)
+class SetLimits:
+    """What the spec says of a stretch's sets.
+
+    Attributes
+    ----------
+    cema_class : str or None
+        Their class.
+    rating : float or None
+        Load that a whole set is rated for [N].
+    least_class : str or None
+        First CEMA class rated for `load`; None without one, or where the spec asks for no rating.
+    load : float
+        Of a set as rated: lumps and the highest set's share of the tension in it [N].
+    flap_margin : float or None
+        Distance wanted of the rolls' rotation from the belt's natural frequencies [-].
+    axle : AxleSlope or None
+        Of the roll whose axle is nearest to its limit, or farthest beyond; None where none is given.
+    """
+
+    cema_class: CemaClass | None
+    rating: float | None
+    least_class: CemaClass | None
+    load: float
+    flap_margin: float | None
+    axle: AxleSlope | None
+
+    @classmethod
+    def of(cls, stretch: Stretch, *, belt_width: float, tension: float, belt_speed: float) -> SetLimits:
+        """Limits and load of a stretch's sets at the highest belt tension that occurs there [N]."""
+        given = stretch.idlers
+        load = math.fsum(roll.belt_force + given.lump_factor * roll.bulk_force for roll in stretch.loads)
+        load += raised_set_load(max(tension, 0.0), height=si(given.raised), spacing=stretch.spacing)
+        ratings = {
+            name: rating
+            for name in CEMA_CLASSES
+            if (rating := _rating(name, stretch, belt_width)) is not None
+        }
+        rated = given.cema_class is not None or given.rating is not None
+        own = None if given.cema_class is None else ratings.get(given.cema_class)
+        return cls(
+            cema_class=given.cema_class,
+            rating=own if given.rating is None else si(given.rating),
+            least_class=next((name for name, most in ratings.items() if rated and load <= most), None),
+            load=load,
+            flap_margin=None if given.flap_margin is None else si(given.flap_margin),
+            axle=_axle(stretch, belt_speed),
+        )
+
+
+def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:
+    """Of a class [N]; None where it has no such set."""
+    try:
+        return rated_set_load(
+            name, belt_width=belt_width, trough_angle=stretch.trough_angle, rolls=len(stretch.loads)
+        )
+    except RangeError:
+        return None
+
+
+def _axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
+    """Both bearings are taken to bear what the heavier does: on the safe side."""
+    found = []
+    for place, load in enumerate(stretch.loads):
+        life, bearing = roll_life(stretch, place, belt_speed), stretch.idlers.roll_at(place).bearing
+        if (
+            life is None
+            or bearing is None
+            or bearing.axle_diameter is None
+            or bearing.support_distance is None
+        ):
+            continue
+        apart = si(bearing.distance)
+        moment = hub_moment(
+            2.0 * max(life.heavier, 0.0), bearing_centres=si(bearing.support_distance), hub_centres=apart
+        )
+        slope = shaft_slope(moment, hub_centres=apart, diameter=si(bearing.axle_diameter))
+        found.append(AxleSlope(load.name, slope, si(bearing.allowed_slope)))
+    return max(found, key=lambda axle: axle.slope / axle.allowed, default=None)

@@ -1,0 +1,186 @@
+"""Idler sets on horizontal curves: what lies on them, what holds the belt there, how far it has drifted; SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from conveyor.laws.horizontal_curve import (
+    AIR_DENSITY,
+    FULL_SLIP_TILT,
+    LEAST_GUIDANCE,
+    WIND_DRAG,
+    DriftLaw,
+    drifted_loads,
+    guide_friction,
+    outward_force,
+    outward_pushes,
+    wind_force,
+)
+from conveyor.laws.loading import RollLoad
+from conveyor.laws.resistance import ROLL_ON_BELT_FRICTION
+from conveyor.models import IdlerSet, Section
+from conveyor.units import Quantity, si
+
+Loads = tuple[RollLoad, ...]
+
+
+@dataclass(frozen=True)
+class HorizontalCurve:
+    """A horizontal curve: its side in running direction of the carry strand, radius [m], banking and skew [rad]."""
+
+    side: str
+    radius: float
+    banking: Mapping[str, float]
+    skew: Mapping[str, float]
+
+    @classmethod
+    def of(cls, section: Section) -> HorizontalCurve | None:
+        """Return the SI view; None on the straight."""
+        if section.horizontal_curve is None or section.horizontal_radius is None:
+            return None
+
+        def angle(given: Quantity | None) -> float:
+            return 0.0 if given is None else si(given)
+
+        return cls(
+            section.horizontal_curve,
+            si(section.horizontal_radius),
+            {"carry": angle(section.carry_banking), "return": angle(section.return_banking)},
+            {"carry": angle(section.carry_skew), "return": angle(section.return_skew)},
+        )
+
+
+@dataclass(frozen=True)
+class Turn:
+    """The sets of one strand on a horizontal curve.
+
+    Attributes
+    ----------
+    side : {"left", "right"}
+        Where the inside of the curve is, in running direction of the carry strand.
+    radius, vertical : float
+        Of the curve; of a vertical curve in the same place, as of `RouteSection` [m].
+    banking, skew, trough_angle, tilt_angle, roll_length : float
+        Of the sets [rad, rad, rad, rad, m].
+    weights : tuple of RollLoad
+        Weight on each roll of one set with the belt centred, inside roll first.
+    drift : float
+        Of the belt to the inside in steady running [m].
+    wind : float
+        Of the wind across the belt on one set [N]; none under bulk.
+    """
+
+    side: str
+    radius: float
+    vertical: float
+    banking: float
+    skew: float
+    trough_angle: float
+    tilt_angle: float
+    roll_length: float
+    weights: Loads
+    drift: float
+    wind: float
+
+    @property
+    def room(self) -> float:
+        """Drift at which an edge of the belt comes to the end of its roll, or the other wing is bare [m]."""
+        on_wing = self.weights[0].length
+        return min(self.roll_length - on_wing, on_wing)
+
+    @cached_property
+    def pushes(self) -> tuple[float, ...]:
+        """Outward force over the weight on each roll with the full guiding friction [-]."""
+        return self._pushes(1.0)
+
+    @property
+    def slopes(self) -> tuple[float, ...]:
+        """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
+        frictionless = (0.0,) * len(self.weights)
+        return outward_pushes(frictionless, trough_angle=self.trough_angle, banking_angle=self.banking)
+
+    @cached_property
+    def _laws(self) -> tuple[DriftLaw, DriftLaw]:
+        """How the set holds the belt by weight alone, at the full and the least friction."""
+        return self._law(self.weights, 1.0), self._law(self.weights, LEAST_GUIDANCE)
+
+    def law(self, pressing: float, *, least: bool) -> DriftLaw:
+        """How the set holds the belt, a vertical curve pressing on it [N], at the least or the full friction."""
+        if pressing == 0.0:
+            return self._laws[least]
+        belt = math.fsum(load.belt_force for load in self.weights)
+        loads = tuple(replace(w, belt_force=w.belt_force * (1.0 + pressing / belt)) for w in self.weights)
+        return self._law(loads, LEAST_GUIDANCE if least else 1.0)
+
+    def _law(self, loads: Loads, share: float) -> DriftLaw:
+        return DriftLaw.of(loads, self._pushes(share))
+
+    def _pushes(self, share: float) -> tuple[float, ...]:
+        """The wings' own tilt pushes to the middle, the skew of the set outward; a wing's axis turns by cos λ of it."""
+        turned = self.skew * math.cos(self.trough_angle)
+        tilts = [self.tilt_angle + turned, turned - self.tilt_angle]
+        if len(self.weights) == 3:
+            tilts.insert(1, self.skew)
+        friction = share * ROLL_ON_BELT_FRICTION.value
+        frictions = [guide_friction(e, friction=friction, full_slip=FULL_SLIP_TILT.value) for e in tilts]
+        return outward_pushes(frictions, trough_angle=self.trough_angle, banking_angle=self.banking)
+
+    def guidance(self) -> float:
+        """Resistance of one set's skew: what its friction pushes outward, over the angle of the set [N]."""
+        if self.skew == 0.0:
+            return 0.0
+        guided = [with_it - without for with_it, without in zip(self.pushes, self.slopes, strict=True)]
+        loads = drifted_loads(self.weights, self.drift, roll_length=self.roll_length)
+        return outward_force(loads, guided) * math.sin(self.skew)
+
+    def drifted(self, loads: Loads) -> Loads:
+        """Loads of the rolls, left to right, once the belt has drifted.
+
+        The pull that the set balances there presses the belt into the inside wing and lifts it from the other.
+        """
+        inside_first = loads if self.side == "left" else loads[::-1]
+        moved = drifted_loads(inside_first, self.drift, roll_length=self.roll_length)
+        pull, across = outward_force(moved, self.pushes), math.fsum(load.length for load in moved)
+        made = tuple(
+            replace(load, belt_force=load.belt_force + pull * load.length / across * slope)
+            for load, slope in zip(moved, self.slopes, strict=True)
+        )
+        return made if self.side == "left" else made[::-1]
+
+
+def turn(
+    given: HorizontalCurve,
+    idlers: IdlerSet,
+    strand: str,
+    loads: Loads,
+    *,
+    vertical: float,
+    drift: float,
+    wind_speed: float,
+    spacing: float,
+    thickness: float,
+) -> Turn:
+    """The sets of a strand on a curve under the weights of a centred belt, left to right."""
+    trough, bare = si(idlers.trough_angle), all(load.bulk_force == 0.0 for load in loads)
+    wind = 0.0
+    if bare and wind_speed:
+        height = thickness + loads[0].length * math.sin(trough)
+        wind = wind_force(
+            wind_speed, height=height, length=spacing, drag=WIND_DRAG.value, air_density=AIR_DENSITY
+        )
+    return Turn(
+        side=given.side,
+        radius=given.radius,
+        vertical=vertical,
+        banking=given.banking[strand],
+        skew=given.skew[strand],
+        trough_angle=trough,
+        tilt_angle=si(idlers.tilt_angle),
+        roll_length=si(idlers.roll.length),
+        weights=loads if given.side == "left" else loads[::-1],
+        drift=drift,
+        wind=wind,
+    )

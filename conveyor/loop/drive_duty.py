@@ -1,0 +1,211 @@
+"""What a load asks of the parts of every drive: gear, backstop, brake, starts an hour, sharing without control."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from conveyor.errors import RangeError
+from conveyor.laws.drives import (
+    Poles,
+    allowed_starts,
+    backstop_torque,
+    disc_rise,
+    flywheel_inertia,
+    gear_torque,
+    nearest_ratio,
+    next_preferred,
+    shared_forces,
+)
+from conveyor.laws.motion import start_force
+from conveyor.laws.waves import MOTOR_SLIP
+from conveyor.line.line import DriveParts, DriveUnit, Line
+from conveyor.loop.balance import Balance
+from conveyor.loop.starting import Motions
+from conveyor.loop.take_up import belt_stiffness
+
+# [1/s], slowest rated speed of 2, 4 and 6 poles at 50 Hz, 8 poles at 60 Hz below it; derived
+_POLES: tuple[tuple[Poles, float], ...] = ((2, 40.0), (4, 22.5), (6, 15.2))
+
+
+@dataclass(frozen=True, eq=False)
+class DriveDuty:
+    """A drive under one load.
+
+    Attributes
+    ----------
+    line : Line
+        What it drives.
+    drive : DriveUnit
+        Which.
+    parts : DriveParts
+        What the spec says of them.
+    moving : Motions
+        Start and stop of the conveyor.
+    backstops : int
+        How many drives have one.
+    shared : float or None
+        Its force in steady running where nothing but the belt couples the drives [N]; None without a diameter's loss.
+    """
+
+    line: Line
+    drive: DriveUnit
+    parts: DriveParts
+    moving: Motions
+    backstops: int
+    shared: float | None
+
+    @property
+    def rotation(self) -> float | None:
+        """Of the pulley [1/s]; None without its diameter."""
+        radius = self.drive.radius
+        return None if radius is None else self.line.speed / (2.0 * math.pi * radius)
+
+    @property
+    def ratio(self) -> float | None:
+        """Speed of the motor over that of the pulley [-], as given, else as the motors' speed asks for."""
+        if self.parts.ratio is not None or self.parts.rotation is None or self.rotation is None:
+            return self.parts.ratio
+        return self.parts.rotation / self.rotation
+
+    @property
+    def standard_ratio(self) -> float | None:
+        """Preferred one nearest to it [-]."""
+        return None if self.ratio is None else nearest_ratio(self.ratio)
+
+    @cached_property
+    def gear(self) -> float | None:
+        """Size of a gear for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
+        if self.drive.power is None or self.rotation is None:
+            return None
+        return next_preferred(gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation))
+
+    @cached_property
+    def holding(self) -> float | None:
+        """Torque of its backstop that holds the loaded belt [N m]; None where it has none or nothing rolls back."""
+        radius, has = self.drive.radius, self.parts.backstop is not None or self.drive.backstop is True
+        if radius is None or not has or not self.moving.rolls_back:
+            return None
+        return backstop_torque(self.moving.brake_to_hold, radius=radius, count=self.backstops)
+
+    @cached_property
+    def stalled(self) -> float | None:
+        """Torque at the pulley when its motors fail at their largest, the belt blocked [N m]; None where not known."""
+        if self.drive.power is None or self.drive.radius is None or not self.line.torque_curve:
+            return None
+        force = start_force(
+            self.drive.power,
+            torque_factor=max(torque for _, torque in self.line.torque_curve),
+            efficiency=self.line.efficiency,
+            rated_belt_speed=self.line.speed,
+        )
+        return force * self.drive.radius
+
+    @property
+    def backstop(self) -> float | None:
+        """Torque to ask of its backstop [N m]."""
+        return None if self.holding is None else max(self.holding, self.stalled or 0.0)
+
+    @cached_property
+    def load_inertia(self) -> float | None:
+        """What one of its motors accelerates beside the drive, at its shaft [kg m²]; None without their speed."""
+        if self.parts.rotation is None:
+            return None
+        mass = self.moving.moving_mass * self.drive.share / self.parts.motors
+        return mass * (self.line.speed / (2.0 * math.pi * self.parts.rotation)) ** 2
+
+    @cached_property
+    def allowed_starts(self) -> float | str | None:
+        """Starts an hour by NEMA [1/h], or why its table does not say; None where nothing is asked."""
+        power, inertia, rotation = self.drive.power, self.load_inertia, self.parts.rotation
+        if self.parts.starts is None or power is None or inertia is None or rotation is None:
+            return None
+        poles = next((number for number, slowest in _POLES if rotation > slowest), None)
+        if poles is None:
+            return "NEMA's table of starts has 2, 4 and 6 poles: ask the motor's maker"
+        try:
+            return allowed_starts(power / self.parts.motors, poles=poles, load_inertia=inertia)
+        except RangeError as error:
+            return str(error)
+
+    @property
+    def heat(self) -> float | None:
+        """Of its brake in a stop at the least certain friction [J]; None without a brake, or where it does not stop."""
+        if self.drive.brake is None or self.moving.braking_heat is None:
+            return None
+        return self.moving.braking_heat * self.drive.brake / math.fsum(self.line.brakes)
+
+    @property
+    def disc_rise(self) -> float | None:
+        """Of its brake's disc in such a stop [K]."""
+        if self.heat is None or self.parts.disc is None:
+            return None
+        return disc_rise(self.heat, mass=self.parts.disc)
+
+
+def drive_duty(found: Balance, moving: Motions) -> tuple[DriveDuty, ...]:
+    """Of every drive; of none where the spec asks for no more than force and power."""
+    line = found.line
+    backstops = sum(_has_backstop(drive) for drive in line.drives)
+    shared = _shared(found)
+    return tuple(
+        DriveDuty(line, drive, drive.parts, moving, max(backstops, 1), None if shared is None else shared[i])
+        for i, drive in enumerate(line.drives)
+        if drive.parts is not None
+    )
+
+
+def _has_backstop(drive: DriveUnit) -> bool:
+    return drive.backstop is True or (drive.parts is not None and drive.parts.backstop is not None)
+
+
+def _shared(found: Balance) -> tuple[float, ...] | None:
+    """Forces of several drives that only the belt couples [N]; None where no pulley is smaller than nominal."""
+    line, steady, stiffness = found.line, found.settled.steady, belt_stiffness(found.line.belt)
+    powers = [drive.power for drive in line.drives if drive.power is not None]
+    smaller = any(drive.parts is not None and drive.parts.loss is not None for drive in line.drives)
+    if len(line.drives) == 1 or not smaller or stiffness is None or len(powers) < len(line.drives):
+        return None
+    first = steady.drives[0].arriving
+    return shared_forces(
+        found.settled.force,
+        rated=[power * line.efficiency / line.speed for power in powers],
+        slips=[MOTOR_SLIP.value if drive.starter is None else drive.starter.slip for drive in line.drives],
+        diameters=[_over_nominal(drive) for drive in line.drives],
+        strains=[(side.arriving - first) / stiffness for side in steady.drives],
+    )
+
+
+def _over_nominal(drive: DriveUnit) -> float:
+    if drive.parts is None or drive.parts.loss is None or drive.radius is None:
+        return 1.0
+    return 1.0 - drive.parts.loss / (2.0 * drive.radius)
+
+
+def coasting_flywheel(line: Line, moving: Motions) -> float | None:
+    """Moment of inertia at the motors' shafts that lengthens coasting to the time wanted [kg m²].
+
+    None where no time is wanted, the belt does not stop by itself, or ratio and diameter of the first drive are not
+    known.
+    """
+    first, stopped = line.drives[0], moving.coasting
+    ratio = None if first.parts is None else first.parts.ratio
+    if (
+        ratio is None
+        and first.parts is not None
+        and first.parts.rotation is not None
+        and first.radius is not None
+    ):
+        ratio = 2.0 * math.pi * first.radius * first.parts.rotation / line.speed
+    if line.coast_time is None or stopped is None or ratio is None or first.radius is None:
+        return None
+    whole = moving.moving_mass + moving.rotating_mass
+    return flywheel_inertia(
+        line.coast_time,
+        retarding_force=stopped.deceleration * whole,
+        moving_mass=whole,
+        belt_speed=line.speed,
+        radius=first.radius,
+        ratio=ratio,
+    )

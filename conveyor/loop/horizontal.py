@@ -1,0 +1,164 @@
+"""Horizontal curves in every state of motion: how far the belt drifts, which radii hold it, what its edges bear."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from conveyor.laws.horizontal_curve import half_span
+from conveyor.laws.vertical_curve import buckling_radius, overstress_radius, trough_section
+from conveyor.line.line import Line
+from conveyor.line.stretches import Strand, Stretch
+from conveyor.line.turns import Turn
+from conveyor.loop.balance import Balance
+from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, allowed_tension, middle_belt
+from conveyor.loop.curves import pull_inside, pushed_down
+from conveyor.loop.tensions import MotionState
+
+
+@dataclass(frozen=True)
+class DriftState:
+    """A horizontal curve in a state of motion.
+
+    Attributes
+    ----------
+    state : str
+        Of motion.
+    lowest, highest : float
+        Tensions in the curve [N].
+    inside, outside : float
+        Drift to the inside at the highest tension with the least guiding friction, at the lowest with the full one;
+        with the wind the same way [m]. Negative outward, infinite where the belt runs off its rolls.
+    least, most : float
+        Radii at which the belt stays on its rolls [m]: below the least it drifts too far in, above the most too far
+        out.
+        Infinite where no radius is large enough, and where any is.
+    """
+
+    state: str
+    lowest: float
+    highest: float
+    inside: float
+    outside: float
+    least: float
+    most: float
+
+
+@dataclass(frozen=True)
+class HorizontalCheck:
+    """A horizontal curve on one strand.
+
+    Attributes
+    ----------
+    section, strand : str
+        Where.
+    turn : Turn
+        The curve and its sets.
+    states : tuple of DriftState
+        Every state of motion.
+    overstress, buckling : float or None
+        Least radii at which the outer edge is not overstressed, the inner one not slack [m]; infinite where none helps,
+        None where stiffness or strength are not known.
+    most, least : float or None
+        Highest tension of the outer edge, lowest of the inner one, over all states [N/m].
+    """
+
+    section: str
+    strand: Strand
+    turn: Turn
+    states: tuple[DriftState, ...]
+    overstress: float | None = None
+    buckling: float | None = None
+    most: float | None = None
+    least: float | None = None
+
+    @property
+    def kind(self) -> str:
+        """What curve it is."""
+        return "horizontal"
+
+    @property
+    def radius(self) -> float:
+        """As given [m]."""
+        return self.turn.radius
+
+    @property
+    def farthest_in(self) -> DriftState:
+        """The state that drifts farthest to the inside."""
+        return max(self.states, key=lambda state: (state.inside, state.least))
+
+    @property
+    def farthest_out(self) -> DriftState:
+        """The state that drifts farthest to the outside."""
+        return min(self.states, key=lambda state: (state.outside, state.most))
+
+
+def horizontal_checks(found: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCheck, ...]:
+    """Every horizontal curve on both strands in every state, carry strand first.
+
+    Parameters
+    ----------
+    found : Balance
+        The conveyor.
+    states : sequence of MotionState
+        Of it.
+    """
+    line, half = found.line, found.line.count
+    order = [*range(half, 2 * half), *range(half)]
+    return tuple(check for i in order for check in _bend(line, line.loop.stretches[i], i, states))
+
+
+def _bend(line: Line, stretch: Stretch, i: int, states: Sequence[MotionState]) -> Iterator[HorizontalCheck]:
+    if stretch.turn is None:
+        return
+    made = tuple(_state(line, stretch, stretch.turn, state, i) for state in states)
+    lowest, highest = min(state.lowest for state in made), max(state.highest for state in made)
+    edges = _edges(line, stretch, stretch.turn, lowest, highest)
+    yield HorizontalCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
+
+
+def _state(line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int) -> DriftState:
+    ends = float(state.starts[i]), float(state.ends[i])
+    lowest, highest = max(0.0, min(ends)), max(0.0, *ends)
+    weak = turn.law(pushed_down(line, stretch, highest), least=True)
+    full = turn.law(pushed_down(line, stretch, lowest), least=False)
+    drawn, slack = pull_inside(line, stretch, highest), pull_inside(line, stretch, lowest)
+    return DriftState(
+        state=state.name,
+        lowest=lowest,
+        highest=highest,
+        inside=weak.drift(drawn + turn.wind),
+        outside=full.drift(slack - turn.wind),
+        least=_radius(turn.radius, drawn, weak.force(turn.room) - turn.wind),
+        most=_radius(turn.radius, slack, full.force(-turn.room) + turn.wind),
+    )
+
+
+def _radius(radius: float, pull: float, held: float) -> float:
+    """Radius at which a pull, which goes with 1/R, is what holds it: infinite where nothing does."""
+    return math.inf if held <= 0.0 else radius * max(0.0, pull) / held
+
+
+def _edges(
+    line: Line, stretch: Stretch, turn: Turn, lowest: float, highest: float
+) -> tuple[float | None, float | None, float | None, float | None]:
+    """Radii that outer and inner edge bear, and their tensions; a vertical curve stretches or slackens both before."""
+    width, middle = line.belt.width, middle_belt(stretch, line.belt.width)
+    allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
+    if allowed is None or stiffness is None or middle is None:
+        return None, None, None, None
+    across = half_span(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
+    above = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle).edge_above
+    tight, loose = (tension / width + stiffness * above / turn.vertical for tension in (highest, lowest))
+    over = slack = math.inf
+    if tight < allowed:
+        over = overstress_radius(
+            max(0.0, tight), distance=across, stiffness_per_width=stiffness, allowed_per_width=allowed
+        )
+    if loose > LEAST_EDGE_TENSION:
+        slack = buckling_radius(
+            loose, distance=across, stiffness_per_width=stiffness, least_per_width=LEAST_EDGE_TENSION
+        )
+    turned = stiffness * across / turn.radius
+    return over, slack, tight + turned, loose - turned

@@ -1,0 +1,99 @@
+"""What load, speed and tensions ask of the idler sets: rating, axles, life, the belt's distance from resonance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from conveyor.laws.idlers import flap_frequency, resonance_distance, still_spacing
+from conveyor.line.roll_lives import SetLife, set_life
+from conveyor.line.set_limits import SetLimits
+from conveyor.line.stretches import Stretch
+from conveyor.loop.balance import Balance
+
+
+@dataclass(frozen=True, eq=False)
+class SetDuty:
+    """The sets of a stretch in steady running of one load.
+
+    Attributes
+    ----------
+    stretch : Stretch
+        Where.
+    limits : SetLimits
+        What they bear, and their load as rated.
+    life : SetLife or None
+        L10 of all bearings of a set together; None without any.
+    belt_speed : float
+        [m/s].
+    swings : tuple of float
+        First natural frequency of the belt between two sets where it enters and leaves the stretch [Hz]; 0 where its
+        tension is at most m' v², so that no wave stands.
+    """
+
+    stretch: Stretch
+    limits: SetLimits
+    life: SetLife | None
+    belt_speed: float
+    swings: tuple[float, float]
+
+    @property
+    def frequencies(self) -> tuple[float, float]:
+        """First natural frequency of the belt at the lowest and highest tension in the stretch [Hz]."""
+        return min(self.swings), max(self.swings)
+
+    @cached_property
+    def rotations(self) -> tuple[float, float]:
+        """Slowest and fastest rolls [1/s]."""
+        each = [self.belt_speed / (2.0 * math.pi * radius) for radius in self.stretch.radii]
+        return min(each), max(each)
+
+    @cached_property
+    def distance(self) -> float:
+        """Of the rolls' rotation from resonance [-]; 0 where a span of the stretch resonates."""
+        low, high = self.frequencies
+        return min(resonance_distance(each, lowest=low, highest=high) for each in self.rotations)
+
+    @cached_property
+    def still_spacing(self) -> float | None:
+        """Widest spacing that is still by the distance wanted [m]; None where none is, or no distance is wanted."""
+        margin = self.limits.flap_margin
+        if margin is None or self.frequencies[0] == 0.0:
+            return None
+        return still_spacing(
+            self.rotations[1], lowest=self.frequencies[0], spacing=self.stretch.spacing, margin=margin
+        )
+
+    @property
+    def still_diameter(self) -> float | None:
+        """Least diameter of all rolls that is still at the present spacing [m]; None likewise."""
+        if self.still_spacing is None:
+            return None
+        return 2.0 * min(self.stretch.radii) * self.stretch.spacing / self.still_spacing
+
+
+def set_duty(found: Balance) -> tuple[SetDuty, ...]:
+    """Of every stretch whose spec asks for more of its sets than loads and drag, in loop order."""
+    line, steady = found.line, found.settled.steady
+    return tuple(
+        _duty(found, stretch, float(start), float(end))
+        for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True)
+        if stretch.idlers.judged
+    )
+
+
+def _duty(found: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
+    line = found.line
+    limits = SetLimits.of(stretch, belt_width=line.belt.width, tension=max(start, end), belt_speed=line.speed)
+    swings = (_swing(stretch, start, line.speed), _swing(stretch, end, line.speed))
+    return SetDuty(stretch, limits, set_life(stretch, line.speed), line.speed, swings)
+
+
+def _swing(stretch: Stretch, tension: float, belt_speed: float) -> float:
+    """First natural frequency between two sets at a tension [Hz]; 0 where no wave stands."""
+    if tension <= stretch.line_mass * belt_speed**2:
+        return 0.0
+    return flap_frequency(
+        tension, line_mass=stretch.line_mass, spacing=stretch.spacing, belt_speed=belt_speed
+    )

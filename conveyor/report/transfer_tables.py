@@ -1,0 +1,232 @@
+"""Tables and drawing of loading points, cleaners and the discharge; empty where the spec asks for none of it."""
+
+from __future__ import annotations
+
+import math
+from itertools import zip_longest
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
+from conveyor.report.plots import colour, keyed, stacked, titled
+from conveyor.units import System
+from conveyor.units.presentation import unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Picture
+
+    from conveyor.loop.transfer import Landing, Trajectory
+
+SHEET: Final = "Transfer"
+_PAGE: Final = "transfer"
+_CIRCLE_POINTS: Final = 49
+
+
+def of_transfer(a: CalculatedConveyor) -> tuple[Table, ...]:
+    """Every table of what lands, clings and leaves."""
+    return (landings(a), cleaners(a), discharge(a), trajectory(a), pulley_outline(a))
+
+
+def _asked(landing: Landing) -> bool:
+    """Whether the spec asks for more of a loading point than its resistances."""
+    point = landing.point
+    return point.drop_height is not None or point.skirtboards is not None or point.seal_drag > 0.0
+
+
+def landings(a: CalculatedConveyor) -> Table:
+    """A column a loading point: skirtboards beside what they need, impact beside what the sets bear."""
+    shown = tuple(each for each in a.landings if _asked(each))
+    figures_of = (
+        ("mass flow", "mass flow", attrgetter("point.flow")),
+        ("length of acceleration", "spacing", attrgetter("acceleration")),
+        ("usual skirtboards", "spacing", attrgetter("usual_skirts")),
+        ("skirtboards", "spacing", attrgetter("point.skirtboards")),
+        ("drop height", "spacing", attrgetter("point.drop_height")),
+        ("resting on a set", "force", attrgetter("resting")),
+        ("impact of the stream", "force", attrgetter("stream")),
+        ("impact of the lump", "force", attrgetter("lump")),
+        ("load of a set", "force", attrgetter("load")),
+        ("a set bears", "force", attrgetter("point.idler_rating")),
+        ("impact bed for the lump", "text", attrgetter("bed")),
+    )
+    columns = (
+        Column("quantity", NAMED, attrgetter("label")),
+        *(
+            Column(
+                each.point.name.removeprefix(", ") or each.point.place, OF_ROW, _of_point(i), key=f"point_{i}"
+            )
+            for i, each in enumerate(shown)
+        ),
+    )
+    every = [(label, kind, tuple(get(each) for each in shown)) for label, kind, get in figures_of]
+    known = tuple(
+        Figure(label, kind, values if len(shown) > 1 else values[0])
+        for label, kind, values in every
+        if any(value is not None for value in values)
+    )
+    heading = "Loading points"
+    note = (
+        "Stream: its momentum; lump: energy on the spring under it, without loss; the larger one falls on one set. "
+        "Usual skirtboards and classes of impact beds: CEMA, general knowledge."
+    )
+    return Table("landings", SHEET, heading, columns, known, (OnPage(_PAGE, heading),), note)
+
+
+def _of_point(i: int) -> Any:
+    return lambda row: row.value[i] if isinstance(row.value, tuple) else row.value
+
+
+def cleaners(a: CalculatedConveyor) -> Table:
+    """One row a cleaner or several alike: what they take in force and leave on the belt."""
+    columns = (
+        Column("cleaner", "text", lambda row: row[1].scraper.kind or f"cleaner {row[0]}"),
+        Column("count", "count", lambda row: float(row[1].scraper.count)),
+        Column("width of the blade", "size", lambda row: row[1].scraper.width),
+        Column("drag of one", "force", lambda row: row[1].drag),
+        Column("efficiency of one", "share", lambda row: row[1].scraper.efficiency),
+        Column("left on the belt", "area mass", lambda row: row[1].left),
+        Column("carried back", "carryback", lambda row: row[1].lost),
+    )
+    given = a.line.carryback[0] is not None
+    rows = tuple(enumerate(a.cleanings, start=1)) if given else ()
+    note = "Every cleaner takes the same share of what reaches it; over the width of its blade."
+    heading = "Cleaners"
+    return Table("cleaners", SHEET, heading, columns, rows, (OnPage(_PAGE, heading),), note)
+
+
+def discharge(a: CalculatedConveyor) -> Table:
+    """Where the bulk leaves the head pulley, and how it arrives below."""
+    found = a.trajectory
+    rows: tuple[Figure, ...] = ()
+    if found is not None:
+        end, height = found.fall, found.bulk.height
+        rows = (
+            Figure("diameter of the pulley", "size", found.head.diameter),
+            Figure("slope of the belt", "angle", found.head.slope),
+            Figure("height of the bulk", "size", height),
+            Figure("height of its centre", "size", found.bulk.centroid),
+            Figure("V²/(g r) of the centre", "ratio", found.ratio, key="speed_ratio"),
+            Figure("leaves beyond the top", "angle", found.angle, key="angle"),
+            Figure("speed there", "speed", found.speed, key="speed"),
+            Figure("slips beyond the top (Booth)", "angle", found.slip.slip_angle, key="slip_angle"),
+            Figure("leaves beyond the top (Booth)", "angle", found.slip.angle, key="booth_angle"),
+            Figure("speed there (Booth)", "speed", found.slip.speed, key="booth_speed"),
+            Figure("depth below the axis", "spacing", found.head.drop, key="drop"),
+            Figure("time of the fall", "duration", float(end.time[-1]), key="time"),
+            Figure("forward of the axis", "spacing", float(end.across[-1]), key="across"),
+            Figure("forward of the axis (Booth, lower edge)", "spacing", float(found.lower.across[-1]),
+                   key="booth_across"),
+            Figure("speed on arrival", "speed", float(end.speed[-1]), key="arrival_speed"),
+            Figure("forward speed on arrival", "speed", float(end.speed[-1] * math.cos(end.steepness[-1])),
+                   key="forward_speed"),
+            Figure("down from the level on arrival", "angle", float(end.steepness[-1]), key="arrival_angle"),
+        )  # fmt: skip
+    note = "" if found is None else _way(found)
+    heading = "Discharge over the head pulley"
+    return figures(
+        "discharge", SHEET, heading, rows, page=(OnPage(_PAGE, heading),), note=note, prefix="discharge_"
+    )
+
+
+def _way(found: Trajectory) -> str:
+    leaves = "is carried round part of the pulley" if found.wraps else "leaves as the belt meets the pulley"
+    return (
+        f"The bulk {leaves}. Centre after CEMA, edges at right angles to it; Booth: lower edge, with slip on the belt. "
+        "No air."
+    )
+
+
+def trajectory(a: CalculatedConveyor) -> Table:
+    """Points of the stream from the axis of the pulley, every 1/20 s and the last at the depth asked for."""
+    found = a.trajectory
+    rows: tuple[tuple[Any, ...], ...] = ()
+    if found is not None:
+        centre = found.fall
+        lower, upper = _edges(found)
+        paths = [(centre.across, centre.up), lower, upper, (found.lower.across, found.lower.up)]
+        points = [[*zip(*(axis.tolist() for axis in path), strict=True)] for path in paths]
+        of_centre = zip(centre.time.tolist(), centre.speed.tolist(), strict=True)
+        rows = tuple(zip_longest(of_centre, *points))
+
+    def part(i: int, k: int) -> Any:
+        return lambda row: None if row[i] is None else row[i][k]
+
+    columns = (
+        Column("time", "duration", part(0, 0)),
+        Column("speed", "speed", part(0, 1)),
+        *(
+            Column(f"{name}, {axis}", "spacing", part(i, k))
+            for i, name in enumerate(
+                ("centre", "lower edge", "upper edge", "lower edge after Booth"), start=1
+            )
+            for k, axis in enumerate(("forward", "up"))
+        ),
+    )
+    return Table(
+        "trajectory", SHEET, "Trajectory from the axis of the head pulley", columns, rows, printed=False
+    )
+
+
+def _edges(found: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Lower and upper edge of the stream after CEMA [m]."""
+    bulk = found.bulk
+    return found.fall.beside(-bulk.centroid), found.fall.beside(bulk.height - bulk.centroid)
+
+
+def pulley_outline(a: CalculatedConveyor) -> Table:
+    """The belt round the head pulley and before it, for the picture."""
+    found = a.trajectory
+    rows: tuple[tuple[float, ...], ...] = ()
+    if found is not None:
+        rows = tuple(zip(*(axis.tolist() for axis in _outline(found)), strict=True))
+    columns = (
+        Column("belt, forward", "spacing", lambda row: row[0]),
+        Column("belt, up", "spacing", lambda row: row[1]),
+    )
+    return Table("pulley_outline", SHEET, "Belt round the head pulley", columns, rows, printed=False)
+
+
+def _outline(found: Trajectory) -> tuple[Any, Any]:
+    """The belt, two radii before the pulley, once round it and back [m]."""
+    radius, slope = found.belt_radius, found.head.slope
+    turn = np.linspace(-slope, 2.0 * math.pi - slope, _CIRCLE_POINTS)
+    x, y = radius * np.sin(turn), radius * np.cos(turn)
+    before = (x[0] - 2.0 * radius * math.cos(slope), y[0] - 2.0 * radius * math.sin(slope))
+    return np.append(before[0], x), np.append(before[1], y)
+
+
+def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
+    """The stream over the head pulley, to scale; none where the spec does not ask for it."""
+    if a.trajectory is None:
+        return ()
+    words = "The stream over the head pulley, to scale: centre and edges after CEMA, lower edge after Booth."
+    return (Drawing("trajectory", words, lambda: picture(a, system=system), "discharge"),)
+
+
+def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
+    """The stream over the head pulley, to scale."""
+    found = a.trajectory
+    if found is None:
+        raise ValueError("no discharge to draw")
+    sheet, (axis,) = stacked(1, 5.6)
+    length = unit("spacing", system)
+    lower, upper = _edges(found)
+    axis.plot(*(length(each) for each in _outline(found)), color="0.35", linewidth=2, label="belt")
+    axis.plot(0.0, 0.0, "+", color="0.35")
+    stream = [np.concatenate([one, other[::-1]]) for one, other in zip(lower, upper, strict=True)]
+    axis.fill(length(stream[0]), length(stream[1]), color=colour(0), alpha=0.15, linewidth=0)
+    axis.plot(length(found.fall.across), length(found.fall.up), color=colour(0), label="centre")
+    for path, name in ((lower, "edges"), (upper, "edges")):
+        axis.plot(length(path[0]), length(path[1]), color=colour(0), linewidth=0.8, label=name)
+    booth = found.lower
+    axis.plot(
+        length(booth.across), length(booth.up), color=colour(1), linestyle="--", label="lower edge (Booth)"
+    )
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.set(xlabel=length.beside("forward of the axis"), ylabel=length.beside("over the axis"))
+    titled(sheet, "Discharge over the head pulley")
+    keyed(axis)
+    return sheet

@@ -1,0 +1,234 @@
+"""Horizontal curves: straight and mirrored conveyors, statics of the drift, states, wind, edges, vertical curves."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from conveyor.checks import belt_drift, horizontal_edges
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.line.strands import Strands
+from conveyor.line.stretches import Acting
+from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
+from conveyor.loop.curves import drifts, pressing_masses
+from conveyor.pipeline import calculate
+from conveyor.report.loop_plots import drift as drift_drawn
+from conveyor.report.loop_plots import plan
+from conveyor.report.tables import horizontal_curves
+from conveyor.spec import from_data
+from tests.loop.loop_lines import DATA, data
+
+_ROLL = {"diameter": "133 mm", "length": "600 mm", "rotating_mass": "5 kg", "drag": "1.5 N"}
+BACK = {"return": {"rolls": 2, "spacing": "3 m", "trough_angle": "15 deg", "roll": _ROLL}}
+CURVE = {"name": "bend", "length": "300 m", "horizontal_curve": "left", "horizontal_radius": "1800 m",
+         "carry_banking": "3 deg", "return_banking": "3 deg"}  # fmt: skip
+PULLEYS = DATA["route"]["pulleys"][:3]
+
+
+def conveyor(bend=None, *, ambient=None, flow="1200 t/h"):
+    """Straight, curved, straight; `bend` alters the curve, None in it removes a field."""
+    middle = {key: value for key, value in (CURVE | (bend or {})).items() if value is not None}
+    sections = [{"name": "a", "length": "150 m"}, middle, {"name": "c", "length": "200 m", "lift": "10 m"}]
+    return from_data(
+        data(
+            idlers=BACK,
+            route={"sections": sections, "pulleys": PULLEYS},
+            ambient=ambient or {},
+            material={"flow": flow},
+            calculation={"strain": "off"},
+        )
+    )
+
+
+STRAIGHT = dict.fromkeys(("horizontal_curve", "horizontal_radius", "carry_banking", "return_banking"))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return calculate(conveyor())
+
+
+@pytest.fixture(scope="module")
+def straight():
+    return calculate(conveyor(STRAIGHT))
+
+
+def test_a_straight_conveyor_has_nothing_of_it(straight):
+    assert straight.horizontal == ()
+    assert straight.convergence is None
+    assert horizontal_curves(straight).empty
+    assert "guidance" not in {force.key for force in straight.balance.along}
+
+
+def test_without_curvature_it_is_the_straight_conveyor(straight):
+    """What differs goes with 1/R: a tenth of the difference is left at ten times the radius."""
+    level = {"carry_banking": None, "return_banking": None}
+    near, far = (calculate(conveyor(level | {"horizontal_radius": radius})) for radius in ("10 km", "100 km"))
+    force = straight.balance.forces.indentation
+    assert far.balance.forces.indentation == pytest.approx(force, rel=1e-4)
+    drifts_near, drifts_far = ([c.turn.drift for c in one.horizontal] for one in (near, far))
+    # the parabola of the bulk on the outer wing leaves the square of the drift over the wing
+    assert drifts_far == pytest.approx([0.1 * drift for drift in drifts_near], rel=0.05)
+
+
+def test_left_and_right_are_mirrors(found):
+    other = calculate(conveyor({"horizontal_curve": "right"}))
+    assert other.balance.power.motor == pytest.approx(found.balance.power.motor, rel=1e-12)
+    for one, two in zip(found.line.stretches, other.line.stretches, strict=True):
+        mirrored = [load.force for load in reversed(two.loads)]
+        assert [load.force for load in one.loads] == pytest.approx(mirrored, rel=1e-12)
+
+
+def test_the_drift_holds_the_pull_of_the_mean_tension(found):
+    """Moved weights push out by 2 (T - m' v²) sin(a/2R), and the rolls bear weight and the pull's normal part."""
+    steady = found.balance.settled.steady
+    for i, stretch in enumerate(found.line.loop.stretches):
+        turn = stretch.turn
+        if turn is None:
+            continue
+        pull = 0.5 * (steady.starts[i] + steady.ends[i]) - stretch.line_mass * 4.0**2
+        inward = 2.0 * pull * math.sin(stretch.spacing / 3600.0)
+        law = turn.law(0.0, least=False)
+        assert law.force(turn.drift) == pytest.approx(inward, rel=1e-5)  # tensions of the last step
+        weight = math.fsum(load.force for load in turn.weights)
+        slopes = turn.slopes
+        lengths = [load.length for load in (stretch.loads if turn.side == "left" else stretch.loads[::-1])]
+        normal = inward * sum(s * n for s, n in zip(slopes, lengths, strict=True)) / sum(lengths)
+        assert math.fsum(load.force for load in stretch.loads) == pytest.approx(weight + normal, rel=1e-5)
+
+
+def test_states_of_motion_have_their_own_drift_and_radii(found):
+    for curve in found.horizontal:
+        states = {state.state: state for state in curve.states}
+        assert states["start"].inside > states["steady"].inside
+        assert curve.farthest_in is states["start"]
+        for state in curve.states:
+            assert state.outside <= state.inside
+            assert state.lowest <= state.highest
+            # on the least radius the highest tension draws the belt to the end of its roll
+            least = 2.0 * math.sin(0.5 * curve_spacing(found, curve) / state.least)
+            pull = state.highest - curve_mass(found, curve) * 4.0**2
+            held = curve.turn.law(0.0, least=True).force(curve.turn.room)
+            assert pull * least == pytest.approx(held, rel=1e-4)  # sin x for x: (3/200)²/6
+
+
+def _stretch(found, curve):
+    return next(s for s in found.line.stretches if (s.section, s.strand) == (curve.section, curve.strand))
+
+
+def curve_spacing(found, curve):
+    return _stretch(found, curve).spacing
+
+
+def curve_mass(found, curve):
+    return _stretch(found, curve).line_mass
+
+
+def test_a_sharp_curve_fails_and_a_sharper_one_has_no_answer(found):
+    assert not [check for check in belt_drift(found) if check.failed]
+    sharp = calculate(conveyor({"horizontal_radius": "500 m"}))
+    failing = [check for check in belt_drift(sharp) if check.failed]
+    assert failing
+    assert "the belt drifts by" in failing[0].why.text() or "runs off" in failing[0].why.text()
+    with pytest.raises(
+        NoSolutionError, match=r'to the inside of the horizontal curve in section "bend", .*well above'
+    ):
+        calculate(conveyor({"horizontal_radius": "100 m"}))
+    with pytest.raises(NoSolutionError, match=r"to the outside of .*: choose less banking or skew"):
+        calculate(conveyor({"horizontal_radius": "100 km", "return_banking": "20 deg"}))
+
+
+def test_banking_and_skew_bring_the_belt_out(found):
+    raised = calculate(conveyor({"carry_banking": "6 deg"}))
+    skewed = calculate(conveyor({"carry_skew": "0.5 deg"}))
+    drift = {
+        name: one.horizontal[0].turn.drift
+        for name, one in (("as", found), ("raised", raised), ("skew", skewed))
+    }
+    assert drift["raised"] < drift["as"]
+    assert drift["skew"] < drift["as"]
+    (guidance,) = (force for force in skewed.balance.along if force.key == "guidance")
+    turn = skewed.horizontal[0].turn
+    sets = _stretch(skewed, skewed.horizontal[0]).sets
+    inward = turn.law(0.0, least=False).force(turn.drift)
+    bare = found.horizontal[0].turn.law(0.0, least=False).force(turn.drift)
+    # what the skew's friction holds of the pull, over its angle
+    assert guidance.total == pytest.approx(sets * (inward - bare) * math.sin(math.radians(0.5)), rel=1e-9)
+
+
+def test_wind_moves_the_empty_strand_both_ways_and_none_under_bulk(found):
+    windy = calculate(conveyor(ambient={"wind_speed": "8 m/s"}))
+    carry, back = windy.horizontal
+    assert carry == found.horizontal[0]
+    calm = found.horizontal[1]
+    assert back.turn.wind == pytest.approx(
+        1.3 * 0.5 * 1.25 * 64.0 * 3.0 * (0.015 + 0.5 * math.sin(math.radians(15)))
+    )
+    assert back.farthest_in.inside > calm.farthest_in.inside
+    assert back.farthest_out.outside < calm.farthest_out.outside
+    assert back.turn.drift == calm.turn.drift
+    empty = calculate(conveyor(ambient={"wind_speed": "8 m/s"}, flow="0 t/h"))
+    assert empty.horizontal[0].turn.wind > 0.0
+
+
+def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
+    stormy = calculate(conveyor(ambient={"wind_speed": "40 m/s"}))
+    back = stormy.horizontal[1]
+    assert (back.farthest_in.inside, back.farthest_out.outside) == (math.inf, -math.inf)
+    off = [check for check in belt_drift(stormy) if check.failed]
+    assert {check.found.text() for check in off} == {"runs off its rolls"}
+    assert all(check.calculated is None and "no radius helps" in check.why.text() for check in off[:1])
+    (axis,) = drift_drawn([("as given", stormy.horizontal)]).axes
+    assert "runs off" in {text.get_text() for text in axis.texts}
+
+
+def test_the_plan_turns_by_length_over_radius(found):
+    """A level curve to the left: its chord heads by half the angle turned, its end by all of it."""
+    (axis,) = plan(found.line).axes
+    bend = next(line for line in axis.lines if line.get_label() == "horizontal curve").get_xydata()
+    (x0, y0), (x1, y1) = bend[0], bend[-1]
+    angle = 300.0 / 1800.0
+    assert math.atan2(y1 - y0, x1 - x0) == pytest.approx(0.5 * angle, rel=1e-9)
+    # chords of equal turn: 24 of them for the arc
+    chord = 24 * 2.0 * 1800.0 * math.sin(angle / 48.0)
+    assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(
+        2.0 * 1800.0 * math.sin(0.5 * angle) * 300.0 / chord, rel=1e-9
+    )
+
+
+def test_edges_bear_the_bend_as_plane_sections_say(found):
+    """E d/R beside the mean tension; at the least radius the inner edge keeps just what it must."""
+    carry = found.horizontal[0]
+    stiffness = found.line.belt.tensile_stiffness
+    across = 0.5 * (0.38 + 0.62 * math.cos(math.radians(35)))
+    lowest = min(state.lowest for state in carry.states)
+    assert carry.least == pytest.approx(lowest - stiffness * across / 1800.0, rel=1e-12)
+    assert stiffness * across / carry.buckling == pytest.approx(lowest - LEAST_EDGE_TENSION, rel=1e-12)
+    assert {check.key for check in horizontal_edges(found)} == {"curve_radius"}
+
+
+def test_a_hill_in_the_curve_presses_the_belt_into_its_trough(found):
+    hill = calculate(conveyor({"curve": "convex", "curve_radius": "1500 m"}))
+    steady = hill.balance.settled.steady
+    both = Acting(pressing_masses(hill.line, steady), drifts(hill.line, steady))
+    assert set(both.pressing) == set(both.drift) == {("bend", "carry"), ("bend", "return")}
+    flat, high = found.horizontal[0], hill.horizontal[0]
+    # it stays nearer to where weight alone, without pull, would hold it
+    assert high.turn.law(50.0, least=False).force(0.05) > high.turn.law(0.0, least=False).force(0.05)
+    assert high.most > flat.most  # stretched by the hill before
+    again = Strands.of(hill.conveyor, both)
+    forces = [load.force for stretch in again.stretches for load in stretch.loads]
+    assert forces == pytest.approx([load.force for s in hill.line.stretches for load in s.loads], rel=1e-5)
+
+
+def test_flat_strands_are_refused_in_a_curve():
+    bad = data(route={"sections": [CURVE], "pulleys": PULLEYS})
+    with pytest.raises(InputError, match=r"idlers.return.rolls: got 1, .*nothing holds a flat belt"):
+        from_data(bad)
+    with pytest.raises(
+        InputError, match=r"turn by 344 deg, more than 180 deg in a section: take 95.493 m or more"
+    ):
+        from_data(
+            data(idlers=BACK, route={"sections": [CURVE | {"horizontal_radius": "50 m"}], "pulleys": PULLEYS})
+        )
