@@ -78,5 +78,5 @@ def new(
         to.add("spec", path, {path: content})
     lines = to.save()
     if not quiet:
-        more = " -o points.csv" if command == "study" else ""
+        more = {"study": " -o points.csv", "optimise": " -o best.yaml"}.get(command, "")
         say(*lines, f"next: conveyor {command} {quoted(str(spec))}{more}")
