@@ -16,6 +16,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import sys
 import tempfile
 from itertools import islice
+from multiprocessing import forkserver
 from pathlib import Path
 from time import perf_counter, process_time
 
@@ -23,7 +24,7 @@ import numpy as np
 
 import conveyor
 from conveyor import shelf
-from conveyor.cli.workers import executor_of
+from conveyor.cli.workers import begin, executor_of
 from conveyor.models.study import StudyPlan
 from conveyor.studies import campaign as running
 from conveyor.studies.points import answers
@@ -72,17 +73,21 @@ def rate(campaign: running.Campaign) -> None:
 
 
 def scaled(campaign: running.Campaign, workers: int) -> None:
-    """Wall time of a whole run, processes against one, by turns."""
+    """Wall and processor time of a whole run, processes against one, by turns; start-up of the processes is in it."""
     for turn in range(3):
-        took = []
+        wall, processor = [], []
         for many in (1, workers):
+            begun, before = perf_counter(), sum(os.times()[:4])
             with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
-                began = perf_counter()
+                begin(None, many)
                 with executor_of(None, many) as executor:
                     running.run(campaign, known, executor=executor, workers=many)
-                took.append(perf_counter() - began)
+            wall.append(perf_counter() - begun)
+            forkserver._forkserver._stop()  # noqa: SLF001 its processes' time is told when it ends
+            processor.append(sum(os.times()[:4]) - before)
         print(
-            f"turn {turn + 1}: {took[0]:.1f} s, {workers} processes {took[1]:.1f} s: {took[0] / took[1]:.2f}",
+            f"turn {turn + 1}: {wall[0]:.1f} s, {workers} processes {wall[1]:.1f} s: {wall[0] / wall[1]:.2f}; "
+            f"of the processor {processor[0]:.1f} s, {processor[1]:.1f} s",
             flush=True,
         )
 

@@ -333,7 +333,7 @@ class Studies(study.CalculatedStudies):
             for name in ("states", "cases", "duty", "uncertainty", "dynamics")
             if getattr(self, name) is not None
         ]
-        return f"Studies({', '.join(held) or 'nothing asked for'})"
+        return f"Studies({', '.join(held) or 'none requested'})"
 
     def _repr_html_(self) -> str:
         """For notebooks: what there is, one after the other."""

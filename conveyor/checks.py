@@ -220,7 +220,11 @@ def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
         who = "the motor" if len(line.drives) == 1 else f'"{quoted(drive.name)}"'
         why = None
         if drive.power is not None:
-            why = said(f"{who} needs {{}}, installed: {{}}", (abs(power), "power"), (drive.power, "power"))
+            why = said(
+                f"{who} requires {{}}, {{}} are installed: install more power",
+                (abs(power), "power"),
+                (drive.power, "power"),
+            )
         yield compared(
             "motor_power",
             f"motor power, {quoted(drive.name)}",
@@ -254,8 +258,10 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
 
 def take_up_reach(found: CalculatedConveyor) -> Iterator[Check]:
     """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
-    yield from reach(found.take_up)
-    if found.line.take_up.kind == "screw":
+    unit = found.line.take_up
+    if unit.travel is not None or unit.winch is not None:
+        yield from reach(found.take_up)
+    if unit.kind == "screw":
         yield compared(
             "screw_take_up", "length of a conveyor with a screw take-up", found.line.length, "at most", SCREW_LENGTH,
             "length", source="general knowledge",
@@ -671,7 +677,7 @@ def pulley_bearings(found: CalculatedConveyor) -> Iterator[Check]:
         why = None
         if asked is not None:
             why = said(
-                f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {asked / 3600.0:,.0f} h are asked for'
+                f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {asked / 3600.0:,.0f} h are required'
             )
         made = compared(
             "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
@@ -713,7 +719,7 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
             given, limit, relation = start.asked, start.least, _AT_MOST
         else:
             why = said(
-                "the motors give {} at least in their run-up (drive.torque_factor, torque_curve), the belt needs {}: "
+                "the motors give at least {} during run-up (drive.torque_factor, torque_curve), the belt requires {}: "
                 "more power or torque",
                 (start.least, "force"),
                 (found.balance.settled.force, "force"),
@@ -915,8 +921,8 @@ def penetration(found: CalculatedConveyor) -> Iterator[Check]:
     for strand in STRANDS:
         deepest, thickness = found.contacts.deepest(strand), found.contacts.covers[strand].thickness
         why = said(
-            f"{strand} rolls press in by {percent(deepest)} of the cover ({{}}): beyond small strain, the linear law "
-            "is strained",
+            f"{strand} rolls indent the cover by {percent(deepest)} of its thickness ({{}}): beyond small strain, "
+            "the linear law is not proven",
             (thickness, "thickness"),
         )
         yield Check(
@@ -955,6 +961,7 @@ def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
         worst, rating = max(rated, key=lambda pair: pair[0].limits.load / pair[1])
         limits = worst.limits
         of_class = "" if limits.cema_class is None else f"CEMA class {limits.cema_class}"
+        of_class += ", general knowledge" if limits.cema_class == "E" else ""
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
         why = said(
             f"{strand} sets in {quoted(worst.stretch.section)} bear {{}}, they are rated for {{}}{cure}",

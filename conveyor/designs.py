@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterable
+from contextlib import nullcontext
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +17,7 @@ from conveyor.models.study import StudyPlan
 from conveyor.spec import load
 from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
 from conveyor.studies.explored import Explored, explored
-from conveyor.study_file import read_duty, read_plan
+from conveyor.study_file import named, read_duty, read_plan
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -141,7 +142,9 @@ def study(
     given = plan if isinstance(plan, StudyPlan) else read_plan(plan)
     spec = Path(given.base) if isinstance(plan, StudyPlan) else Path(plan).parent / given.base
     base = load(spec, shelves=shelves) if conveyor is None else conveyor
-    campaign = Campaign.of(given, base, shelf.resolver(extra=shelves, base=spec.parent))
+    resolve = shelf.resolver(extra=shelves, base=spec.parent)
+    with nullcontext() if isinstance(plan, StudyPlan) else named(plan):
+        campaign = Campaign.of(given, base, resolve)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "study.answers" if answers is None else Path(answers)
         with Answers(path) as known:

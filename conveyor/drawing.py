@@ -55,6 +55,10 @@ class AnalysisPlots:
         found = self.analysis
         return loop_plots.tension_diagram(found.balance, found.motions, system=self._in(system))
 
+    def flap(self, *, system: System | None = None) -> Figure:
+        """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
+        return loop_plots.flap_diagram(self.analysis, system=self._in(system))
+
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
@@ -164,6 +168,7 @@ class AnalysisPlots:
             "profile": self.profile(system=system),
             **({} if self.analysis.trajectory is None else {"trajectory": self.trajectory(system=system)}),
             "pressure": self.pressure(system=system),
+            **({"flap": self.flap(system=system)} if self.analysis.set_duty else {}),
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),

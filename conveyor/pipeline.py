@@ -10,7 +10,8 @@ tensions act on the rolls again until both agree.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
@@ -50,7 +51,7 @@ from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
-from conveyor.models import Conveyor
+from conveyor.models import Calculation, Conveyor, RubberCompound
 from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
@@ -387,6 +388,22 @@ class _Loaded:
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
 
 
+def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
+    """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
+    found: Anchors = []
+    softened = conveyor.calculation.strain != "off"
+    for compound in compounds if _anchored(conveyor.calculation) else ():
+        if compound.tests:
+            with suppress(NoSolutionError, RangeError, InputError):
+                _once(found, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    return found
+
+
+def _anchored(calculation: Calculation) -> bool:
+    """Whether tests of compounds set the level of their indentation."""
+    return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
+
+
 def _strands(conveyor: Conveyor, on_curves: Acting) -> tuple[Strands, WithoutRubber]:
     """The strands of a conveyor and the forces that its load alone decides."""
     strands = Strands.of(conveyor, on_curves)
@@ -525,7 +542,7 @@ class _Shared:
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
         calculation = conveyor.calculation
-        anchored = calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
+        anchored = _anchored(calculation)
         softened = calculation.strain != "off"
         found: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():

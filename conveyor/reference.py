@@ -125,12 +125,8 @@ def _fields(part: Part, path: str) -> Iterator[tuple[str, Leaf]]:
     if isinstance(part, Leaf):
         yield path, part
         return
-    for inner in _inside(part):
+    for inner in part.parts:
         yield from _fields(inner, _joined(path + "[]" * isinstance(part, FieldTable), inner.key))
-
-
-def _inside(part: FieldGroup | FieldTable) -> tuple[Part, ...]:
-    return part.parts if isinstance(part, FieldGroup) else part.item.parts
 
 
 def _joined(path: str, key: str) -> str:
@@ -198,7 +194,7 @@ class _Writer:
             doc = f"{doc} A list{f', {length}' if length else ''}."
         yield f"{doc}{'' if part.required else ' May be left out.'}"
         yield ""
-        inside = _inside(part)
+        inside = part.parts
         same = next((title for parts, title in self._known if parts == inside), None)
         if same is not None:
             yield f"Its fields are those of [{same}](#{anchor(same)})."
@@ -271,8 +267,8 @@ def _without(leaf: Leaf) -> str:
 def _without_block(part: FieldGroup | FieldTable) -> str:
     if part.required:
         return "**required**"
-    leaves = [inner for inner in _inside(part) if isinstance(inner, Leaf)]
-    optional = isinstance(part, FieldGroup) and not any(inner.required for inner in _inside(part))
+    leaves = [inner for inner in part.parts if isinstance(inner, Leaf)]
+    optional = isinstance(part, FieldGroup) and not any(inner.required for inner in part.parts)
     given = any(leaf.default not in (*_NOTHING, False) for leaf in leaves)
     return "its defaults" if optional and given else "none of it"
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, TypeVar
 
@@ -48,6 +49,21 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
     """
     where = Path(path)
     return read_model(SizingDuty, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
+
+
+@contextmanager
+def named(path: str | Path) -> Iterator[None]:
+    """Name the file of a plan in what refuses it later: a field, a figure or a compound that its spec does not know.
+
+    Raises
+    ------
+    InputError
+        As it was raised, with the file.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
 
 
 def _with_states(plan: Given, path: Path) -> Given:

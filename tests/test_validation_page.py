@@ -32,8 +32,14 @@ SOURCES = {
     "printed digits",
     "Helix shaft report": "a printed sheet of Helix's pulley shaft program (AS 1403), tail pulley CV212: resultant, "
     "bending moment, torque; printed digits",
+    "Shortt (2019), idler of 127 mm, bearings 6305": "G. Shortt, Why idlers fail, bulk-online research paper 2146, "
+    "example 1.2: ISO 281, two bearings alike; printed digits",
+    "NEMA MG 10, table 2-3": "the example of the EASA handbook, 122/50; printed digits",
     "ISO 5293:2004": "the standard's formula of the transition length, which strips of straight way come to at full "
     "trough",
+    "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur Gurtführung "
+    "bei Gurtförderern mit Horizontalkurven: their worked belt as the tests of the open library eytelwein keep it, to "
+    "ten and more digits; the paper itself was not read",
     "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
     "table 3: belt of 1600 mm, 600 kN, 13.0 m; strength, stiffness and rolls are inferred, so 1 % is allowed",
     "CEMA, transition": "L = 0.707 sqrt(E/Δσ (s² + z²)), the edge's own way, as lectured at Newcastle (Belt conveying, "
@@ -41,7 +47,7 @@ SOURCES = {
     "ISO 5048, cross-section": "example of the public repository ScottMcCormack/conveyance: trough of 45 deg, slope of "
     "20 deg, 1.03 m of belt under the bulk; printed digits",
     "Helix delta-T reports": "printed by that program for Curragh North C3, pipe conveyor PC01, BC-01: sag tension and "
-    "take-up to every digit, power at the belt to those of the tension",
+    "take-up (and of two on 4 strands) to every digit, power at the belt to those of the tension",
     "Conveyor C-1.1 report": "a public calculation report (studylib 25593897): belt of 1250 N/mm, 1200 mm; "
     "its tensions printed to three digits",
     "ckit.co.za, trajectories": "its table of edge distances on discharge pulleys; printed digits",

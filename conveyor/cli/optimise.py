@@ -11,7 +11,7 @@ import typer
 from conveyor.cli.app import say
 from conveyor.cli.session import Session, command
 from conveyor.cli.study import said, spec_of
-from conveyor.cli.workers import Scheduler, Workers, executor_of
+from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
 
 if TYPE_CHECKING:
     from conveyor.studies.designs import Design
@@ -40,17 +40,19 @@ def optimise(
     scheduler: Scheduler = None,
 ) -> None:
     """Search the best design within limits; stopped, it goes on from FILE.answers beside the spec it writes."""
+    begin(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.files import marks
     from conveyor.studies.campaign import Answers, Campaign
     from conveyor.studies.optimise import optimise as search
-    from conveyor.study_file import read_search
+    from conveyor.study_file import named, read_search
 
     plan = read_search(plan_file)
     spec = plan_file.parent / plan.base
     line = session.read(spec)
     system = session.system(line)
-    campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
+    with named(plan_file):
+        campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     to = session.outputs(plan_file, spec)
     to.file("--output", output, ".yaml", ".yml", kind=marks.TO_FILL_IN)
     with ExitStack() as stack:
@@ -85,7 +87,7 @@ def optimise(
 
     def show() -> None:
         say(*(f"{path}: {value}" for path, value in found.design.changes.items()), figures)
-        more = "stopped at the most that were asked for: the best may be better still"
+        more = "stopped at the limit of designs: a better one may exist"
         end = "settled" if found.settled else more
         say(f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}")
 

@@ -310,7 +310,7 @@ def shelf(
     from conveyor.errors import RangeError
     from conveyor.units import in_si, text
     from conveyor.units.presentation import unit
-    from conveyor.units.sentences import celsius
+    from conveyor.units.sentences import celsius, degrees
 
     kelvin, hertz = in_si(at, "temperature"), in_si(frequency, "frequency")
     console = Console(highlight=False)
@@ -321,8 +321,8 @@ def shelf(
         omega = 2.0 * math.pi * hertz
         rows = {
             "kind": compound.kind,
-            "description": compound.description,
-            "origin": compound.source.origin,
+            "description": degrees(compound.description),
+            "origin": degrees(compound.source.origin),
             "licence": compound.source.licence or "not stated",
             "strain": compound.strain or "not stated",
             "reference temperature": text(compound.reference_temperature),
@@ -330,7 +330,7 @@ def shelf(
             "E_e / E_inf": f"{series.equilibrium / 1e6:.4g} / {series.glassy / 1e6:.4g} MPa",
             f"E' at {at}, {frequency}": f"{float(series.storage(omega)) / 1e6:.4g} MPa",
             f"tan delta at {at}, {frequency}": f"{float(series.tan_delta(omega)):.4g}",
-            "missing": "; ".join(compound.missing) or "nothing stated",
+            "missing": degrees("; ".join(compound.missing)) or "nothing stated",
         }
         if compound.range is not None:
             rows["measured frequency"] = " to ".join(text(f) for f in compound.range.frequency)

@@ -14,11 +14,12 @@ import typer
 from conveyor.cli.app import WebPage, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
-from conveyor.cli.workers import Scheduler, Workers, executor_of
+from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
 from conveyor.files import marks
 from conveyor.printable import printable
 
 if TYPE_CHECKING:
+    from conveyor.report.campaigning import CampaignTable
     from conveyor.report.columns import Contents
     from conveyor.studies.campaign import Campaign, Keyed, Point
     from conveyor.studies.designs import Design
@@ -68,28 +69,28 @@ def study(
     scheduler: Scheduler = None,
 ) -> None:
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
+    begin(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.report import campaigning, designing
     from conveyor.studies import campaign as running
     from conveyor.studies.explored import explored
-    from conveyor.study_file import read_plan
+    from conveyor.study_file import named, read_plan
 
     plan = read_plan(plan_file)
     spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
     line = session.read(spec)
     system = session.system(line)
-    campaign = running.Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
+    with named(plan_file):
+        campaign = running.Campaign.of(
+            plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
+        )
     table = campaigning.of_points(campaign, system)
     designed = campaigning.of_designs(campaign, system)
     to = session.outputs(plan_file, spec)
     parted = not output.suffix
     to.folder("--output", output if parted else None)
-    for option, path, made in (
-        ("--output", None if parted else output, table),
-        ("--designs", designs, designed),
-    ):
-        csv = path is not None and path.suffix == ".csv"
-        to.file(option, path, ".csv", ".parquet", kind=made.mark if csv else marks.TABLE)
+    _asked(to, "--output", None if parted else output, table)
+    _asked(to, "--designs", designs, designed)
     to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
     to.folder("--plots", plots)
     to.folder("--specs", specs)
@@ -134,6 +135,12 @@ def study(
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
     session.answer(plain | designing.plain(found), to, show)
+
+
+def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:
+    """Refuse the file of a table that cannot be written, or must not."""
+    csv = path is not None and path.suffix == ".csv"
+    to.file(option, path, ".csv", ".parquet", kind=table.mark if csv else marks.TABLE)
 
 
 def _made(

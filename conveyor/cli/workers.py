@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated
@@ -22,6 +23,37 @@ Scheduler = Annotated[
 ]
 
 
+def begin(scheduler: str | None, workers: int) -> None:
+    """Let processes of this machine read the program while a command reads its files; they are copies of one then."""
+    if scheduler is None and workers > 1 and _method() == "forkserver":
+        from multiprocessing import forkserver
+
+        forkserver.set_forkserver_preload(["conveyor.studies.points"])
+        forkserver.ensure_running()
+
+
+def _method() -> str:
+    """How processes are started: safe beside threads, and where it can be had without reading the program again."""
+    from multiprocessing import get_all_start_methods
+
+    return "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+
+
+def _ends_with_its_parent() -> None:
+    """End this process when the one that started it ends, killed or not."""
+    from multiprocessing import parent_process
+    from threading import Thread
+
+    parent = parent_process()
+    if parent is not None:
+
+        def watch() -> None:
+            parent.join()
+            os._exit(1)
+
+        Thread(target=watch, daemon=True).start()
+
+
 @contextmanager
 def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
     """Processes of this machine, or a cluster; this process alone where one is enough."""
@@ -32,7 +64,8 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
         if workers == 1:
             yield None
             return
-        with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        context = get_context(_method())
+        with ProcessPoolExecutor(workers, mp_context=context, initializer=_ends_with_its_parent) as pool:
             yield pool
         return
     try:

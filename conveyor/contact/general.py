@@ -33,10 +33,22 @@ _SETTLED = 1e-3  # change of friction below which tension is no longer the order
 _POLISHES = 3  # grids whose strips are tried
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
+_NO_LIMIT = "twelve decades below a mean pressure of {:.3g} none was found that a coarse grid carries"
 _LIMIT_FINER = 1 << _FIRST_POLISH  # times the coarsest grid
 _FAR_BEYOND = 1.5  # times the limit of a coarse grid: no finer one will carry the load
-_LIMIT_STRIDE, _LIMIT_WIDTH, _LIMIT_DECADES = 1.0, 4e-3, 12.0  # of ln p; decades that are searched
+_LIMIT_ABOUT, _LIMIT_WIDTH = 0.5, 2e-2  # of ln p: where 64 nodes have the limit, and to what 256 name it
+_LIMIT_DECADES = 12.0  # that are searched
 _ON_GRID = "the strips are known on a grid of {} nodes only"
+
+
+def overloaded(scene: Scene) -> Outcome | None:
+    """The refusal of a load far beyond what a coarse grid carries; None where that is not plain."""
+    try:
+        grid = solve_grid(scene.problem, _coarsest(scene.problem.rho))
+    except NoSolutionError:
+        return None
+    limit = _limit_passed(scene, grid, 0)
+    return None if limit is None else _overloaded(grid, limit)
 
 
 def by_strips(scene: Scene, rtol: float) -> Outcome:
@@ -182,49 +194,74 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
     )
 
 
-def _overloaded(grid: GridContact, limit: float) -> Outcome:
-    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
+def _overloaded(grid: GridContact, limit: float | None) -> Outcome:
+    said = _NO_LIMIT.format(grid.mean_pressure) if limit is None else _LIMIT.format(limit)
+    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(said,))
 
 
 def _limit_passed(scene: Scene, grid: GridContact, doubling: int) -> float | None:
     """The limit of a load that wraps the roll: seen on a fine grid, or on a coarse one far beyond its limit."""
-    if not grid.at_roll_end or not (doubling == _FIRST_POLISH or doubling >= _WRAP_LEVEL):
+    if not grid.at_roll_end or 0 < doubling < _WRAP_LEVEL:
         return None
     limit = _limit(scene, grid)
+    if limit is None:
+        return None
     return limit if doubling >= _WRAP_LEVEL or grid.mean_pressure > _FAR_BEYOND * limit else None
 
 
-def _limit(scene: Scene, wrapped: GridContact) -> float:
-    """The mean pressure that brings the contact to the last of 256 nodes on the roll.
+def _limit(scene: Scene, wrapped: GridContact) -> float | None:
+    """The mean pressure that brings the contact to the last of 256 nodes on the roll, sought about where 64 have it.
 
-    Where a grid does not settle from the contact before, it starts anew, and counts as wrapped where it never does.
+    None where twelve decades hold none.
     """
-    grid = Grid(scene.problem, _LIMIT_FINER * _coarsest(scene.problem.rho))
-
-    def wraps(log_pressure: float, start: GridContact | None) -> GridContact | None:
-        for begin in (start, None):
-            try:
-                return grid.contact(math.exp(log_pressure), begin)
-            except NoSolutionError:
-                continue
+    nodes = _coarsest(scene.problem.rho)
+    about = _least_wrapped(Grid(scene.problem, nodes), wrapped, _LIMIT_ABOUT, 2.0)
+    if about is None:
         return None
-
-    high, contact = math.log(wrapped.mean_pressure), wrapped
-    low = high - _LIMIT_STRIDE
-    while high - low < _LIMIT_DECADES * math.log(10.0):
-        found = wraps(low, contact)
-        if found is not None and not found.at_roll_end:
-            contact = found
+    finer = Grid(scene.problem, _LIMIT_FINER * nodes)
+    load = about.mean_pressure * math.exp(_LIMIT_ABOUT)
+    while load < wrapped.mean_pressure:
+        start = _settled(finer, load, about)
+        if start is not None and start.at_roll_end:
+            wrapped = start
             break
-        high, low = low, low - 2.0 * _LIMIT_STRIDE
-    while high - low > _LIMIT_WIDTH:
-        middle = 0.5 * (low + high)
-        found = wraps(middle, contact)
-        if found is None or found.at_roll_end:
-            high = middle
+        load *= math.exp(2.0 * _LIMIT_ABOUT)
+    found = _least_wrapped(finer, wrapped, _LIMIT_WIDTH, 2.0 * _LIMIT_ABOUT)
+    return None if found is None else found.mean_pressure
+
+
+def _settled(grid: Grid, load: float, *starts: GridContact) -> GridContact | None:
+    """The contact under a load, from the first of these contacts that leads to it."""
+    for start in starts:
+        try:
+            return grid.contact(load, start)
+        except NoSolutionError:
+            continue
+    return None
+
+
+def _least_wrapped(grid: Grid, wrapped: GridContact, width: float, stride: float) -> GridContact | None:
+    """A contact at the roll's end that leaves it where ln p is less by `width`; None where no load does.
+
+    Loads that do not settle are told by neither side: the search keeps to those beside them that wrap.
+    """
+    lightest = math.log(wrapped.mean_pressure) - _LIMIT_DECADES * math.log(10.0)
+    high, low, carried = math.log(wrapped.mean_pressure), -math.inf, wrapped
+    while high - low > width:
+        step = min(stride, 0.5 * (high - low))
+        found = None
+        while found is None and step >= 0.5 * width:
+            found = _settled(grid, math.exp(high - step), wrapped, carried)
+            step *= 1.0 if found is not None else 0.5
+        if found is None:
+            break
+        if found.at_roll_end:
+            high, wrapped = high - step, found
         else:
-            low, contact = middle, found
-    return math.exp(low)
+            low, carried = high - step, found
+        if high < lightest:
+            return None
+    return wrapped
 
 
 def _coarsest(rho: float) -> int:

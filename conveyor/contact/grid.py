@@ -15,15 +15,20 @@ active set are solved densely when few, else by GMRES with FFT products and the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy import special
 
+from conveyor.contact.creep import CreepSpectrum
+from conveyor.contact.layers import Layer
 from conveyor.contact.problem import ContactProblem
 from conveyor.contact.scene import Scene
+from conveyor.contact.stack import Own, kind
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
@@ -36,7 +41,7 @@ _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
 _DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
 _KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 8
-_CHUNK = 1 << 16
+_OCTAVE = 1 << 12  # wave numbers below are taken one by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,16 +56,14 @@ class GridContact:
         Δ/R [-].
     mean_pressure : float
         p̃_m [-].
-    friction, friction_by_loss : float
-        μ [-] by geometry and by the loss compliance.
+    friction : float
+        μ [-] by geometry.
     strips : ndarray, shape (l, 2)
         Edges of the strips, X; between nodes by p ∝ sqrt(distance).
     points : int
         Nodes in a period.
     pivots : int
         Exchanges of the active set.
-    surface : ndarray, shape (points,)
-        Displacement u/R about the mean line at X = 2πj/points [-].
     """
 
     x: Array
@@ -68,11 +71,22 @@ class GridContact:
     depth: float
     mean_pressure: float
     friction: float
-    friction_by_loss: float
     strips: Array
     points: int
     pivots: int
-    surface: Array
+    _made: _Surface = field(repr=False)
+    _rho: float = field(repr=False)
+
+    @cached_property
+    def friction_by_loss(self) -> float:
+        """μ [-] by the loss compliance."""
+        return self._made.loss(self.pressure) * self._rho / self.mean_pressure
+
+    @cached_property
+    def surface(self) -> Array:
+        """Displacement u/R about the mean line at X = 2πj/points [-], shape (points,)."""
+        lifted: Array = self._made.whole(self.pressure) - self._made.lift * self.mean_pressure
+        return lifted
 
     @property
     def at_roll_end(self) -> bool:
@@ -144,11 +158,11 @@ class Grid:
             depth=delta,
             mean_pressure=mean,
             friction=float(p @ slope) / surface.points / mean,
-            friction_by_loss=surface.loss(p) * self.problem.rho / mean,
             strips=_edges(self.x, p),
             points=surface.points,
             pivots=pivots,
-            surface=surface.whole(p) - surface.lift * mean,
+            _made=surface,
+            _rho=self.problem.rho,
         )
 
 
@@ -228,15 +242,34 @@ class _Surface:
 def _transform(problem: ContactProblem, points: int) -> tuple[NDArray[np.complex128], Array]:
     """T_m for m = 0 … N/2 (T_0 = 0), and Σ_l Im S sinc⁴ of the same."""
     layer, creep = problem.layer, Scene.of(problem).creep
-    m = np.arange(1.0, points // 2 + 1.0)
-    total = np.empty(m.size, dtype=complex)
-    loss = np.empty(m.size)
-    for i in range(0, m.size, _CHUNK):
-        part = m[i : i + _CHUNK]
-        symbol = layer.symbol(part, creep)
-        total[i : i + _CHUNK] = symbol / part**3
-        loss[i : i + _CHUNK] = symbol.imag / part**4
-    # the aliases are smooth in m/N: a polynomial of degree 20 over half a period carries them to 1e-13
+    aliases = _aliases(layer, creep, points)
+
+    def at(m: Array) -> Array:
+        """Re T, Im T and the loss at wave numbers m, shape (3, k)."""
+        symbol = layer.symbol(m, creep)
+        sine = (np.sin(math.pi * m / points) * (points / math.pi)) ** 2
+        shown = np.stack([symbol.real / m**3, symbol.imag / m**3, symbol.imag / m**4])
+        shown += chebyshev.chebval(4.0 * m / points - 1.0, aliases)
+        out: Array = shown * np.stack([sine, sine, sine * sine])
+        return out
+
+    parts = np.empty((3, points // 2 + 1))
+    parts[:, 0] = 0.0
+    start = parts.shape[1] if kind(layer) is Own else min(_OCTAVE, parts.shape[1])
+    parts[:, 1:start] = at(np.arange(1.0, start))
+    while 2 * start < parts.shape[1]:
+        parts[:, start : 2 * start] = _over_octave(at, start)
+        start *= 2
+    parts[:, start:] = at(np.arange(float(start), parts.shape[1]))
+    parts[1:, -1] = 0.0
+    return parts[0] + 1j * parts[1], parts[2]
+
+
+def _aliases(layer: Layer, creep: CreepSpectrum, points: int) -> Array:
+    """What lies beyond m < N/2 in Re T, Im T and the loss, as Chebyshev coefficients over a half period, shape (21, 3).
+
+    The aliases are smooth in m/N: degree 20 carries them to 1e-13.
+    """
     nodes = chebyshev.chebpts1(21)
     at = 0.25 * points * (nodes + 1.0)
     alias, alias_loss = np.zeros(nodes.size, dtype=complex), np.zeros(nodes.size)
@@ -248,18 +281,23 @@ def _transform(problem: ContactProblem, points: int) -> tuple[NDArray[np.complex
     far = layer.symbol(np.array([(_ALIASES + 2.0) * points]), creep)[0].real
     tail = special.zeta(3.0, _ALIASES + 1.0 + at / points) + special.zeta(3.0, _ALIASES + 1.0 - at / points)
     alias += far * tail / float(points) ** 3
-    place = 4.0 * m / points - 1.0
-    aliases = np.stack([alias.real, alias.imag, alias_loss], axis=1)
-    real, imaginary, lost = chebyshev.chebval(place, chebyshev.chebfit(nodes, aliases, 20))
-    total += real + 1j * imaginary
-    loss += lost
-    sine = (np.sin(math.pi * m / points) * (points / math.pi)) ** 2
-    total *= sine
-    total[-1] = total[-1].real
-    transform = np.concatenate([[0.0j], total])
-    transform_loss = np.concatenate([[0.0], loss * sine * sine])
-    transform_loss[-1] = 0.0
-    return transform, transform_loss
+    fitted: Array = chebyshev.chebfit(nodes, np.stack([alias.real, alias.imag, alias_loss], axis=1), 20)
+    return fitted
+
+
+def _over_octave(figures: Callable[[Array], Array], start: int) -> Array:
+    """Figures at the wave numbers `start` … 2 start - 1, from a few in each of sixteen equal parts, shape (3, start).
+
+    Their poles lie 45° and more off the real axis of m: degree 9 over a part is exact to 1e-15.
+    """
+    nodes = chebyshev.chebpts1(10)
+    size = start // 16
+    low = start + size * np.arange(16.0)[:, None]
+    values = figures((low + 0.5 * size * (nodes + 1.0)).ravel()).reshape(3 * 16, 10)
+    carried = chebyshev.chebvander(np.arange(size) * (2.0 / size) - 1.0, 9) @ chebyshev.chebfit(
+        nodes, values.T, 9
+    )
+    return np.asarray(carried.T.reshape(3, start), dtype=np.float64)
 
 
 def _pivot(

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 _LOAD_STEPS = 60
 _LOAD_ACCEPTED = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
 _WIDEST = 1.0 - 1e-9
-_CLOSED = 1e-10
+_CLOSED = 1e-4  # of ln α between too light and off the roll: the general way takes what lies between
 _GUESSES = 48
 _DISTINCT = 1e-9  # half widths closer than this carry no slope
 

@@ -112,12 +112,17 @@ class Left(Enum):
     STRIPS = "one strip is not the answer"
 
 
-def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Near | Left]:
-    """Outcome of every scene whose single strip is found by its half width, what is left of the others."""
-    outcomes: list[Outcome | Near | Left] = [Left.ANY] * len(problems)
+def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Near | Left | None]:
+    """Outcome of every scene whose single strip is found by its half width, what is left of the others.
+
+    None of all where the short rules do not serve so fine a tolerance.
+    """
+    if rtol < FINE_FROM:
+        return [None] * len(problems)
+    outcomes: list[Outcome | Near | Left | None] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
     grade = grades_for(rtol)[0]
-    for members in alike(problems) if rtol >= FINE_FROM else []:
+    for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
         alpha = guess(group)

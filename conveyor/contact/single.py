@@ -27,9 +27,12 @@ from conveyor.contact.spectral import Contact
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 ROUNDING = 1e-14
-DENSE = 128  # order beyond which a core is closed by a tail
+DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
-_FIRST_TAIL, _LONGEST_TAIL = 512, 1 << 17
+_FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
+_LONGEST_TABLE = 1 << 20  # orders times terms
+_RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
+_UNRESOLVED = 2.4  # power of n that they fall with before
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -94,6 +97,7 @@ def _converged(
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
     n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
+    longest = _longest(scene.creep.weights.size)
     while True:
         state = carry(scene, search, n, tolerance, last)
         if state is None:
@@ -104,7 +108,7 @@ def _converged(
         ]
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
-        following = _next(n, last, [float(pair.friction[0]) for pair in pairs], rtol)
+        following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
         if error <= rtol or following is None:
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
@@ -113,21 +117,40 @@ def _converged(
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
+            left = error * (last / longest) ** _UNRESOLVED
+            if following is not None and left > rtol and _out_of_reach(scene, contact, last, longest):
+                following = None
             if (error <= rtol and decided) or following is None:
                 return state, contact, error, float(energy[0]), float(by_order.edges[0])
         n, last = following
         search.renew()
 
 
-def _next(n: int, last: int, errors: list[float], rtol: float) -> tuple[int, int] | None:
+def _longest(terms: int) -> int:
+    """The last order of the longest tail: its tables fit in memory and in half a second."""
+    last = _FIRST_TAIL
+    while 4 * last <= _LONGEST_TAIL and 4 * last * terms <= _LONGEST_TABLE:
+        last *= 4
+    return last
+
+
+def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: int) -> tuple[int, int] | None:
     """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both."""
+    n, last = orders
     if last == n:
         following = next_order(n, errors[0], rtol)
         return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
     core, tail = errors
-    wider, longer = n < _WIDEST_CORE, last < _LONGEST_TAIL
-    if wider and (core > max(tail, rtol) or not longer):
-        return 2 * n, max(last, 8 * n)
-    if longer and core <= rtol:
-        return n, 4 * last
-    return (n, 4 * last) if longer and tail > rtol else None
+    if core > max(tail, rtol):
+        return (2 * n, max(last, 8 * n)) if n < _WIDEST_CORE else None
+    return (n, 4 * last) if 4 * last <= longest else None
+
+
+def _out_of_reach(scene: Scene, contact: Contact, last: int, longest: int) -> bool:
+    """Whether the longest tail will not resolve the edge layer."""
+    creep = scene.creep
+    if last < _FIRST_TAIL or not creep.weights.size:
+        return False
+    # j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m
+    layer = creep.instantaneous / (float(contact.alpha[0]) * float(np.sum(creep.weights / creep.times)))
+    return layer * longest**2 < _RESOLVED

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.arguments import checked
-from conveyor.contact.general import by_strips
+from conveyor.contact.general import by_strips, overloaded
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
@@ -128,12 +128,13 @@ def solve_many(
     ]
 
 
-def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near = Left.ANY) -> ContactSolution:
+def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = None) -> ContactSolution:
     """One strip by its half width; any number of strips where that is not the answer."""
     try:
-        near = left if isinstance(left, Near) else None
-        alone = None if left is Left.STRIPS else by_half_width(scene, rtol, near)
-        outcome = alone or by_strips(scene, rtol)
+        outcome = overloaded(scene) if left is Left.ANY else None
+        if outcome is None and left is not Left.STRIPS:
+            outcome = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
+        outcome = outcome or by_strips(scene, rtol)
     except RuleTooLongError:
         outcome = Outcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")

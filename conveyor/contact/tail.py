@@ -23,7 +23,7 @@ from conveyor.contact.creep import CreepSpectrum
 
 Array = NDArray[np.float64]
 
-_BLOCK = 64
+_BLOCK = 32
 _SEGMENT = 4096  # orders whose tables are held together
 _SMOOTH, _PLAIN = (
     8,
@@ -101,7 +101,7 @@ class _Segment:
         self.up = weights * diagonal[:-1].reshape(shape)[:, :1] * np.cumprod(rising, axis=1)
         back = np.cumprod(falling[:, ::-1], axis=1)[:, ::-1]
         self.down = np.concatenate([back[:, 1:], np.ones_like(back[:, :1])], axis=1)
-        self.across: Array = back[:, 0]
+        self.across = np.asarray(back[:, 0], dtype=np.float64)
         orders = v[1:].reshape(shape[:2])
         self.sign = np.where(orders % 2.0 == 0.0, 1.0, -1.0)[..., None]
         self.rows = np.zeros((*shape[:2], block))

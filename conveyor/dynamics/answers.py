@@ -88,7 +88,7 @@ def _strength(found: Followed) -> Iterator[Check]:
     if belt.strength is not None:
         needed = CLASSIC_SAFETY["steel cord" if belt.steel_cord else "textile"] / RATED_START
         safety = belt_safety(found.highest, nominal_strength=belt.strength, belt_width=belt.width)
-        why = said("safety of the belt {} at {}, {} are asked for", (safety, "safety"), (found.highest, "force"),
+        why = said("safety of the belt {} at {}, {} required", (safety, "safety"), (found.highest, "force"),
                    (needed, "safety"))  # fmt: skip
         yield compared("dynamic_safety", "safety of the belt", safety, "at least", needed, "safety",
                        source=most, why=why, where=where)  # fmt: skip
@@ -224,11 +224,11 @@ def _end(found: Followed) -> Iterator[Check]:
     """A stop comes to rest without running away; a start reaches full speed."""
     full, top = found.line.speed, float(np.abs(found.belt_speed).max())
     if found.stops:
-        words = said("does not within the time followed")
+        words = said("not within the calculated time")
         if found.rests_at is not None:
             words = said(f"in {found.rests_at:,.1f} s, {{}}", (found.way, "length"))
-        why = said("the belt does not come to rest; {} at the end", (float(found.belt_speed[-1]), "speed"))
-        yield Check("dynamic_rest", said("comes to rest"), found.rests_at, None, "duration", words, said("a stop"),
+        why = said("the belt does not stop; {} at the end", (float(found.belt_speed[-1]), "speed"))
+        yield Check("dynamic_rest", said("stopping"), found.rests_at, None, "duration", words, said("a stop"),
                     verdict(holds=found.rests_at is not None), why)  # fmt: skip
         why = said("the belt runs away to {}", (top, "speed"))
         yield compared("dynamic_overspeed", "speed of the belt", top, "at most", OVERSPEED * full, "speed",
@@ -260,7 +260,7 @@ def _bulk(found: Followed) -> Iterator[Check]:
         _, most, allowed, section = max(worst)
         why = said(f'the bulk slides in "{quoted(section)}": {{}}, {{}} are allowed', (most, "acceleration"),
                    (allowed, "acceleration"))  # fmt: skip
-        yield compared("dynamic_bulk", "bulk lies still", most, "at most", allowed, "acceleration", why=why,
+        yield compared("dynamic_bulk", "no material slip", most, "at most", allowed, "acceleration", why=why,
                        where=section)  # fmt: skip
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.fitting.described import add_shift, as_fitted, mega, of_series, strain_of
+from conveyor.fitting.findings import check_findings
 from conveyor.fitting.laying import (
     kelvin_of,
     laid_out,
@@ -24,7 +25,6 @@ from conveyor.fitting.laying import (
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.findings import check_findings
 from conveyor.laboratory.read import read_answered
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
@@ -122,23 +122,22 @@ def from_files(data: Path | Sequence[Path], request: Request) -> Fitted | Tabula
 
 
 def _tabulated(read: DmaData, request: Request) -> Tabulated:
-    if read.time is None or read.modulus is None:
-        raise InputError(f"{read.source}: holds no relaxation times with their moduli")
+    times, moduli = read.columns("Prony tables", "time", "modulus")
     equilibrium = request.equilibrium
     if equilibrium is None:
         if read.instantaneous is None:
             raise InputError(
                 f"{read.source}: E_e is not stated: add a column 'E_0 [MPa]', or give --instantaneous or --equilibrium"
             )
-        equilibrium = read.instantaneous - float(np.sum(read.modulus))
+        equilibrium = read.instantaneous - float(np.sum(moduli))
         if equilibrium <= 0.0:
             raise InputError(
                 f"{read.source}: the moduli add up to more than E_0 = {mega(read.instantaneous, 6)}"
             )
     shifts = None if request.shift is None else _of_kind(request.shift, "shift factors", request)
     strains = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
-    series = PronySeries(equilibrium, read.modulus, read.time)
-    window = tuple(1.0 / (2.0 * np.pi * float(t)) for t in (np.max(read.time), np.min(read.time)))
+    series = PronySeries(equilibrium, moduli, times)
+    window = tuple(1.0 / (2.0 * np.pi * float(t)) for t in (np.max(times), np.min(times)))
     described = of_series([read], request, reference_of([read], request), series, window)
     described["missing"] = ["the measurement behind the table", "density"]
     add_shift(described, None, shifts, _law_of_table(shifts, described, request))

@@ -46,7 +46,7 @@ class Request:
     replicas : int
         Of the bootstrap band; 0 for none.
     accept : frozenset of str
-        Findings on which a person insists, names of `conveyor.laboratory.findings.FINDINGS`; others are refused.
+        Findings on which a person insists, names of `conveyor.fitting.findings.FINDINGS`; others are refused.
     reading : mapping
         Answers to what a file leaves open: keywords of `conveyor.laboratory.read_dma`.
     """

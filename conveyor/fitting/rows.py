@@ -135,10 +135,7 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
             ]
         elif read.kind == "master curve":
             at = _temperature(read, number, stated)
-            if read.frequency is None or read.storage is None or read.loss is None:
-                raise InputError(f"{read.source}: holds no E' and E'' over frequency")
-            one = Isotherm(at, read.frequency, read.storage, read.loss)
-            found.append(Sweep(number, one, int(read.row_numbers.min())))
+            found.append(Sweep(number, Isotherm(at, *moduli_of(read)), int(read.row_numbers.min())))
         elif read.kind == "relaxation":
             converted = list(_relaxed(read, number, stated))
             found += converted
@@ -161,9 +158,8 @@ def _temperature(read: DmaData, number: int, stated: Mapping[int, float]) -> flo
 
 
 def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterator[Sweep]:
-    if read.time is None or read.modulus is None:
-        raise InputError(f"{read.source}: holds no E(t) over time")
-    groups: Numbers | None = np.zeros(read.time.size, dtype=np.int64)
+    time, modulus = read.columns("relaxation curves", "time", "modulus")
+    groups: Numbers | None = np.zeros(time.size, dtype=np.int64)
     if read.temperature is not None:
         groups = temperature_groups(read.temperature, read.run)
     if groups is None:
@@ -178,7 +174,7 @@ def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterato
             else float(np.mean(read.temperature[rows]))
         )
         try:
-            converted = equivalent_sweep(read.time[rows], read.modulus[rows])
+            converted = equivalent_sweep(time[rows], modulus[rows])
         except InputError as error:
             raise InputError(f"{read.source}:{read.row_numbers[rows].min()}: {error}") from None
         yield Sweep(number, Isotherm(at, *converted), int(read.row_numbers[rows].min()))
@@ -292,12 +288,8 @@ def laid(
 
 def moduli_of(read: DmaData) -> tuple[Array, Array, Array]:
     """Frequency [Hz], E' and E'' [Pa]; refused where a file has them not."""
-    frequency = read.frequency
-    if frequency is None or read.storage is None or read.loss is None:
-        raise InputError(
-            f"{read.source}: E' and E'' with their frequency are needed; give it a column frequency_Hz"
-        )
-    return frequency, read.storage, read.loss
+    frequency, storage, loss = read.columns("rows of a master curve", "frequency", "storage", "loss")
+    return frequency, storage, loss
 
 
 def _column(

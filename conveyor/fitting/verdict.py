@@ -12,8 +12,8 @@ import numpy as np
 from conveyor.checks import rubber_coverage
 from conveyor.errors import ConveyorError
 from conveyor.fitting.compound import Fitted
+from conveyor.fitting.findings import DOUBTED, OVER_SCATTER
 from conveyor.fitting.rows import MeasuredRows
-from conveyor.laboratory.findings import DOUBTED, OVER_SCATTER
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -53,7 +53,7 @@ GLOSSARY: Final = (
     ("tan δ", "E''/E', loss over storage; δ is the phase angle"),
     ("isotherm", "E' and E'' over frequency at one temperature"),
     ("a_T", "shift factor: what frequencies at T are multiplied by to lie on the curve of the reference temperature"),
-    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless asked for; T/T_ref of an entropic network"),
+    ("b_T", "vertical shift: what moduli at T are divided by; 1 unless chosen; T/T_ref of an entropic network"),
     ("master curve", "all isotherms at their shifted frequencies"),
     ("WLF, Arrhenius", "formulas of a_T over temperature: near the glass transition, far above it"),
     ("van Gurp-Palmen", "phase angle over |E*|: free of frequency: isotherms of one material lie on one curve"),

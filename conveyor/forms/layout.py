@@ -73,6 +73,11 @@ class FieldTable:
     item: FieldGroup
     allowed: str = ""
 
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Fields of an item."""
+        return self.item.parts
+
 
 Part: TypeAlias = Leaf | FieldGroup | FieldTable
 
@@ -115,7 +120,7 @@ def leaves(part: Part) -> Iterator[Leaf]:
     if isinstance(part, Leaf):
         yield part
     else:
-        for inner in part.parts if isinstance(part, FieldGroup) else part.item.parts:
+        for inner in part.parts:
             yield from leaves(inner)
 
 

@@ -14,7 +14,7 @@ from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.names import DIMENSIONS, Meaning
 from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
 from conveyor.laboratory.table import FloatArray, IntArray
-from conveyor.laboratory.units import ModulusUnit, allowed, find_unit
+from conveyor.laboratory.units import ColumnUnit, allowed, find_unit
 
 _EXAMPLES: Final = {"frequency": "Hz", "modulus": "MPa", "temperature": "degC", "strain": "%"}
 FREQUENCY_AGREEMENT: Final = 1e-2
@@ -28,7 +28,7 @@ class Series:
     column: DataColumn
     meaning: Meaning
     values: FloatArray
-    unit: ModulusUnit
+    unit: ColumnUnit
     explicit: bool
 
     @property
@@ -70,7 +70,7 @@ def remedy(dimension: str, example: str = "") -> str:
     return f'give {dimension}_unit, for example {dimension}_unit="{unit}" (--{dimension}-unit {unit})'
 
 
-def check_units(units: Mapping[str, str | None]) -> dict[str, ModulusUnit]:
+def check_units(units: Mapping[str, str | None]) -> dict[str, ColumnUnit]:
     """Units given as options, by dimension; one that is not known is refused."""
     given = {}
     for dimension, text in units.items():
@@ -84,7 +84,7 @@ def check_units(units: Mapping[str, str | None]) -> dict[str, ModulusUnit]:
     return given
 
 
-def read_columns(table: DataTable, given: Mapping[str, ModulusUnit]) -> Read:
+def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
     """Numbers of every known column; `given` units override those of the file."""
     used = _used(table)
     _check_width(table)
@@ -222,7 +222,7 @@ def _labels(table: DataTable, column: DataColumn, cells: list[str]) -> IntArray:
 
 
 def _in_si(
-    table: DataTable, column: DataColumn, numbers: FloatArray, given: Mapping[str, ModulusUnit], read: Read
+    table: DataTable, column: DataColumn, numbers: FloatArray, given: Mapping[str, ColumnUnit], read: Read
 ) -> Series:
     """One column in the unit that is given, or that the file states; what it says goes to the notes and questions."""
     meaning = column.meaning
@@ -239,12 +239,12 @@ def _in_si(
         if differs:
             words.append(f"overriding {' and '.join(differs)} of the file")
     elif dimension in {"number", "label"} and not written:
-        unit = ModulusUnit("-", 1.0)
+        unit = ColumnUnit("-", 1.0)
     else:
         problem = _unit_problem(meaning, dimension, written, stated)
         if problem:
             read.questions.append(Question(column, problem))
-        unit = next((u for u in stated if u is not None), ModulusUnit("?", 1.0))
+        unit = next((u for u in stated if u is not None), ColumnUnit("?", 1.0))
         words.append(f"in {unit.name} by the {'header' if meaning.unit else 'unit row'}")
     values, scale = _converted(meaning, numbers, unit)
     read.notes.append(", ".join([*words, *scale]))
@@ -252,7 +252,7 @@ def _in_si(
 
 
 def _unit_problem(
-    meaning: Meaning, dimension: str, written: list[str], stated: list[ModulusUnit | None]
+    meaning: Meaning, dimension: str, written: list[str], stated: list[ColumnUnit | None]
 ) -> str:
     if not written:
         which = "Hz or rad/s? " if dimension == "frequency" else ""
@@ -272,7 +272,7 @@ def _unit_problem(
     return ""
 
 
-def _converted(meaning: Meaning, numbers: FloatArray, unit: ModulusUnit) -> tuple[FloatArray, list[str]]:
+def _converted(meaning: Meaning, numbers: FloatArray, unit: ColumnUnit) -> tuple[FloatArray, list[str]]:
     """SI values, of logarithms of shift factors their log10; and how they were converted."""
     base = meaning.log_base
     if meaning.quantity in {"a_T", "b_T"} and base is not None:

@@ -121,6 +121,21 @@ class DmaData:
     source: str
     instantaneous: float | None = None
 
+    def columns(self, what: str, *names: str) -> tuple[FloatArray, ...]:
+        """Columns by their names, for what needs them all.
+
+        Raises
+        ------
+        InputError
+            If one of them is not there.
+        """
+        found = {name: getattr(self, name) for name in names}
+        missing = [name for name, values in found.items() if values is None]
+        if missing:
+            advice = "or give temperature (--temperature)" if missing == ["temperature"] else "with its unit"
+            raise InputError(f"{self.source}: {what} need {' and '.join(missing)}; add the column, {advice}")
+        return tuple(found.values())
+
     def isotherms(self) -> tuple[IsothermRows, ...]:
         """Frequency sweeps by ascending temperature, one for each temperature and run.
 
@@ -129,27 +144,22 @@ class DmaData:
         InputError
             If the file has no frequency, temperature, E' and E'', or its temperature is a ramp.
         """
-        if self.frequency is None or self.temperature is None or self.storage is None or self.loss is None:
-            needed = ("frequency", "temperature", "storage", "loss")
-            missing = [name for name in needed if getattr(self, name) is None]
-            advice = "; give temperature (--temperature)" if missing == ["temperature"] else ""
-            raise InputError(f"{self.source}: isotherms need {' and '.join(missing)}{advice}")
+        f, t, e1, e2 = self.columns("isotherms", "frequency", "temperature", "storage", "loss")
         if self.kind not in {"isotherms", "master curve"}:
             raise InputError(
                 f'{self.source}: a {self.kind}, not isotherms; give kind="isotherms" (--kind) if it holds them'
             )
         found = []
-        for run, rows in self._sweeps("isotherms", self.frequency):
-            temperature = self.temperature[rows]
+        for run, rows in self._sweeps("isotherms", f):
+            temperature = t[rows]
             spread = float(np.ptp(temperature))
             if spread > ISOTHERM_DRIFT:
                 raise InputError(
                     f"{self.source}:{self.row_numbers[rows[0]]}: the rows of this {self.kind} span"
                     f" {spread:.3g} K, not one temperature; a column 'set' can tell isotherms apart"
                 )
-            columns = (self.frequency[rows], self.storage[rows], self.loss[rows])
-            mean = float(np.mean(temperature))
-            found.append(IsothermRows(mean, spread, *columns, run, self.row_numbers[rows]))
+            mean, numbers = float(np.mean(temperature)), self.row_numbers[rows]
+            found.append(IsothermRows(mean, spread, f[rows], e1[rows], e2[rows], run, numbers))
         return tuple(sorted(found, key=lambda isotherm: isotherm.temperature))
 
     def strain_sweeps(self) -> tuple[StrainRows, ...]:
@@ -160,15 +170,15 @@ class DmaData:
         InputError
             If the file is not a strain sweep.
         """
-        if self.kind != "strain sweep" or self.strain is None or self.storage is None or self.loss is None:
+        if self.kind != "strain sweep":
             raise InputError(f"{self.source}: holds a {self.kind}, not a strain sweep; give kind (--kind)")
+        strain, e1, e2 = self.columns("strain sweeps", "strain", "storage", "loss")
         found = []
-        for run, rows in self._sweeps("strain sweeps", self.strain):
+        for run, rows in self._sweeps("strain sweeps", strain):
             t, f = (
                 None if c is None else float(np.mean(c[rows])) for c in (self.temperature, self.frequency)
             )
-            columns = (self.strain[rows], self.storage[rows], self.loss[rows])
-            found.append(StrainRows(t, f, *columns, run, self.row_numbers[rows]))
+            found.append(StrainRows(t, f, strain[rows], e1[rows], e2[rows], run, self.row_numbers[rows]))
         return tuple(found)
 
     def _sweeps(self, what: str, swept: FloatArray) -> Iterator[tuple[int | None, IntArray]]:

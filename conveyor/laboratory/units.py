@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Final, NamedTuple
 
 
-class ModulusUnit(NamedTuple):
+class ColumnUnit(NamedTuple):
     """SI value = factor * (number + offset)."""
 
     name: str
@@ -68,7 +68,7 @@ _SPELLED: Final[dict[str, _Spelled]] = {
 UNITS: Final = MappingProxyType(
     {
         dimension: {
-            spelling: ModulusUnit(name, factor, *offset)
+            spelling: ColumnUnit(name, factor, *offset)
             for name, (factor, spellings, *offset) in units.items()
             for spelling in (name, *spellings.split())
         }
@@ -81,13 +81,13 @@ _LOOKS: Final = str.maketrans(
 )
 
 
-def find_unit(dimension: str, text: str) -> ModulusUnit | None:
+def find_unit(dimension: str, text: str) -> ColumnUnit | None:
     """The unit of a dimension behind a spelling, brackets allowed; None if it is none.
 
     Examples
     --------
     >>> find_unit("modulus", "[ N/mm² ]"), find_unit("temperature", "°C").offset, find_unit("modulus", "Hz")
-    (ModulusUnit(name='MPa', factor=1000000.0, offset=0.0), 273.15, None)
+    (ColumnUnit(name='MPa', factor=1000000.0, offset=0.0), 273.15, None)
     """
     plain = re.sub(r"\s+", "", text).replace("⁻¹", "^-1")
     if len(plain) > 1 and plain[0] + plain[-1] in {"[]", "()", "<>"}:

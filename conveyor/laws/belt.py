@@ -1,7 +1,7 @@
 """Strength of the belt and diameters of the pulleys.
 
 Sources: DIN 22101 (safety against rupture, 1982; strength of the splice with S0 and S1, 2002; groups of pulleys). The
-figures below are general knowledge of the craft, not read in the standard: an analysis that uses them must say so.
+figures below are general knowledge, not read in the standard: an analysis that uses them must say so.
 """
 
 from __future__ import annotations

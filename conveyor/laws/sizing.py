@@ -1,7 +1,7 @@
 """First choices of a conveyor: width for lumps, edge distance, cover against wear, masses of parts, annuities.
 
 Sources: CEMA, Belt Conveyors for Bulk Materials, 5th ed., as commonly reproduced (lumps, edge distance, speeds);
-DIN 22101 (wear of the carrying cover). What is general knowledge of the craft says so.
+DIN 22101 (wear of the carrying cover). What is general knowledge says so.
 """
 
 from __future__ import annotations

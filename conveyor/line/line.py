@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
-from conveyor.laws.belt import Condition, least_cover
+from conveyor.laws.belt import Condition, fall_severity, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
@@ -508,13 +508,15 @@ def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
     belt = conveyor.belt
     if belt.wear is None:
         return ()
+    feeding = conveyor.route.feeding
+    drop = 0.0 if feeding is None or feeding.drop_height is None else si(feeding.drop_height)
     least = least_cover(si(belt.carcass.thickness), steel_cord=belt.carcass.kind == "steel cord")
     wear = wear_addition(
         lump=si(belt.wear.lump),
         density=si(conveyor.material.density),
         round_time=2.0 * conveyor.route.length / si(belt.speed),
         abrasiveness=belt.wear.abrasiveness,
-        loading=belt.wear.severity,
+        loading=belt.wear.loading or fall_severity(drop),
     )
     return (
         CoverNeed("top", si(belt.top_cover.thickness), least, wear),

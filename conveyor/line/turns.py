@@ -97,16 +97,26 @@ class Turn:
         return self._pushes(1.0)
 
     @property
-    def _slopes(self) -> tuple[float, ...]:
+    def slopes(self) -> tuple[float, ...]:
         """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
         frictionless = (0.0,) * len(self.weights)
         return outward_pushes(frictionless, trough_angle=self.trough_angle, banking_angle=self.banking)
 
+    @cached_property
+    def _laws(self) -> tuple[DriftLaw, DriftLaw]:
+        """How the set holds the belt by weight alone, at the full and the least friction."""
+        return self._law(self.weights, 1.0), self._law(self.weights, LEAST_GUIDANCE)
+
     def law(self, pressing: float, *, least: bool) -> DriftLaw:
         """How the set holds the belt, a vertical curve pressing on it [N], at the least or the full friction."""
+        if pressing == 0.0:
+            return self._laws[least]
         belt = math.fsum(load.belt_force for load in self.weights)
-        loads = [replace(w, belt_force=w.belt_force * (1.0 + pressing / belt)) for w in self.weights]
-        return DriftLaw.of(loads, self._pushes(LEAST_GUIDANCE) if least else self.pushes)
+        loads = tuple(replace(w, belt_force=w.belt_force * (1.0 + pressing / belt)) for w in self.weights)
+        return self._law(loads, LEAST_GUIDANCE if least else 1.0)
+
+    def _law(self, loads: Loads, share: float) -> DriftLaw:
+        return DriftLaw.of(loads, self._pushes(share))
 
     def _pushes(self, share: float) -> tuple[float, ...]:
         """The wings' own tilt pushes to the middle, the skew of the set outward; a wing's axis turns by cos λ of it."""
@@ -122,7 +132,7 @@ class Turn:
         """Resistance of one set's skew: what its friction pushes outward, over the angle of the set [N]."""
         if self.skew == 0.0:
             return 0.0
-        guided = [with_it - without for with_it, without in zip(self.pushes, self._slopes, strict=True)]
+        guided = [with_it - without for with_it, without in zip(self.pushes, self.slopes, strict=True)]
         loads = drifted_loads(self.weights, self.drift, roll_length=self.roll_length)
         return outward_force(loads, guided) * math.sin(self.skew)
 
@@ -136,7 +146,7 @@ class Turn:
         pull, across = outward_force(moved, self.pushes), math.fsum(load.length for load in moved)
         made = tuple(
             replace(load, belt_force=load.belt_force + pull * load.length / across * slope)
-            for load, slope in zip(moved, self._slopes, strict=True)
+            for load, slope in zip(moved, self.slopes, strict=True)
         )
         return made if self.side == "left" else made[::-1]
 

@@ -181,7 +181,7 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
 def sides(found: Balance, i: int, state: MotionState) -> tuple[float, float]:
     """Tensions before and behind the pulley of a number [N].
 
-    Driven pulleys at one place are met as they are listed: each by the drive of its number; where a drive stands on
+    Driven pulleys at one place are passed in the order listed: each by the drive of its number; where a drive stands on
     several they share its force alike.
     """
     line, pulley = found.line, found.line.pulleys[i]

@@ -27,16 +27,21 @@ class SetDuty:
         L10 of all bearings of a set together; None without any.
     belt_speed : float
         [m/s].
-    frequencies : tuple of float
-        First natural frequency of the belt between two sets at the lowest and highest tension in the stretch [Hz]; 0
-        where the tension is at most m' v², so that no wave stands.
+    swings : tuple of float
+        First natural frequency of the belt between two sets where it enters and leaves the stretch [Hz]; 0 where its
+        tension is at most m' v², so that no wave stands.
     """
 
     stretch: Stretch
     limits: SetLimits
     life: SetLife | None
     belt_speed: float
-    frequencies: tuple[float, float]
+    swings: tuple[float, float]
+
+    @property
+    def frequencies(self) -> tuple[float, float]:
+        """First natural frequency of the belt at the lowest and highest tension in the stretch [Hz]."""
+        return min(self.swings), max(self.swings)
 
     @cached_property
     def rotations(self) -> tuple[float, float]:
@@ -80,17 +85,15 @@ def set_duty(found: Balance) -> tuple[SetDuty, ...]:
 
 def _duty(found: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
     line = found.line
-    low, high = sorted((start, end))
-    limits = SetLimits.of(stretch, belt_width=line.belt.width, tension=high, belt_speed=line.speed)
-    moving = stretch.line_mass * line.speed**2
-    frequencies = [
-        0.0
-        if tension <= moving
-        else flap_frequency(
-            tension, line_mass=stretch.line_mass, spacing=stretch.spacing, belt_speed=line.speed
-        )
-        for tension in (low, high)
-    ]
-    return SetDuty(
-        stretch, limits, set_life(stretch, line.speed), line.speed, (frequencies[0], frequencies[1])
+    limits = SetLimits.of(stretch, belt_width=line.belt.width, tension=max(start, end), belt_speed=line.speed)
+    swings = (_swing(stretch, start, line.speed), _swing(stretch, end, line.speed))
+    return SetDuty(stretch, limits, set_life(stretch, line.speed), line.speed, swings)
+
+
+def _swing(stretch: Stretch, tension: float, belt_speed: float) -> float:
+    """First natural frequency between two sets at a tension [Hz]; 0 where no wave stands."""
+    if tension <= stretch.line_mass * belt_speed**2:
+        return 0.0
+    return flap_frequency(
+        tension, line_mass=stretch.line_mass, spacing=stretch.spacing, belt_speed=belt_speed
     )

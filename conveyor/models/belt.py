@@ -6,7 +6,6 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.belt import fall_severity
 from conveyor.laws.sizing import Severity
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.compound import CompoundReference, RubberCompound
@@ -78,23 +77,7 @@ class BulkWear(Model):
     abrasiveness: Severity = "medium"
     """Low: grain, wood; medium: coal, soft ores; high: hard, sharp-edged ore and stone."""
     loading: Severity | None = None
-    """How hard the bulk lands: height of fall and difference of speeds; needed where drop is not given."""
-    drop: Annotated[Length, Bounds(ge="0 m", le="20 m")] | None = None
-    """Height of fall at the loading point, instead of loading."""
-
-    @model_validator(mode="after")
-    def _one_loading(self) -> Self:
-        if self.loading is not None and self.drop is not None:
-            message = f'got {text(self.drop)} beside loading "{self.loading}"; give one of the two'
-            refuse("BulkWear", [Problem(("drop",), message)])
-        if self.loading is None and self.drop is None:
-            refuse("BulkWear", [Problem(("loading",), "missing: give it, or the height of fall as drop")])
-        return self
-
-    @property
-    def severity(self) -> Severity:
-        """How hard the bulk lands."""
-        return self.loading or fall_severity(0.0 if self.drop is None else si(self.drop))
+    """How hard the bulk lands: height of fall and difference of speeds; by route.feeding.drop_height without it."""
 
 
 class Carcass(Model):

@@ -27,6 +27,7 @@ def conflicts(conveyor: ConveyorParts) -> list[Problem]:
         _flow_fits,
         _sets_apart,
         _classes_exist,
+        _wear_known,
         _covers_thin,
         _warm_enough,
         _feeding_fits,
@@ -129,6 +130,14 @@ def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
             )
         except RangeError as error:
             yield Problem(("idlers", strand, "cema_class"), f"{error}; give rating, of its maker, instead")
+
+
+def _wear_known(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """How hard the bulk lands is said, or the height it falls from."""
+    wear, feeding = conveyor.belt.wear, conveyor.route.feeding
+    if wear is not None and wear.loading is None and (feeding is None or feeding.drop_height is None):
+        message = "missing: give it, or the height of fall as route.feeding.drop_height"
+        yield Problem(("belt", "wear", "loading"), message)
 
 
 def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:

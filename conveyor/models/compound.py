@@ -282,6 +282,8 @@ def _resolved(value: Any, info: ValidationInfo) -> Any:
 class _Resolved:
     """Marker of a compound that may be given by name or path."""
 
+    wanted = "a compound by its name or path"
+
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_before_validator_function(_resolved, handler(source))
 

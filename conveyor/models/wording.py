@@ -121,11 +121,15 @@ def _expected(model: type[BaseModel], location: Location) -> str:
     measure = next((mark for mark in field.metadata if isinstance(mark, Measure)), None)
     if measure is not None:
         return KINDS[measure.kind].expected
+    listed = get_origin(field.annotation) in {tuple, list}
+    marks = (*field.metadata, *(part for arg in get_args(field.annotation) for part in get_args(arg)))
+    wanted = next((mark.wanted for mark in marks if hasattr(mark, "wanted")), None)
+    if wanted is not None:
+        return f"a list, each {wanted}" if listed else str(wanted)
     inner = _models_in(field.annotation)
     if inner:
-        return (
-            f"fields: {', '.join(f.alias or n for n, f in inner[0].model_fields.items() if f.is_required())}"
-        )
+        needed = ", ".join(f.alias or n for n, f in inner[0].model_fields.items() if f.is_required())
+        return f"a list, each with fields: {needed}" if listed else f"fields: {needed}"
     if get_origin(field.annotation) is Literal:
         return "one of " + ", ".join(map(str, get_args(field.annotation)))
     simple = {float: "a number", int: "a whole number", str: "text", bool: "true or false"}

@@ -38,8 +38,8 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
         "(calculation.rtol); at 1e-4 half widths are good to 0.1 %, peak pressures to about 1.5 %, at 1e-6 to 0.1 %.",
         *roll_assumptions(conveyor),
-        "Bearings of the driven pulleys (at each drive's place the most wrapped, as many as it stands for) are in the "
-        "drive's efficiency; tension changes the load of the rolls on curves only.",
+        "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
+        "efficiency; tension changes the load of the rolls on curves only.",
         *_horizontal(conveyor),
         f"Covers are at {figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
         *_energy(conveyor),
@@ -173,8 +173,8 @@ def _strain(found: CalculatedConveyor) -> Iterator[Said]:
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
                 held = (factors.nearest(found.temperature), "temperature")
                 yield said(
-                    f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: what they change at {{}} '
-                    "is held",
+                    f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: the factors at {{}} '
+                    "are used",
                     *reached,
                     (found.temperature, "temperature"),
                     held,
@@ -233,7 +233,7 @@ def _contact(found: CalculatedConveyor) -> Iterator[Said]:
         if conveyor.belt.carcass.stiffness is None:
             yield said("belt.carcass.stiffness not given: a usual multiple of the strength taken")
         if conveyor.calculation.flexure is not None and conveyor.calculation.flexure.belt is not None:
-            yield said('calculation.flexure.belt is not used: support "belt" holds that loss')
+            yield said('calculation.flexure.belt is not used: support "belt" includes that loss')
     elif support != "confined":
         yield said(
             f'calculation.support is "{support}": a real cover is bonded to a carcass far stiffer than rubber, '
@@ -299,8 +299,8 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
         given = "least_friction" in drive.model_fields_set
         source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
         yield said(
-            f"drive force {{}} where only {percent(drive.certain_friction)} of the friction is certain "
-            f"(drive.least_friction{source}), {{}} as computed; grip and brakes are for the former",
+            f"drive force {{}} at {percent(drive.certain_friction)} of the calculated friction, the minimum "
+            f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the minimum",
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )
@@ -314,13 +314,13 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
                 "drive.start_factor not given: an uncontrolled start, all that the motors give reaches the belt"
             )
     if line.start_factor is None and line.torque_curve and any(each.power is None for each in line.drives):
-        yield said("drive.installed_power not given: the motors' torque is not known, their start neither")
+        yield said("drive.installed_power not given: the motors' torque and the start are not known")
     assumed = [each for each in line.drives if not each.mass_given]
     for each in assumed:
         if each.power is None:
             yield said(
-                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia), nor its power: they'
-                " are not in start and stop"
+                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia), nor its power: '
+                "start and stop do not include them"
             )
         else:
             yield said(

@@ -84,6 +84,8 @@ def _drag(conveyor: Conveyor) -> str:
     if all(found == ["constant"] for found in laws.values()):
         return "Roll drag does not depend on speed, load or temperature."
     words = [f"{strand} {' and '.join(found)}" for strand, found in laws.items()]
+    if laws["carry"] == laws["return"]:
+        words = [" and ".join(laws["carry"])]
     return f"Roll drag: {', '.join(words)}."
 
 
@@ -94,8 +96,8 @@ def _law_in_words(roll: Roll, *, in_service: bool) -> str:
         return "over load, speed and air temperature by Palmgren's bearing friction, no warming but the given"
     if roll.drag is None and in_service:
         return (
-            "over load, speed and air temperature by Palmgren's friction of usual bearings at the temperature they "
-            "warm themselves to, and usual seals"
+            "over load, speed and air temperature by Palmgren's friction of usual bearings at their own temperature, "
+            "and usual seals"
         )
     return "constant"
 
@@ -170,7 +172,7 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
                 limit = acceptance_limit(roll)
                 yield said(
                     f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({limit.source}; the limit of a new "
-                    f"roll's test, asked for by calculation.roll_drag), give {field}.drag",
+                    f"roll's test, chosen by calculation.roll_drag), give {field}.drag",
                     (limit.value, "force"),
                 )
 
@@ -187,7 +189,7 @@ def _bearing_warnings(field: str, law: BearingDrag, air: float) -> Iterator[Said
     if missing:
         yield said(
             f"{field}.drag_law: {', '.join(missing)} not given, upper ends for greased ball bearings assumed "
-            "(general knowledge, Palmgren's range); a measured drag goes before this law"
+            "(general knowledge, Palmgren's range); a measured drag takes precedence over this law"
         )
     viscosity = bearing_viscosity(law, air)
     if viscosity > COLD_OIL:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass
 from datetime import date
+from textwrap import wrap
 from typing import Any
 
 from openpyxl.cell.cell import Cell, MergedCell
@@ -60,6 +61,7 @@ _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 LONGEST = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
+_FILLED = 1.1  # characters of text on the width of one digit
 _BOLD = 1.1  # of the width of plain text
 _PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
 _HIGHEST = 409.0
@@ -114,9 +116,8 @@ def table(
     """
     names = [shown.head(each, system) for each in shown.columns]
     for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
-        values = [
-            _worded(value, NEVER if each.kind == "years" else INFINITE) for value in shown.cells(each, system)
-        ]
+        cells = shown.names(system) if each.kind == NAMED else shown.cells(each, system)
+        values = [_worded(value, NEVER if each.kind == "years" else INFINITE) for value in cells]
         number = each.kind == OF_ROW or (each.kind != NAMED and unit(each.kind, system).label is not None)
         text = not number and all(v is None or isinstance(v, str) for v in values)
         _head(sheet.cell(row, j), name, right=not text)
@@ -160,10 +161,11 @@ def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], wides
         if value is None:
             continue
         cell = sheet.cell(i, at[1])
-        lines = -(-(len(value) + 3) // widest)
+        lines = lines_of(value, widest - 2)
         if lines > 1:
             cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=True, vertical="top")
-            sheet.row_dimensions[i].height = min(_HIGHEST, 15.0 * lines)
+            known = sheet.row_dimensions[i].height if i in sheet.row_dimensions else None
+            sheet.row_dimensions[i].height = min(_HIGHEST, max(15.0 * lines, known or 0.0))
         elif model is None:
             cell.alignment, model = _LEFT, cell
         else:
@@ -188,6 +190,11 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
             cell.alignment = Alignment(horizontal="right")
         longest = max(longest, _length(cell.value, shown))
     return longest
+
+
+def lines_of(words: str, width: float) -> int:
+    """Lines that text takes on a width, in that of digits."""
+    return max(1, len(wrap(words, int(_FILLED * width))))
 
 
 def _dress_like(cell: Any, model: Any) -> None:
@@ -259,9 +266,9 @@ def _width(sheet: Worksheet, column: int) -> float:
     return float(sheet.column_dimensions[get_column_letter(column)].width)
 
 
-def total(sheet: Worksheet, row: int, shown: Table, system: System) -> None:
-    """Write a table's line of totals, a rule above it."""
-    for j, (column, value) in enumerate(zip(shown.columns, shown.totals(), strict=True), start=1):
+def total(sheet: Worksheet, row: int, shown: Table, system: System, first: int = 1) -> None:
+    """Write a table's line of totals from a first column, a rule above it."""
+    for j, (column, value) in enumerate(zip(shown.columns, shown.totals(), strict=True), start=first):
         cell = sheet.cell(row, j)
         if isinstance(value, str):
             put(cell, value, BOLD)

@@ -21,7 +21,7 @@ from conveyor.report.cells import ACCENT, legible
 from conveyor.report.columns import FAILS, Table
 from conveyor.report.places import TablePlace
 from conveyor.units import System
-from conveyor.units.presentation import spelled
+from conveyor.units.presentation import spelled, unit
 
 _WIDTH, _HEIGHT, _WIDE = 17.0, 9.0, 24.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
@@ -86,6 +86,13 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     return chart
 
 
+def forces(axis: Any, name: str, system: System) -> None:
+    """Name an axis of forces, in kN over cells in N."""
+    large = unit("force", system, large=True)
+    axis.title = axis_title(large.beside(name))
+    axis.number_format = "#,##0" if large.size == unit("force", system).size else "#,##0,"
+
+
 def differences(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
     """Dots of the difference to the base, a compound each, with the band between its ends where there is one."""
     chart = LineChart()
@@ -148,7 +155,8 @@ def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart
         if FAILS in _head(sheet, place.header, place.column(key)):
             line = series.graphicalProperties.line
             line.solidFill, line.dashStyle, line.width = _RED, "solid", 2 * _LINE_WIDTH
-    chart.x_axis.number_format = chart.y_axis.number_format = "#,##0"
+    chart.x_axis.number_format = "#,##0"
+    forces(chart.y_axis, "tension", system)
     chart.x_axis.tickLblPos = "low"
     chart.x_axis.scaling.min = 0.0
     sized(chart, _WIDE)

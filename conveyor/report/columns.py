@@ -244,6 +244,10 @@ class Table:
         written = unit(column.kind, system)
         return [written.shown(column.get(row)) for row in self.rows]
 
+    def names(self, system: System) -> list[str]:
+        """Names of its figures as people read them."""
+        return [spelled(row.called(system), row.kind, system) for row in self.rows]
+
     def totals(self) -> tuple[Any, ...]:
         """The line of totals, SI: words in the first column, sums where columns have them."""
         sums = (

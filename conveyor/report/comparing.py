@@ -22,7 +22,7 @@ from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, NEVER, unit
-from conveyor.units.sentences import celsius
+from conveyor.units.sentences import celsius, degrees
 
 if TYPE_CHECKING:
     from conveyor.models import Operation
@@ -436,9 +436,9 @@ def compounds(comparison: CalculatedComparison) -> Table:
         Column("compound", "text", attrgetter("name")),
         Column("kind", "text", attrgetter("kind")),
         Column("strain", "text", lambda compound: compound.strain or "not stated"),
-        Column("origin", "text", attrgetter("source.origin")),
+        Column("origin", "text", lambda c: degrees(c.source.origin)),
         Column("licence", "text", attrgetter("source.licence")),
-        Column("unknown", "text", lambda c: "; ".join(c.missing) or "nothing listed"),
+        Column("unknown", "text", lambda c: degrees("; ".join(c.missing)) or "nothing listed"),
     )
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 
@@ -474,7 +474,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
         )
     if len(speeds) > 1 and warmth is not None:
         at = unit("temperature", system).brief(warmth)
-        turning = " The ranking turns with the temperature: see the notes." if turned(comparison) else ""
+        turning = " The ranking changes with temperature: see the notes." if turned(comparison) else ""
         yield Drawing(
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
@@ -591,7 +591,7 @@ def turned(comparison: CalculatedComparison) -> list[str]:
                 by_order.setdefault(tuple(s.compound for s in row), []).append(celsius(warmth))
             orders = (f"{_listed(warm)} °C: {' < '.join(order)}" for order, warm in by_order.items())
             lines.append(
-                f"the ranking turns with the temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
+                f"the ranking changes with temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
             )
     return lines
 

@@ -24,6 +24,7 @@ from conveyor.report.cells import (
     VERDICTS,
     Look,
     header_row,
+    lines_of,
     put,
 )
 from conveyor.report.columns import CHECKS_AND_NOTES, Figure, ReportHead
@@ -190,6 +191,7 @@ def _pictures(page: Page, row: int, places: Mapping[str, tuple[Worksheet, TableP
         of, place = places["breakdown"]
         rows, at = (place.header, place.last), place.first_column
         made.append(charts.bars(of, "Resistances as given", rows, label=at, value=place.column("force")))
+        charts.forces(made[-1].y_axis, "force", page.contents.system)
     if "profile" in places:
         of, place = places["profile"]
         made.append(charts.profile(of, place, page.contents.system))
@@ -223,8 +225,8 @@ def _checked(page: Page, row: int) -> int:
                 indent=1, horizontal="left", vertical="top", wrap_text=j != 1, shrink_to_fit=j == 1
             )
         sheet.cell(i, 5).alignment = Alignment(horizontal="right", vertical="top")
-        lines = max(-(-len(found) // (_WIDTHS["D"] + 1)), -(-len(check.case) // (_WIDTHS["F"] + 1)))
-        sheet.row_dimensions[i].height = _ROW * max(1, lines)
+        lines = max(lines_of(found, _WIDTHS["D"] - 1), lines_of(check.case, _WIDTHS["F"] - 1))
+        sheet.row_dimensions[i].height = _ROW * lines
         _coloured(sheet, i, VERDICTS[check.verdict])
     if len(shown) < len(checks):
         i += 1

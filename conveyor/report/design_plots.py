@@ -60,7 +60,7 @@ class Shown:
         return self.units[k].beside(self.labels[k])
 
     def effects(self) -> Figure:
-        """What each field does to what is sought first: means over all other fields, and from least to most."""
+        """Effect of each field to what is sought first: means over all other fields, and from least to most."""
         from matplotlib.figure import Figure
 
         order = self.found.ordered

@@ -99,7 +99,7 @@ def _figure(name: str) -> Callable[[Design], float | None]:
 
 
 def on_the_front(found: Explored) -> Table:
-    """Designs that none beats, one row each; no rows where just one figure is sought."""
+    """Pareto-optimal designs, one row each; no rows where just one figure is sought."""
     several = len(found.sought) > 1
     rows = [int(i) for i in found.front.nonzero()[0]] if several else []
     rows.sort(key=lambda i: float(found.costs[i, 0]))
@@ -119,7 +119,7 @@ def on_the_front(found: Explored) -> Table:
             for k, name in enumerate(found.sought)
         ),
     )
-    heading = "Designs that none beats" + (f", the first {_MOST}" if len(rows) > _MOST else "")
+    heading = "Pareto-optimal designs" + (f", the first {_MOST}" if len(rows) > _MOST else "")
     return Table("front", "Front", heading, columns, tuple(rows[:_MOST]), (OnPage("front", heading),))
 
 
@@ -132,7 +132,7 @@ def _sought(found: Explored, k: int) -> Callable[[int], float]:
 
 
 def effects(found: Explored) -> Table:
-    """What each field does to what is sought first, one row a field and value."""
+    """Effect of each field to what is sought first, one row a field and value."""
     rows = (
         [(found.fields[k].path, effect) for k in found.ordered for effect in found.effects(k)]
         if found.count
@@ -147,7 +147,7 @@ def effects(found: Explored) -> Table:
         *(Column(f"{figure.label}, {words}", kind, _effect(get), key=get)
           for words, get in (("mean", "mean"), ("least", "least"), ("most", "most"))),
     )  # fmt: skip
-    heading = "What each field does"
+    heading = "Effect of each field"
     return Table(
         "effects", "Effects", heading, columns, rows, (OnPage("effects", heading, printed=False),), named=2
     )

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from conveyor.dynamics.follow import Followed
     from conveyor.markup import Html
 
-_LEVELS, _MOST = 14, 120  # shades, and points a side, of the map
+_LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
-_FRAMES, _PLACES = 60, 70  # of what moves
+_FRAMES, _PLACES = 45, 60  # of what moves
 _HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
 
 
@@ -173,7 +173,7 @@ def _forces(axis: Axes, found: Followed, system: System) -> None:
     tail = force(found.record.tensions[:, _tail(found)])
     axis.plot(found.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
     held = force(found.record.take_up["tension"][kept])
-    axis.plot(times, held, color="#B8860B", linewidth=0.9, label="at the take-up")
+    axis.plot(times, held, color=colour(6), linewidth=0.9, label="at the take-up")
     axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
     grouped(axis.yaxis)
     keyed(axis)

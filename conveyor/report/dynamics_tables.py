@@ -101,7 +101,7 @@ def scenarios(found: CalculatedDynamics) -> Table:
         Column("at", "duration", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
         Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
         col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
-        col("comes to rest", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
+        col("stops after", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
         col("way", "length", attrgetter("way"), "way_m"),
         Column("error of the peaks", "share", attrgetter("error"), json="error"),
         Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
@@ -237,7 +237,7 @@ def splice_tensions(found: CalculatedDynamics) -> Table:
         Column("scenario", "text", attrgetter("name"), json="scenario"),
         Column("highest tension per width", "strength", lambda r: r.highest / belt.width, json="highest_N_per_mm"),
         Column("lowest tension per width", "strength", lambda r: r.lowest / belt.width, json="lowest_N_per_mm"),
-        Column("strength asked for, as if steady", "strength", needed, json="strength_N_per_mm", sparse=True),
+        Column("required strength, as if steady", "strength", needed, json="strength_N_per_mm", sparse=True),
     )  # fmt: skip
     caption = "What every splice bears as it goes round; strength by its endurance (DIN 22101:2002)"
     return Table(

@@ -26,7 +26,7 @@ FRONT: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
 SHEETS: Final = {
-    "Results": sheets.single,
+    "Results": sheets.beside,
     "Given": sheets.inputs,
     "Inputs": sheets.single,
     "Sections": sheets.wide,
@@ -35,11 +35,11 @@ SHEETS: Final = {
     "Tension diagram": sheets.tensions,
     "Tensions": sheets.single,
     "States": sheets.stacked,
-    "Loop": sheets.stacked,
+    "Loop": sheets.beside,
     "Transfer": sheets.transfer,
     "Load cases": sheets.cases,
     "Case checks": sheets.single,
-    "Duty": sheets.stacked,
+    "Duty": sheets.beside,
     "Scenarios": sheets.stacked,
     "Histories": sheets.single,
     "Uncertainty": sheets.uncertainty,
@@ -71,11 +71,9 @@ _WHERE_ASKED: Final = (
 )
 """Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
 _PORTRAIT: Final = (
-    "Results",
     "Given",
     "Resistances",
     "Tension diagram",
-    "Loop",
     "Transfer",
     "Load cases",
     "Rubber",

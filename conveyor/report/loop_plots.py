@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.laws.tension import grip_tension
+from conveyor.line.stretches import STRANDS
 from conveyor.loop.settled import holds
 from conveyor.report.columns import FAILS
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from conveyor.loop.starting import Motions
     from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor
+    from conveyor.pipeline import CalculatedConveyor
 
 Array = NDArray[np.float64]
 _HEIGHT = 4.4
@@ -116,7 +118,7 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
         x, y = length(points.T)
         label = "straight" if section.horizontal is None else "horizontal curve"
         axis.plot(
-            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=2, label=label
+            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=3, label=label
         )
         axis.plot(x[:1], y[:1], ".", color="0.3")
         at = points[-1]
@@ -191,5 +193,41 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     for scaled in (axis.xaxis, axis.yaxis):
         grouped(scaled)
     titled(figure, "Tension round the loop")
+    keyed(axis)
+    return figure
+
+
+def flap_diagram(found: CalculatedConveyor, *, system: System = "SI") -> Figure:
+    """Natural frequencies of the belt between the sets round the loop, steady running, beside the rolls' rotation."""
+    figure, (axis,) = stacked(1, _HEIGHT)
+    length, frequency, shape = unit("length", system, large=True), unit("swing", system), found.line.loop
+    places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}
+    named: set[str] = set()
+
+    def once(label: str) -> str | None:
+        if label in named:
+            return None
+        named.add(label)
+        return label
+
+    for duty in found.set_duty:
+        x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand]))
+        for mode, line in ((1, "-"), (2, "--")):
+            label = once(f"belt, mode {mode}, {duty.stretch.strand}")
+            ink = colour(STRANDS.index(duty.stretch.strand))
+            axis.plot(x, mode * np.array(duty.swings), line, color=ink, label=label)
+        margin = duty.limits.flap_margin or 0.0
+        for each in dict.fromkeys(duty.rotations):
+            axis.plot(x, [each, each], color=_FAILS, linewidth=1, label=once("rotation of the rolls"))
+            axis.fill_between(
+                x, each * (1 - margin), each * (1 + margin), color=_FAILS, alpha=0.15, linewidth=0
+            )
+    axis.set_ylim(bottom=0.0)
+    axis.set(
+        xlabel=length.beside("distance from the head along the belt, return strand first"),
+        ylabel=frequency.beside("frequency"),
+    )
+    grouped(axis.xaxis)
+    titled(figure, "Belt between the idlers and rotation of the rolls")
     keyed(axis)
     return figure

@@ -121,9 +121,10 @@ def _panel(
 
 
 def _path(x: Array, y: Array) -> str:
-    """A path in whole pixels."""
-    points = zip(np.rint(x).astype(int).tolist(), np.rint(y).astype(int).tolist(), strict=True)
-    return "M" + "L".join(f"{a} {b}" for a, b in points)
+    """A path in whole pixels, from point to point."""
+    points = np.rint([x, y]).astype(int).T
+    first, steps = points[0].tolist(), np.diff(points, axis=0).tolist()
+    return f"M{first[0]} {first[1]}l" + " ".join(f"{a} {b}".replace(" -", "-") for a, b in steps)
 
 
 def _words(x: float, y: float, words: str, anchor: str = "start") -> Html:

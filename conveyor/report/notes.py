@@ -10,8 +10,9 @@ HEADINGS: Final = ("action required", "basis and limitations")
 """Above the two lists."""
 _NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
 """What alike notes differ in: quoted names and fields."""
+_SEVERAL: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
 _OF_DATA: Final = re.compile(
-    r"^compound \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|assumed|"
+    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|assumed|"
     "illustrative|not read in the standard"
 )
 """Notes on what was given, not on what was found."""
@@ -23,7 +24,7 @@ def merged(notes: Iterable[str]) -> list[str]:
     Examples
     --------
     >>> merged(['compound "a" is made up', "no brake", 'compound "b" is made up'])
-    ['compound "a", "b" is made up', 'no brake']
+    ['compounds "a", "b" are made up', 'no brake']
     """
     alike: dict[str, list[list[str]]] = {}
     for note in notes:
@@ -33,7 +34,8 @@ def merged(notes: Iterable[str]) -> list[str]:
 
 def _joined(pattern: str, names: Sequence[Sequence[str]]) -> str:
     columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
-    return "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
+    note = "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
+    return _SEVERAL.sub(r"compounds \1 are ", note)
 
 
 def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:

@@ -121,7 +121,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
     padding: .1rem .4rem; white-space: normal; min-width: 0; }
   .rows tbody th:first-child { font-weight: 600; text-align: left; }
   .rows td::before, .rows th[data-label]::before { content: attr(data-label); color: var(--muted); text-align: left;
-    font-weight: 400; }
+    font-weight: 400; overflow-wrap: normal; }
 }
 @page { margin: 10mm 11mm 12mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
@@ -152,6 +152,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .scroll { overflow: visible; }
   table { font-size: 6.9pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
+  figure { display: inline-block; width: 49%; vertical-align: top; }
   .drawing svg { max-width: 80mm; max-height: 40mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }

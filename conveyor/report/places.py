@@ -5,15 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 from openpyxl.cell.cell import Cell, MergedCell
+from openpyxl.styles import Alignment
 from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
 from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import GREY, HEADING, ask, put, table, total
+from conveyor.report.cells import GREY, HEADING, ask, lines_of, put, table, total
 from conveyor.report.columns import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000
@@ -26,6 +27,7 @@ CHART_ROWS: Final = 20
 """Rows that a chart takes."""
 _CHART_SPAN, _LEAST_SPAN = 7, 4
 """Columns that a chart, and notes, take on paper."""
+_GUTTER: Final = 3.0  # between tables side by side [characters]
 _NAMES: Final = 56  # characters of a name on one line
 
 
@@ -66,6 +68,13 @@ class TablePlace:
         """Range of the table with its header."""
         first, last = get_column_letter(self.first_column), get_column_letter(self.last_column)
         return f"{first}{self.header}:{last}{self.last}"
+
+
+def _centred(kept: Any) -> Alignment:
+    """An alignment at half height."""
+    return Alignment(
+        horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="center"
+    )
 
 
 @dataclass(frozen=True)
@@ -118,7 +127,7 @@ class Page:
                     self._changing(self.sheet[f"{letter}{i}"], figure)
             self._live_columns(part, place)
             if part.foot:
-                total(self.sheet, last + 1, part, self.contents.system)
+                total(self.sheet, last + 1, part, self.contents.system, column)
         return place
 
     def _changing(self, cell: Cell, figure: Figure) -> None:
@@ -157,23 +166,60 @@ class Page:
             self.sheet.auto_filter.ref = place.cells
         return place
 
-    def stacked(self, keys: Iterable[str], row: int = 1, *, widest: int = _NAMES) -> dict[str, TablePlace]:
+    def stacked(
+        self,
+        keys: Iterable[str],
+        row: int = 1,
+        column: int = 1,
+        *,
+        widest: int = _NAMES,
+        across: bool = True,
+    ) -> dict[str, TablePlace]:
         """Write tables under one another, those that there are, each with its note; where each stands.
 
-        What is not printed stands below all that is.
+        What is not printed stands below all that is. Notes run across the sheet, or stay as wide as their table.
         """
         places = {}
         there = [key for key in keys if key in self.contents]
         for key in sorted(there, key=lambda key: not self.contents[key].printed):
-            places[key] = self.place(key, row, widest=widest)
+            places[key] = self.place(key, row, column, widest=widest)
             row = places[key].last + (2 if self.contents[key].foot else 1)
-            note = self.contents[key].note
-            if note:
-                put(self.sheet.cell(row + 1, 1), note, GREY)
-                row += 2
+            if self.contents[key].note:
+                row += 1 + self._noted(row + 1, key, across=across)
             row += 2
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
+
+    def beside(self, *stacks: Iterable[str]) -> None:
+        """Write stacks of tables of one shape each side by side: tables of other shapes share no widths."""
+        keys = [[key for key in stack if key in self.contents] for stack in stacks]
+        column, places = 1, list[TablePlace]()
+        for stack in keys:
+            printed = [key for key in stack if self.contents[key].printed]
+            if printed:
+                places += self.stacked(printed, column=column, across=False).values()
+                column = max(place.last_column for place in places) + 2
+                self.sheet.column_dimensions[get_column_letter(column - 1)].width = _GUTTER
+        for i, line in self.sheet.row_dimensions.items():
+            for cell in self.sheet[i] if line.height is not None else ():
+                if cell.alignment.vertical is None:
+                    cell.alignment = _centred(cell.alignment)
+        rest = [key for stack in keys for key in stack if not self.contents[key].printed]
+        self.stacked(rest, max((place.last for place in places), default=-3) + 5)
+
+    def _noted(self, row: int, key: str, *, across: bool) -> int:
+        """Write the note of a table; the rows it takes."""
+        place, note = self.placed[key][1], self.contents[key].note
+        cell = self.sheet.cell(row, place.first_column)
+        put(cell, note, GREY)
+        if across:
+            return 1
+        columns = range(place.first_column, place.last_column + 1)
+        width = sum(self.sheet.column_dimensions[get_column_letter(j)].width for j in columns)
+        rows = lines_of(note, width)
+        self.sheet.merge_cells(None, row, columns[0], row + rows - 1, columns[-1])
+        cell.alignment = Alignment(wrap_text=True, vertical="top")
+        return rows
 
     def below(self, place: TablePlace, keys: Iterable[str]) -> None:
         """Write further tables below one, under one another."""
@@ -191,6 +237,7 @@ class Page:
         last = min([max(rows), *(here[key].header - 3 for key in here.keys() - printed.keys())])
         columns = [self._last_printed(key, place) for key, place in printed.items()]
         columns += [column + _CHART_SPAN for _, column in corners]
+        columns += [cells.max_col for cells in self.sheet.merged_cells.ranges if cells.min_row <= last]
         if len(printed) < len(here) or columns:
             self.sheet.print_area = f"A1:{get_column_letter(max([*columns, _LEAST_SPAN]))}{max(1, last)}"
         return last

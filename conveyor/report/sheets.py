@@ -13,7 +13,7 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
-from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, put
+from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, lines_of, put
 from conveyor.report.columns import FAILS
 from conveyor.report.notes import HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
@@ -25,13 +25,19 @@ _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
 """Bars that one chart shows legibly."""
-_FILLED = 1.05  # of a line's width that text takes before it breaks at a word
 _PIECE = 1000  # characters of a note in one cell
 
 
 def stacked(page: Page) -> None:
     """All tables of the sheet under one another."""
     page.stacked(page.contents.of(page.sheet.title))
+
+
+def beside(page: Page) -> None:
+    """Lists of figures under one another, beside them the tables of several columns."""
+    keys = page.contents.of(page.sheet.title)
+    lists = [key for key in keys if page.contents[key].figures]
+    page.beside(lists, [key for key in keys if key not in lists])
 
 
 def cases(page: Page) -> None:
@@ -84,13 +90,15 @@ def transfer(page: Page) -> None:
 
 def uncertainty(page: Page) -> None:
     """The power with its band, and which input matters, with its chart."""
-    places = page.stacked(page.contents.of("Uncertainty"))
-    place = places["sensitivity"]
+    page.beside([key for key in page.contents.of("Uncertainty") if key != "sensitivity"], ["sensitivity"])
+    place = page.placed["sensitivity"][1]
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
         swing = place.column("swing")
-        chart = charts.bars(page.sheet, "Sensitivity of motor power", rows, label=1, value=swing)
-        page.sheet.add_chart(chart, f"A{max(each.last for each in places.values()) + 4}")
+        chart = charts.bars(
+            page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing
+        )
+        page.sheet.add_chart(chart, f"{get_column_letter(place.first_column)}{place.last + 4}")
 
 
 def indentation(page: Page) -> None:
@@ -110,7 +118,7 @@ def rubber(page: Page) -> None:
     charted, row = row, row + CHART_ROWS
     tables = [f"{name}_{strand}" for strand in strands for name in ("moduli", "prony")]
     places = page.stacked(tables, row)
-    for strand, corner in zip(strands, ("A", "G"), strict=False):
+    for strand, corner in zip(strands, ("A", "E"), strict=False):
         name, moduli = contents[f"known_{strand}"].heading.rpartition(" (")[0], places[f"moduli_{strand}"]
         chart = charts.moduli(sheet, name, moduli, contents.system)
         charts.sized(chart, _NARROW)
@@ -131,14 +139,14 @@ def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, 
         row += 1
         put(sheet.cell(row, 1), name, GREY)
         sheet.cell(row, 1).alignment = Alignment(vertical="top")
-        _across(sheet, row, 2, value, columns=10)
+        _across(sheet, row, 2, value, columns=8)
     return row + 2
 
 
 def notes(page: Page) -> None:
     """Checks, warnings, assumptions, the spec's notes, and what made the figures."""
     sheet, contents = page.sheet, page.contents
-    row = page.place("checks", 1, widest=34).last + 3
+    row = page.place("checks", 1, widest=40).last + 3
     for heading, kind in (
         ("Method", "method"),
         ("Warnings", "warning"),
@@ -273,4 +281,4 @@ def _across(sheet: Worksheet, row: int, column: int, line: str, *, columns: int)
     sheet.merged_cells.add(f"{cell.coordinate}:{get_column_letter(last)}{row}")
     letters = [get_column_letter(j) for j in range(column, last + 1)]
     width = sum(sheet.column_dimensions[x].width if x in sheet.column_dimensions else 8.0 for x in letters)
-    sheet.row_dimensions[row].height = 15.0 * -(-len(line) // max(1, int(_FILLED * width)))
+    sheet.row_dimensions[row].height = 15.0 * lines_of(line, width)

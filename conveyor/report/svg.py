@@ -22,8 +22,10 @@ _LINK = "{http://www.w3.org/1999/xlink}href"
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
 _NUMBER = re.compile(r"-?\d+\.\d{2,}")
+_COMMAND = re.compile(r"\s*([A-Za-z])\s*")
 _WIDTH = 6.9
 """Of every figure [in]: its 9 pt letters stay legible on A4 and where a phone scrolls."""
+_LETTERS, _HANDLE = 90, 8  # that stand side by side above a figure; as wide as a line in a legend
 _PAD = 0.06  # [in] about the labels
 _HIGHEST = 4.6
 """Of a figure of up to two rows [in]; of more in proportion."""
@@ -142,7 +144,8 @@ def _tell_apart(axis: Axes) -> None:
     if handles and axis.get_legend() is not None:
         once = dict(zip(labels, handles, strict=True))
         axis.legend(
-            once.values(), once.keys(), fontsize=9, frameon=False, ncols=3, loc="lower left",
+            once.values(), once.keys(), fontsize=9, frameon=False, loc="lower left",
+            ncols=max(1, min(3, _LETTERS // (max(map(len, once)) + _HANDLE))),
             bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0,
         )  # fmt: skip
 
@@ -212,10 +215,11 @@ def _shortened(key: str, value: str, name: str) -> str:
     value = _REFERENCE.sub(lambda found: f"url(#{name}-{found[1]})", value)
     if key == "style":
         return _FONT.sub(lambda found: f"{found[1]}sans-serif" if found[1] else "", value).strip(" ;")
-    if key in {"d", "x", "y", "transform"}:
-        return _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), value).replace(
-            "\n", ""
-        )
+    if key == "d":
+        points = _NUMBER.sub(lambda found: f"{float(found[0]):.1f}".removesuffix(".0"), value)
+        return _COMMAND.sub(r"\1", points).strip()
+    if key in {"x", "y", "transform"}:
+        return _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), value)
     return value
 
 

@@ -67,7 +67,7 @@ from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
-from conveyor.units.sentences import Said, band_words, figure, plain_figure, said
+from conveyor.units.sentences import Said, band_words, degrees, figure, plain_figure, said
 
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
@@ -131,6 +131,7 @@ def of_analysis(
         pulley_states(analysis, studies),
         vertical_curves(analysis),
         horizontal_curves(analysis),
+        curve_edges(analysis),
         drift_states(analysis, studies),
         transitions(analysis),
         *of_transfer(analysis),
@@ -272,7 +273,7 @@ def defaults(left_open: PowerRange, system: System) -> Table:
         Column("give instead", "text", attrgetter("give"), json="give"),
         Column("name", "text", attrgetter("key"), page=None, json="key"),
     )
-    heading = "Defaults that leave the power open, the one to replace first on top"
+    heading = "Defaults that affect the power, most influential first"
     return Table("defaults", "Results", heading, columns, left_open.effects, (OnPage("inputs", heading),),
                  _left_open(left_open, system) if left_open.effects else "")  # fmt: skip
 
@@ -368,7 +369,7 @@ def resistances(a: CalculatedConveyor) -> Table:
         Column("source", "text", itemgetter(3)),
     )
     rows = (*by_strand, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
-    heading = "Every force and the law it comes from"
+    heading = "Resistances and their sources"
     page = (OnPage("resistances", heading),)
     return Table("resistances", "Resistances", heading, columns, rows, page, foot="effective tension")
 
@@ -416,7 +417,10 @@ def classical(a: CalculatedConveyor) -> Table:
         *(Column(name, OF_ROW, _nth(i), key=f"estimate_{i}") for i, name in enumerate(names)),
     )
     heading = "Comparison with ISO 5048 / DIN 22101, given f"
-    note = f"classical secondary: {found.classical.secondary_by}; governing at the drive: {found.tensions.governed_by}"
+    note = (
+        f"secondary resistances of the classical estimate: {found.classical.secondary_by}; "
+        f"governing at the drive: {found.tensions.governed_by}"
+    )
     page = (OnPage("resistances", heading),)
     return Table("classical", "Resistances", heading, columns, rows, page, note)
 
@@ -497,7 +501,7 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
         Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
         *(replace(column, get=_of_first(column.get)) for column in shown[1:]),
     )
-    heading = "Rolls of a set at their highest line load, alike ones once"
+    heading = "Rolls of a set at their highest line load, identical ones once"
     page, note = (
         (OnPage("rolls", heading),),
         f"Relative error of the contacts: at most {a.error_estimate:.0e}.",
@@ -987,7 +991,7 @@ def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     )  # fmt: skip
     note = (
         "Resultant of belt and weight; without pull_angle the weight adds to the pull in full. Shaft after CEMA B105.1 "
-        "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are met as they are listed."
+        "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are passed in the order listed."
     )
     heading = "Loads of the pulleys, all cases and states"
     return Table("pulley_loads", "Loop", heading, columns, tuple(rows), (OnPage("belt", heading),), note)
@@ -1047,24 +1051,16 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         Column("skew", "angle", attrgetter("turn.skew")),
         Column("drift, steady", "thickness", attrgetter("turn.drift")),
         Column("farthest inside", "thickness", attrgetter("farthest_in.inside")),
-        Column("inside in the state", "text", attrgetter("farthest_in.state")),
         Column("farthest outside", "thickness", attrgetter("farthest_out.outside")),
-        Column("outside in the state", "text", attrgetter("farthest_out.state")),
         Column("room on the rolls", "thickness", attrgetter("turn.room")),
         Column("minimum against drift", "length", lambda row: max(s.least for s in row.states)),
         Column("maximum against drift", "length", lambda row: min(s.most for s in row.states)),
-        Column("minimum against overstress", "length", attrgetter("overstress")),
-        Column("minimum against a slack edge", "length", attrgetter("buckling")),
-        Column("highest at the outer edge", "strength", attrgetter("most")),
-        Column("lowest at the inner edge", "strength", attrgetter("least")),
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
         "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
         "its rolls, or no radius is too large."
     )
-    if a.line.belt.stiffness is None:
-        note += f" {_USUAL_STIFFNESS}"
     page = (OnPage("belt", "Horizontal curves"),)
     return Table(
         "horizontal_curves",
@@ -1075,6 +1071,23 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         page,
         note if a.horizontal else "",
     )
+
+
+def curve_edges(a: CalculatedConveyor) -> Table:
+    """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
+    columns = (
+        Column("section", "text", attrgetter("section")),
+        Column("strand", "text", attrgetter("strand")),
+        Column("radius", "length", attrgetter("radius")),
+        Column("minimum against overstress", "length", attrgetter("overstress")),
+        Column("minimum against a slack edge", "length", attrgetter("buckling")),
+        Column("highest at the outer edge", "strength", attrgetter("most")),
+        Column("lowest at the inner edge", "strength", attrgetter("least")),
+    )
+    rows = tuple(curve for curve in a.horizontal if curve.most is not None)
+    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
+    heading = "Edges of the belt in horizontal curves"
+    return Table("curve_edges", "Loop", heading, columns, rows, (OnPage("belt", heading),), note)
 
 
 def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1132,7 +1145,7 @@ def transitions(a: CalculatedConveyor) -> Table:
 
 
 def convergence(a: CalculatedConveyor) -> Table:
-    """How tensions and roll loads settled on the curves; empty without curves."""
+    """Convergence of tensions and roll loads on the curves; empty without curves."""
     found = a.convergence
     rows = () if found is None else (
         Figure("steps", "count", float(found.steps)),
@@ -1140,7 +1153,7 @@ def convergence(a: CalculatedConveyor) -> Table:
         Figure("ratio of changes", "ratio", found.ratio),
         Figure("bound over largest tension", "error", found.bound),
     )  # fmt: skip
-    heading = "How tensions and roll loads settled"
+    heading = "Convergence of tensions and roll loads"
     page = (OnPage("belt", f"{heading} on the curves", printed=False),)
     return figures("convergence", "Loop", heading, rows, page=page, printed=False)
 
@@ -1172,7 +1185,7 @@ def belt_support(a: CalculatedConveyor) -> Table:
         Column("loss in the carcass", "share", lambda row: row.shares.get("carcass")),
     )
     rows = a.contacts.gives if isinstance(a.contacts, BeltContacts) else ()
-    heading = "What the give of the belt changes, and where the loss goes"
+    heading = "Effect of belt compliance, and shares of the loss"
     page = (OnPage("rolls", heading),)
     return Table("belt_support", "Indentation", heading, columns, rows, page)
 
@@ -1261,8 +1274,10 @@ def rubber(a: CalculatedConveyor) -> Table:
         Column("level from", "factor", lambda row: _level_end(contacts, row[0], -1.0), json="level_from"),
         Column("level to", "factor", lambda row: _level_end(contacts, row[0], 1.0), json="level_to"),
     )  # fmt: skip
-    page = (OnPage("rubber", "Excitation of the rubber by the rolls, and range of its data"),)
-    return Table("rubber", "Rubber", "Excitation of the rubber by the rolls", columns, tuple(rows), page)
+    page = (OnPage("rubber", "Rubber excitation band, working strain and level"),)
+    return Table(
+        "rubber", "Rubber", "Rubber excitation band, working strain and level", columns, tuple(rows), page
+    )
 
 
 def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
@@ -1331,7 +1346,7 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
         ("unknown", "; ".join(compound.missing) or "nothing listed"),
     )  # fmt: skip
     columns = (Column("fact", "text", itemgetter(0)), Column("value", "text", itemgetter(1)))
-    rows = tuple(row for row in said if row[1])
+    rows = tuple((name, degrees(words)) for name, words in said if words)
     page = (OnPage("rubber", f"What is known of {compound.name}", printed=False),)
     return Table(f"known_{strand}", "", f"{compound.name} ({compound.kind})", columns, rows, page)
 
@@ -1401,7 +1416,7 @@ def checked(found: tuple[Check, ...], system: System) -> Table:
     first = leading(found)
     rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in found)
     caption = "Calculated against required; of all calculated cases the least margin"
-    note = "margin: what is left to the limit, over the limit; of all calculated cases the least"
+    note = "margin: reserve over the limit; least of all calculated cases"
     of_case = (_OF_CASE,) if any(row.case != AS_GIVEN for row in rows) else ()
     page, columns = (OnPage("checks", caption),), (*_CHECK, *of_case, _VERDICT)
     return Table("checks", "Checks and notes", "Checks", columns, rows, page, note)
@@ -1410,7 +1425,7 @@ def checked(found: tuple[Check, ...], system: System) -> Table:
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
     """Every criterion in every load case; those that fail on the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
-    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Checks that fail, by case"
+    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Failed checks by case"
     yield Table(
         "case_checks",
         "Case checks",
@@ -1481,7 +1496,7 @@ def drawings(
         "profile",
         "Profile of the route from the tail, with feeding points, drives and take-up.",
         lambda: loop_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
-        "sections",
+        "key-figures",
     )
     yield Drawing(
         "tensions",
@@ -1501,7 +1516,11 @@ def drawings(
             "drift",
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
             lambda: loop_plots.drift(
-                [(label.text(system), found.horizontal) for label, found in _loads(a, studies)], system=system
+                [
+                    (label.text(system).removeprefix("load state "), found.horizontal)
+                    for label, found in _loads(a, studies)
+                ],
+                system=system,
             ),
             "horizontal_curves",
         )
@@ -1511,6 +1530,14 @@ def drawings(
         lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
         "distinct_rolls",
     )
+    if any(duty.limits.flap_margin is not None for duty in a.set_duty):
+        yield Drawing(
+            "flap",
+            "Natural frequencies of the belt between the idlers in steady running, and rotation of the rolls with the "
+            "distance wanted.",
+            lambda: loop_plots.flap_diagram(a, system=system),
+            "idler_sets",
+        )
     strands = compounds_by_strand(conveyor)
     worked = {compound.name: compound for compound in strands.values()}
     for k, (name, compound) in enumerate(worked.items(), start=1):

@@ -201,13 +201,13 @@ def sentence(governing: Sequence[Check], system: System) -> str:
         fails = "; ".join(_told(check, system) for check in failed[:_TOLD])
         more = f"; and {len(failed) - _TOLD} more" if len(failed) > _TOLD else ""
         done = "; ".join(dict.fromkeys(c.why.text(system) for c in failed[:_TOLD] if c.why is not None))
-        first = f"Does not stand as given: {count['FAIL']} of {len(governing)} checks fail: {fails}{more}."
+        first = f"Not adequate as given: {count['FAIL']} of {len(governing)} checks failed; {fails}{more}."
         return f"{first} Action required: {done}." if done else first
     passed = [c for c in governing if c.verdict == "pass" and c.margin is not None and c.key not in _SET]
-    words = f"Stands as given: all {count['pass']} criteria checked are met"
+    words = f"Adequate as given: all {count['pass']} criteria checked are met"
     if passed:
         nearest = min(passed, key=lambda check: check.margin or 0.0)
-        words += f"; least margin {percent(nearest.margin or 0.0, 1)}: {_told(nearest, system)}"
+        words += f"; least margin {percent(nearest.margin or 0.0, 1)}, {_told(nearest, system)}"
     missing = [check for check in governing if check.verdict == "not checked"]
     if missing:
         listed = "; ".join(f"{check.name.text(system)} ({check.asked.text(system)})" for check in missing)
@@ -216,5 +216,5 @@ def sentence(governing: Sequence[Check], system: System) -> str:
 
 
 def _told(check: Check, system: System) -> str:
-    case = "" if check.case is None else f", {check.case.text(system)}"
-    return f"{check.name.text(system)}, {check.found.text(system)}, {check.asked.text(system)}{case}"
+    case = "" if check.case is None else f" ({check.case.text(system)})"
+    return f"{check.name.text(system)}: {check.found.text(system)}, {check.asked.text(system)}{case}"

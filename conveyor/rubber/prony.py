@@ -52,7 +52,8 @@ class PronySeries:
     Notes
     -----
     Small strain, isothermal, at the temperature the times hold for. Frequencies are ANGULAR:
-    omega = 2 pi f. The arrays are read-only; two series are equal only if they are the same object.
+    omega = 2 pi f; times and frequencies that are negative or not finite are refused (InputError). The arrays are
+    read-only; two series are equal only if they are the same object.
 
     References
     ----------
@@ -112,11 +113,6 @@ class PronySeries:
         -------
         numpy.ndarray
             E(t), shape of `t` [Pa].
-
-        Raises
-        ------
-        InputError
-            If a time is negative or not finite.
         """
         decay = np.exp(-non_negative("t", t, "s")[..., None] / self.times)
         return np.asarray(self.equilibrium + decay @ self.moduli)[()]
@@ -133,11 +129,6 @@ class PronySeries:
         -------
         numpy.ndarray
             E', shape of `omega` [Pa].
-
-        Raises
-        ------
-        InputError
-            If a frequency is negative or not finite.
         """
         return np.asarray(self.equilibrium + _debye(omega, self.times)[0] @ self.moduli)[()]
 
@@ -153,11 +144,6 @@ class PronySeries:
         -------
         numpy.ndarray
             E'', shape of `omega` [Pa].
-
-        Raises
-        ------
-        InputError
-            If a frequency is negative or not finite.
         """
         return np.asarray(_debye(omega, self.times)[1] @ self.moduli)[()]
 
@@ -173,11 +159,6 @@ class PronySeries:
         -------
         numpy.ndarray
             tan delta, shape of `omega` [-].
-
-        Raises
-        ------
-        InputError
-            If a frequency is negative or not finite.
         """
         modulus = self.modulus(omega)
         return np.asarray(modulus.imag / modulus.real)[()]
@@ -194,11 +175,6 @@ class PronySeries:
         -------
         numpy.ndarray
             E*, complex, shape of `omega` [Pa].
-
-        Raises
-        ------
-        InputError
-            If a frequency is negative or not finite.
         """
         storage, loss, _ = _debye(omega, self.times)
         return np.asarray(self.equilibrium + storage @ self.moduli + 1j * (loss @ self.moduli))[()]
@@ -268,7 +244,8 @@ class CreepSeries:
     Raises
     ------
     InputError
-        If a number is not finite and > 0, lengths differ or times repeat.
+        If a number is not finite and > 0, lengths differ or times repeat; of its functions, if a time or frequency is
+        negative or not finite.
 
     Examples
     --------
@@ -305,11 +282,6 @@ class CreepSeries:
         -------
         numpy.ndarray
             J(t), shape of `t` [1/Pa].
-
-        Raises
-        ------
-        InputError
-            If a time is negative or not finite.
         """
         rise = -np.expm1(-non_negative("t", t, "s")[..., None] / self.times)
         return np.asarray(self.instantaneous + rise @ self.compliances)[()]
@@ -326,11 +298,6 @@ class CreepSeries:
         -------
         numpy.ndarray
             J*, complex with imaginary part <= 0, shape of `omega` [1/Pa].
-
-        Raises
-        ------
-        InputError
-            If a frequency is negative or not finite.
         """
         _, loss, storage = _debye(omega, self.times)
         return np.asarray(self.instantaneous + storage @ self.compliances - 1j * (loss @ self.compliances))[

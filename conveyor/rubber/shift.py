@@ -47,7 +47,25 @@ class ShiftLaw(Protocol):
         """Temperature at which a_T = 1 [K]."""
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
-        """Shift in decades at absolute `temperature` [K], any shape [-]."""
+        """Shift in decades, positive when colder than the reference.
+
+        Parameters
+        ----------
+        temperature : array_like
+            Absolute temperature, any shape [K].
+
+        Returns
+        -------
+        numpy.ndarray
+            log10 a_T, shape of `temperature` [-].
+
+        Raises
+        ------
+        RangeError
+            Where the law is not known.
+        InputError
+            If a temperature is not finite and > 0.
+        """
 
 
 @dataclass(frozen=True)
@@ -94,25 +112,7 @@ class WLF:
         positive("reference", self.reference, "K")
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
-        """Shift in decades.
-
-        Parameters
-        ----------
-        temperature : array_like
-            Absolute temperature above the pole, any shape [K].
-
-        Returns
-        -------
-        numpy.ndarray
-            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
-
-        Raises
-        ------
-        RangeError
-            At or below the pole ``reference - c2``.
-        InputError
-            If a temperature is not finite and > 0.
-        """
+        """As `ShiftLaw`; at or below the pole ``reference - c2`` there is none (RangeError)."""
         difference = _kelvin(temperature) - self.reference
         if np.any(difference <= -self.c2):
             coldest, pole = self.reference + float(difference.min()), self.reference - self.c2
@@ -162,23 +162,7 @@ class Arrhenius:
         positive("reference", self.reference, "K")
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
-        """Shift in decades.
-
-        Parameters
-        ----------
-        temperature : array_like
-            Absolute temperature, any shape [K].
-
-        Returns
-        -------
-        numpy.ndarray
-            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
-
-        Raises
-        ------
-        InputError
-            If a temperature is not finite and > 0.
-        """
+        """As `ShiftLaw`."""
         t = _kelvin(temperature)
         slope = self.activation_energy / (GAS_CONSTANT * math.log(10.0))
         return np.asarray(slope * (self.reference - t) / (t * self.reference))[()]
@@ -254,25 +238,7 @@ class ShiftTable:
             )
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
-        """Shift in decades.
-
-        Parameters
-        ----------
-        temperature : array_like
-            Absolute temperature inside the table, any shape [K].
-
-        Returns
-        -------
-        numpy.ndarray
-            log10 a_T, positive when colder than the reference, shape of `temperature` [-].
-
-        Raises
-        ------
-        RangeError
-            Outside the table.
-        InputError
-            If a temperature is not finite and > 0.
-        """
+        """As `ShiftLaw`; outside the table there is none (RangeError)."""
         t = _kelvin(temperature)
         low, high = float(self.temperatures[0]), float(self.temperatures[-1])
         outside = t[(t < low) | (t > high)]

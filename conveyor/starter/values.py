@@ -10,6 +10,7 @@ from typing import Any, Final, Literal, get_args
 from ruamel.yaml import YAML
 
 from conveyor.units import System
+from conveyor.units.presentation import SYSTEMS
 
 Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
@@ -65,5 +66,5 @@ def in_units(value: Any, units: System) -> Any:
     """Take the value of a system of units from ``SI | US``."""
     if not isinstance(value, str) or " | " not in value:
         return value
-    chosen = value.split(" | ")[0 if units == "SI" else 1]
+    chosen = value.split(" | ")[SYSTEMS.index(units)]
     return chosen.strip("[]").split(", ") if chosen.startswith("[") else chosen

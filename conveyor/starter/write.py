@@ -131,7 +131,7 @@ class _Writer:
         """Write what the fields of a row mean, then the rows."""
         indent = "  " * len(path)
         shown = dict.fromkeys(key for row in data for key in row)
-        fields = [part for part in table.item.parts if part.key in shown]
+        fields = [part for part in table.parts if part.key in shown]
         widest = max(len(part.key) for part in fields)
         for part in fields:
             opening = f"{indent}# {part.key.ljust(widest)}  "

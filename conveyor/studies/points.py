@@ -16,7 +16,7 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes
-from conveyor.pipeline import Anchors, CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import Anchors, CalculatedConveyor, Variant, anchors_of, calculate_many
 
 RTOL: Final = 1e-4
 """Of the contacts of a study: their true error is a fifth of it, far below what a spec knows."""
@@ -85,7 +85,7 @@ class Job:
     key : bytes
         Hash of all of it.
     packed : bytes
-        Spec, keys of `OUTPUTS` and compounds.
+        Spec, keys of `OUTPUTS`, compounds, and the levels of all compounds.
     """
 
     key: bytes
@@ -94,7 +94,8 @@ class Job:
     @classmethod
     def of(cls, base: Conveyor, outputs: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
         """Pack a spec, the keys of the figures asked for, and the compounds that points give by name."""
-        packed = pickle.dumps((base, tuple(outputs), dict(compounds)))
+        every = (base.carry_compound, base.return_compound, *compounds.values())
+        packed = pickle.dumps((base, tuple(outputs), dict(compounds), anchors_of(base, every)))
         return cls(hashlib.sha256(packed).digest(), packed)
 
 
@@ -110,8 +111,7 @@ class _Opened(NamedTuple):
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
-    base, outputs, compounds = pickle.loads(job.packed)  # noqa: S301 packed by this program
-    return _Opened(base, outputs, compounds, [])
+    return _Opened(*pickle.loads(job.packed))  # noqa: S301 packed by this program
 
 
 def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:

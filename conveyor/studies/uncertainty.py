@@ -27,8 +27,8 @@ from conveyor.models.variants import scaled, with_alternative, with_belt_tempera
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.studies.compared import COVERED, ends
 from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, drawn
-from conveyor.units import Quantity, between, display, from_si, text
-from conveyor.units.sentences import percent
+from conveyor.units import Quantity, between, from_si, text
+from conveyor.units.sentences import figure, percent
 
 Array = NDArray[np.float64]
 
@@ -322,7 +322,9 @@ def _temperature(conveyor: Conveyor, change: float) -> _Variation:
         _refused("temperature", partial(with_belt_temperature_changed, conveyor, sign * change))
         for sign in (-1.0, 1.0)
     ]
-    low, given, high = (display(c.temperature, "temperature") for c in (ends[0], conveyor, ends[1]))
+    low, given, high = (
+        figure(c.temperature, "temperature", conveyor.report.units) for c in (ends[0], conveyor, ends[1])
+    )
     drawn = DrawnInput("temperature", lambda given, away: with_belt_temperature_changed(given, away * change))
     return _Variation("temperature of the belt", low, given, high, tuple(map(Variant, ends)), drawn=drawn)
 
@@ -417,7 +419,7 @@ def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]
         factors = compound.amplitude_factors()
         if factors is not None and cover.strain is not None and not factors.known_at(found.temperature):
             linear = with_alternative(conveyor, compound, compound.replace(strain_dependence=None))
-            held = f"held from {display(factors.nearest(found.temperature), 'temperature')}"
+            held = f"held from {figure(factors.nearest(found.temperature), 'temperature', found.conveyor.report.units)}"
             ends = (Variant(linear), Variant(conveyor))
             yield _Variation(f'strain of "{name}"', "that of the master curve", held, held, ends)
 

@@ -203,7 +203,7 @@ def verification(
     count = len(chosen) * len(loads) * len(warmth) * len(scenes)
     if count > MOST_POINTS:
         raise InputError(
-            f"{count:,} figures are asked for, at most {MOST_POINTS:,} are calculated; give fewer values"
+            f"{count:,} figures are requested, at most {MOST_POINTS:,} are calculated; give fewer values"
         )
     rows: list[VerificationRow] = []
     sets: list[SetRow] = []

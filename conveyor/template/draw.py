@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from importlib.metadata import version
 from typing import Any, Final
 
@@ -60,9 +61,10 @@ HOW_TO: Final = (
 )
 
 
-_RARE: Final = frozenset(
-    {"Further feeding", "Ploughs", "Train", "Torque curve", "Further drives", "Scenarios", "Events"}
-)
+_RARE: Final = frozenset({
+    "Further feeding", "Ploughs", "Fill", "Train", "Torque curve", "Further drives", "Starter fill", "Correlations",
+    "Scenarios", "Events", "Starter fill 2",
+})  # fmt: skip
 """Lists that few conveyors have: their sheets are hidden while they are empty."""
 _WIDE: Final = 16  # columns of a list that one page shows legibly
 
@@ -79,6 +81,7 @@ class Book:
         self.system = system
         self.book, self.title, self.rules = Workbook(), title, Rules(compounds)
         self.book.remove(self.book.worksheets[0])
+        self._looks: dict[tuple[bool, bool], Any] = {}
 
     def draw(self, every: Sequence[FilledSheets]) -> Workbook:
         """Draw all sheets: every form, after it the lists of its part, last those of no part."""
@@ -113,7 +116,7 @@ class Book:
                 key="Referred to by",
                 kind="text",
                 required=True,
-                doc="Write this where a compound is asked for.",
+                doc="Write this where a compound is to be given.",
             )
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         sheet.sheet_properties.outlinePr.summaryBelow = False
@@ -151,11 +154,11 @@ class Book:
         put(name, label(leaf.key) + (" *" if leaf.required else ""), BOLD if leaf.required else None)
         name.alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="top")
         name.comment = _note(leaf, ".".join(line.path))
+        self._input(value, leaf)
         put(value, cells[0])
-        put(unit, cells[1])
-        _input(value, leaf)
         if leaf.units:
-            _input(unit, None)
+            self._input(unit, None)
+        put(unit, cells[1])
         put(allowed, said(leaf))
         put(default, default_text(leaf), GREY)
         put(meaning, leaf.doc)
@@ -238,13 +241,27 @@ class Book:
         usual = next((cell[1] for cell in reversed(cells) if cell is not None), None)
         for i in range(first, last + 1):
             cell = (cells[i - first] if i - first < len(cells) else None) or (None, usual)
+            self._input(sheet.cell(i, column), leaf)
             put(sheet.cell(i, column), cell[0])
-            _input(sheet.cell(i, column), leaf)
             if leaf.units:
+                self._input(sheet.cell(i, column + 1), None)
                 put(sheet.cell(i, column + 1), cell[1])
-                _input(sheet.cell(i, column + 1), None)
         ranges = [f"{name}{first}:{name}{_LISTED_ROWS}" for name in (letter, of_unit)]
         self.rules.apply(sheet, leaf, ranges[0], ranges[1])
+
+    def _input(self, cell: Any, leaf: Leaf | None) -> None:
+        """Frame a cell to fill in, of text so that nothing is made of it; a look copied is a tenth of one made."""
+        is_text = leaf is not None and leaf.kind in {"text", "list", "reference", "json"}
+        numeric = leaf is not None and leaf.kind in {"quantity", "number", "count"}
+        if (is_text, numeric) in self._looks:
+            cell._style = copy(self._looks[is_text, numeric])  # noqa: SLF001 openpyxl's own way to copy a look
+            return
+        cell.border = _BOX
+        if is_text:
+            cell.number_format = "@"
+        side = "right" if numeric else "left"
+        cell.alignment = Alignment(horizontal=side, indent=1, vertical="top", wrap_text=is_text)
+        self._looks[is_text, numeric] = copy(cell._style)  # noqa: SLF001
 
     # -- first sheet
 
@@ -342,14 +359,3 @@ def _heading(sheet: Worksheet, row: int, line: Row) -> None:
     for column in range(1, len(_HEADERS) + 1):
         sheet.cell(row, column).fill = PALE
     sheet.row_dimensions[row].height = 20
-
-
-def _input(cell: Cell | MergedCell, leaf: Leaf | None) -> None:
-    """Frame a cell to fill in; cells of text are formatted as text, so that nothing is made of it."""
-    cell.border = _BOX
-    is_text = leaf is not None and leaf.kind in {"text", "list", "reference", "json"}
-    if is_text:
-        cell.number_format = "@"
-    numeric = leaf is not None and leaf.kind in {"quantity", "number", "count"}
-    side = "right" if numeric else "left"
-    cell.alignment = Alignment(horizontal=side, indent=1, vertical="top", wrap_text=is_text)

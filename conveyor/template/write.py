@@ -15,23 +15,20 @@ from conveyor.files.saving import save, writable
 from conveyor.forms.read import read_filled
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
-from conveyor.starter.values import values
+from conveyor.starter.values import in_units, values
 from conveyor.template.draw import Book
 from conveyor.template.fill import filled
 from conveyor.units import System
 
 _MADE: Final = Path("template.xlsx")
-_ROUTE: Final[dict[System, dict[str, str]]] = {
-    "SI": {"length": "4000 m", "lift": "45 m"},
-    "US": {"length": "13500 ft", "lift": "150 ft"},
-}
-"""The one section that a template opens with."""
+_SECTION: Final = {"name": "tail to head", "length": "4000 m | 13500 ft", "lift": "45 m | 150 ft"}
+"""The one that a template opens with."""
 
 
 def example(units: System = "SI") -> Conveyor:
     """What a template is filled in with unless a conveyor is given: the overland starter on one straight section."""
     data = values("overland", units)
-    data["route"]["sections"] = [{"name": "tail to head", **_ROUTE[units]}]
+    data["route"]["sections"] = [{key: in_units(value, units) for key, value in _SECTION.items()}]
     return spec.from_data(data)
 
 

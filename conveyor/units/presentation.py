@@ -229,7 +229,8 @@ class Unit:
         whole = "#,##0" if self.digits.startswith(",") else "0"
         ending = {"%": " %", "E": "E+00"}.get(self.digits[-1], "")
         shown = whole + ("." + "0" * decimals if decimals else "") + ending
-        return shown if math.isinf(self.most) else f'[>{self.most:g}]"{self.written(math.inf)}";{shown}'
+        most = self.written(math.inf)
+        return shown if math.isinf(self.most) else f'[>{self.most:g}]"{most}";[<0]-{shown};{shown}'
 
 
 @cache
@@ -258,15 +259,15 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
 
 
 def spelled(label: str, kind: str, system: System = "SI") -> str:
-    """Return a name with its unit as people read it: degrees with their sign.
+    """Return a name with its unit as people read it: degrees with their sign, none beside per cent.
 
     Examples
     --------
-    >>> spelled("temperature", "temperature"), spelled("share", "share")
-    ('temperature [°C]', 'share [-]')
+    >>> spelled("temperature", "temperature"), spelled("share", "share"), spelled("f", "friction")
+    ('temperature [°C]', 'share', 'f [-]')
     """
     found = unit(kind, system)
-    return label if found.label is None else found.beside(label)
+    return label if found.label is None or found.digits.endswith("%") else found.beside(label)
 
 
 def headed(label: str, kind: str, system: System = "SI") -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Final
 
@@ -15,6 +16,7 @@ RAISED: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 DIGITS: Final = 3
 """Significant digits of figures in sentences."""
 _KILO: Final = 1e3
+_DEGREES: Final = re.compile(r"\bdeg(?=[CF]\b)")
 _LEAST, _MOST = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 
@@ -119,9 +121,20 @@ def said(words: str, *figures: tuple[float, str]) -> Said:
     return Said(words, figures)
 
 
+def degrees(words: str) -> str:
+    """Text with degrees as people write them.
+
+    Examples
+    --------
+    >>> degrees("at 20 degC, 10 Hz")
+    'at 20 °C, 10 Hz'
+    """
+    return _DEGREES.sub("°", words)
+
+
 def quoted(words: str) -> str:
-    """Return a user's text so that its braces stand for themselves in a `Said`."""
-    return words.replace("{", "{{").replace("}", "}}")
+    """Return a user's text so that its braces stand for themselves in a `Said`, degrees with their sign."""
+    return degrees(words).replace("{", "{{").replace("}", "}}")
 
 
 def _written(value: float, kind: str, system: System) -> str:
@@ -155,13 +168,13 @@ def band_words(band: tuple[float, float]) -> str:
     Examples
     --------
     >>> band_words((154.31, 2605.4)), band_words((7.7e-4, 1e11))
-    ('154 to 2,605 Hz', '8×10⁻⁴ to 1×10¹¹ Hz')
+    ('154 to 2,610 Hz', '8×10⁻⁴ to 1×10¹¹ Hz')
     """
     return f"{' to '.join(map(_frequency, band))} Hz"
 
 
 def _frequency(value: float) -> str:
     if _LEAST <= value < _MOST:
-        return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
+        return f"{float(f'{value:.{DIGITS}g}'):,.0f}" if value >= 100.0 else f"{value:.{DIGITS}g}"
     digit, exponent = f"{value:.0e}".split("e")
     return f"{digit}×10{str(int(exponent)).translate(RAISED)}"

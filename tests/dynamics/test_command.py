@@ -155,7 +155,7 @@ def test_the_least_brake_stops_a_downhill_belt_in_the_time_of_its_scenario():
     mass = ride.loop.mass.sum() + ride.rims.sum() + sum(lump.mass for lump in ride.loop.lumps)
     hold = -ride.loop.steady.balance.settled.force
     assert found.value == pytest.approx(hold + mass * 4.0 / 20.0, rel=0.1)
-    assert found.governs == "comes to rest"
+    assert found.governs == "stopping"
     assert found.ride.brakes == pytest.approx([found.value], rel=1e-12)
     with pytest.raises(InputError, match="no brake grips in it"):
         size(conveyor, Scenario.from_data(STOP), "brake")

@@ -109,7 +109,9 @@ def test_temperature_given() -> None:
     (isotherm,) = data.isotherms()
     assert isotherm.temperature == pytest.approx(293.15, rel=1e-15)
     assert isotherm.temperature_spread == 0.0
-    with pytest.raises(InputError, match=r"isotherms need temperature; give temperature \(--temperature\)"):
+    with pytest.raises(
+        InputError, match=r"isotherms need temperature; add the column, or give temperature \(--temperature\)"
+    ):
         read_dma(GOOD / "own_layout.csv").isotherms()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 
@@ -10,12 +11,20 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.laboratory import read_dma
-from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.groups import duplicate_runs, temperature_groups
-from conveyor.laboratory.names import meaning
-from conveyor.laboratory.numbers import decimal_mark, why_not_a_number
 
 FILES = Path(__file__).parent / "files"
+
+
+def write(folder: Path, text: str) -> Path:
+    file = folder / "pad.csv"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def refusal(folder: Path, *lines: str) -> str:
+    with pytest.raises(InputError) as refused:
+        read_dma(write(folder, "\n".join(lines)))
+    return str(refused.value)
 
 
 @pytest.mark.parametrize(
@@ -50,10 +59,14 @@ FILES = Path(__file__).parent / "files"
         ("Set", "run", None),
     ],
 )
-def test_names(header: str, quantity: str, unit: str | None) -> None:
-    found = meaning(header)
-    assert found is not None
-    assert (found.quantity, found.unit) == (quantity, unit)
+def test_names(tmp_path: Path, header: str, quantity: str, unit: str | None) -> None:
+    # beside a run or a temperature it makes no measurement: the refusal says what was found, or asks for its unit
+    beside = "T [degC]" if quantity == "run" else "run"
+    message = refusal(tmp_path, f"{beside};{header}", "20;20", "20;40")
+    assert re.search(rf"{quantity}\b|{quantity.replace('_', ' ')}\b", message)
+    asked = unit is None and quantity not in {"tan_delta", "a_T", "run"}
+    assert ("has no unit" in message) == asked
+    assert "not known" not in message
 
 
 @pytest.mark.parametrize(
@@ -70,72 +83,71 @@ def test_names(header: str, quantity: str, unit: str | None) -> None:
         "log",
     ],
 )
-def test_names_that_are_no_quantity(header: str) -> None:
-    assert meaning(header) is None
+def test_names_that_are_no_quantity(tmp_path: Path, header: str) -> None:
+    assert "fewer than two known quantities" in refusal(tmp_path, f"run;{header}", "1;20", "1;40")
+
+
+def shifts(cells: list[str]) -> str:
+    """A table of shift factors, the last one measured at the lowest temperature."""
+    return "\n".join(["T [degC];log aT", *(f"{-20 * k};{cell}" for k, cell in enumerate(cells))])
 
 
 @pytest.mark.parametrize(
-    ("cells", "mark"),
+    ("cells", "values"),
     [
-        (["1", "2"], "."),
-        (["1.5", "2"], "."),
-        (["0,5", "2"], ","),
-        (["6,800", "12,25"], ","),
-        (["1,234E+06"], ","),
-        (["6,800", "7,100"], ""),
-        (["6,8", "7.1"], ""),
-        (["1000,5", "6,800"], ","),
+        (["1", "2"], [1.0, 2.0]),
+        (["1.5", "2"], [1.5, 2.0]),
+        (["0,5", "2"], [0.5, 2.0]),
+        (["6,800", "12,25"], [6.8, 12.25]),
+        (["0", "1,234E+00"], [0.0, 1.234]),
+        (["6,800", "1000,5"], [6.8, 1000.5]),
     ],
 )
-def test_decimal_mark(cells: list[str], mark: str) -> None:
-    assert decimal_mark(cells)[0] == mark
+def test_decimal_mark(tmp_path: Path, cells: list[str], values: list[float]) -> None:
+    data = read_dma(write(tmp_path, shifts(cells)))
+    assert data.log10_a_T is not None
+    assert data.log10_a_T.tolist() == values[::-1]
 
 
 @pytest.mark.parametrize(
-    ("cell", "reason"),
+    ("cells", "reason"),
     [
-        ("1.234,5", "thousands separator"),
-        ("1,234.5", "thousands separator"),
-        ("1 234", "thousands separator"),
-        ("1.234.567,8", "thousands separator"),
-        ("10 Hz", "holds a unit"),
-        ("1. Feb", "a date or time"),
-        ("1-Feb", "a date or time"),
-        ("12:30", "a date or time"),
-        ("#N/A", "not a finite number"),
-        ("1_000", "not a number"),
-        ("#DIV/0!", "not a number"),
+        (["6,800", "7,100"], "'6,800': a decimal comma or a thousands separator cannot be told apart"),
+        (["6,8", "7.1"], "'6,8': a comma here and decimal points elsewhere"),
+        (["1.234,5"], "thousands separator"),
+        (["1,234.5"], "thousands separator"),
+        (["1 234"], "thousands separator"),
+        (["1.234.567,8"], "thousands separator"),
+        (["10 Hz"], "holds a unit"),
+        (["1. Feb"], "a date or time"),
+        (["1-Feb"], "a date or time"),
+        (["12:30"], "a date or time"),
+        (["#N/A"], "not a finite number"),
+        (["1_000"], "not a number"),
+        (["#DIV/0!"], "not a number"),
     ],
 )
-def test_why_a_cell_is_no_number(cell: str, reason: str) -> None:
-    assert reason in why_not_a_number(cell)
+def test_why_a_cell_is_no_number(tmp_path: Path, cells: list[str], reason: str) -> None:
+    assert reason in refusal(tmp_path, shifts([*cells, "20"]))
 
 
 @pytest.mark.parametrize(
     ("text", "codec", "note"),
     [
         ("T (°C) Größe µm", "cp1252", "cp1252"),
+        ("T (°C)", "cp1252", "cp1252"),  # b"\xb0C" is one syllable in CP949
         ("온도 (℃)", "euc_kr", "euc_kr"),
         ("온도 뷁 시험", "cp949", "cp949"),
         ("온도 (℃)", "utf-8", "UTF-8"),
         ("온도 (℃)", "utf-16", "UTF-16"),
     ],
 )
-def test_encodings(text: str, codec: str, note: str) -> None:
-    found, sentence = decoded(text.encode(codec), "pad.txt")
-    assert found.lstrip("\ufeff") == text
-    assert note in sentence
-
-
-def test_degree_sign_of_cp1252_is_no_korean_syllable() -> None:
-    # b"\xb0C" is one syllable in CP949
-    assert decoded("T (°C)".encode("cp1252"), "pad.txt")[0] == "T (°C)"
-
-
-def write(folder: Path, text: str) -> Path:
-    file = folder / "pad.csv"
-    file.write_text(text, encoding="utf-8")
-    return file
+def test_encodings(tmp_path: Path, text: str, codec: str, note: str) -> None:
+    file = tmp_path / "pad.txt"
+    file.write_bytes(f"# note: {text}\n{shifts(['0', '3'])}\n".encode(codec))
+    data = read_dma(file)
+    assert data.metadata["note"] == text
+    assert note in data.understood[0]
 
 
 def test_order_of_rows_does_not_matter(tmp_path: Path) -> None:
@@ -181,20 +193,21 @@ def test_reduced_frequency_is_a_master_curve(tmp_path: Path) -> None:
     assert (data.kind, data.run) == ("master curve", None)
 
 
-def test_runs_with_other_set_points_are_told_apart() -> None:
-    values = np.log([1.0, 2, 4, 8, 16, 1.5, 3, 6, 9, 12])
-    run = duplicate_runs(values, np.zeros(10, dtype=np.int64), tolerance=0.005)
-    assert run is not None
-    assert run.tolist() == [0] * 5 + [1] * 5
+def test_runs_with_other_set_points_are_told_apart(tmp_path: Path) -> None:
+    first, second = [1.0, 2, 4, 8, 16], [1.5, 3, 6, 9, 12]
+    rows = [f"{f},5,0.5" for f in (*first, *second)]
+    file = write(tmp_path, "\n".join(["f [Hz],E' [MPa],E'' [MPa]", *rows]))
+    runs = read_dma(file, kind="isotherms", temperature=293.15).isotherms()
+    assert [run.frequency.tolist() for run in runs] == [first, second]
 
 
 @pytest.mark.parametrize("drift", [0.0, 0.4, 0.9])
-def test_temperatures_of_one_isotherm(drift: float) -> None:
+def test_temperatures_of_one_isotherm(tmp_path: Path, drift: float) -> None:
     # 5 K apart, each drifting by less than the gap that separates isotherms
-    temperature = np.array([250.0 + 5.0 * step + drift * k / 4 for step in range(6) for k in range(5)])
-    group = temperature_groups(temperature, None)
-    assert group is not None
-    assert group.tolist() == [step for step in range(6) for _ in range(5)]
+    rows = [f"{10**k},{5 * step + drift * k / 4},5,0.5" for step in range(6) for k in range(5)]
+    data = read_dma(write(tmp_path, "\n".join(["f [Hz],T [degC],E' [MPa],E'' [MPa]", *rows])))
+    starts = [isotherm.row_numbers[0] for isotherm in data.isotherms()]
+    assert starts == [2 + 5 * step for step in range(6)]
 
 
 def test_files_cut_anywhere_are_read_or_refused_in_one_line(tmp_path: Path) -> None:

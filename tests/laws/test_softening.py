@@ -146,9 +146,7 @@ def test_off_is_the_linear_rubber(line):
 def test_outside_the_sweeps_their_factors_are_held_and_it_says_so(line):
     cold = line.replace(ambient=line.ambient.replace(temperature="-20 degC"))
     result = calculate(cold)
-    assert any(
-        "do not reach -20 °C: what they change at 0.02 °C is held" in warning for warning in told(result)
-    )
+    assert any("do not reach -20 °C: the factors at 0.02 °C are used" in warning for warning in told(result))
 
     # at the end of the sweeps nothing jumps: a kelvin on both sides changes it by what a kelvin of the shift does
     def at(celsius):

@@ -212,7 +212,7 @@ def test_a_law_that_fails_names_its_field(line, law, message):
 def test_remarks_follow_the_law(line):
     limit = line.replace(calculation=line.calculation.replace(roll_drag="acceptance limit"))
     assert "Roll drag does not depend on speed, load or temperature." in assumptions(limit)
-    assert any("usual bearings at the temperature they warm themselves to" in a for a in assumptions(line))
+    assert any("usual bearings at their own temperature" in a for a in assumptions(line))
     assert any("idlers.carry: roll drag not given, 2.45 N" in w for w in told(calculate(limit)))
     assert any("a roll assumed (bearings 6305, usual grease and seals" in w for w in told(calculate(line)))
     cold = line.replace(ambient=line.ambient.replace(temperature="-10 degC", belt_temperature="20 degC"))

@@ -13,6 +13,8 @@ from conveyor.line.stretches import Acting
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
 from conveyor.loop.curves import drifts, pressing_masses
 from conveyor.pipeline import calculate
+from conveyor.report.loop_plots import drift as drift_drawn
+from conveyor.report.loop_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, data
@@ -90,7 +92,7 @@ def test_the_drift_holds_the_pull_of_the_mean_tension(found):
         law = turn.law(0.0, least=False)
         assert law.force(turn.drift) == pytest.approx(inward, rel=1e-5)  # tensions of the last step
         weight = math.fsum(load.force for load in turn.weights)
-        slopes = turn._slopes
+        slopes = turn.slopes
         lengths = [load.length for load in (stretch.loads if turn.side == "left" else stretch.loads[::-1])]
         normal = inward * sum(s * n for s, n in zip(slopes, lengths, strict=True)) / sum(lengths)
         assert math.fsum(load.force for load in stretch.loads) == pytest.approx(weight + normal, rel=1e-5)
@@ -168,6 +170,31 @@ def test_wind_moves_the_empty_strand_both_ways_and_none_under_bulk(found):
     assert back.turn.drift == calm.turn.drift
     empty = calculate(conveyor(ambient={"wind_speed": "8 m/s"}, flow="0 t/h"))
     assert empty.horizontal[0].turn.wind > 0.0
+
+
+def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
+    stormy = calculate(conveyor(ambient={"wind_speed": "40 m/s"}))
+    back = stormy.horizontal[1]
+    assert (back.farthest_in.inside, back.farthest_out.outside) == (math.inf, -math.inf)
+    off = [check for check in belt_drift(stormy) if check.failed]
+    assert {check.found.text() for check in off} == {"runs off its rolls"}
+    assert all(check.calculated is None and "no radius helps" in check.why.text() for check in off[:1])
+    (axis,) = drift_drawn([("as given", stormy.horizontal)]).axes
+    assert "runs off" in {text.get_text() for text in axis.texts}
+
+
+def test_the_plan_turns_by_length_over_radius(found):
+    """A level curve to the left: its chord heads by half the angle turned, its end by all of it."""
+    (axis,) = plan(found.line).axes
+    bend = next(line for line in axis.lines if line.get_label() == "horizontal curve").get_xydata()
+    (x0, y0), (x1, y1) = bend[0], bend[-1]
+    angle = 300.0 / 1800.0
+    assert math.atan2(y1 - y0, x1 - x0) == pytest.approx(0.5 * angle, rel=1e-9)
+    # chords of equal turn: 24 of them for the arc
+    chord = 24 * 2.0 * 1800.0 * math.sin(angle / 48.0)
+    assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(
+        2.0 * 1800.0 * math.sin(0.5 * angle) * 300.0 / chord, rel=1e-9
+    )
 
 
 def test_edges_bear_the_bend_as_plane_sections_say(found):

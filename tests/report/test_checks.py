@@ -80,7 +80,7 @@ def test_us_units(line):
 @pytest.mark.parametrize(
     ("part", "change", "subject", "warned"),
     [
-        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor needs"),
+        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor requires"),
         # motors of known power would give their rated force to break away
         (
             "drive",
@@ -194,7 +194,7 @@ def test_brakes_that_hold():
 
 def test_bands_in_words():
     assert band_words((0.5, 99.6)) == "0.5 to 99.6 Hz"
-    assert band_words((1e-12, 999999.0)) == "1×10⁻¹² to 999,999 Hz"
+    assert band_words((1e-12, 999999.0)) == "1×10⁻¹² to 1,000,000 Hz"
 
 
 def test_units_of_tables():

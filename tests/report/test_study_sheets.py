@@ -26,12 +26,12 @@ def book(result, asked, tmp_path_factory):
 
 def column(sheet, heading, name):
     """Values under a header of the table below a heading."""
-    cells = {cell.value: cell.row for cell in sheet["A"]}
-    top = cells[heading] + 1
-    at = next(cell.column for cell in sheet[top] if cell.value == name)
+    first = next(cell for row in sheet for cell in row if cell.value == heading)
+    top = first.row + 1
+    at = next(cell.column for cell in sheet[top][first.column - 1 :] if cell.value == name)
     values = []
     for row in range(top + 1, sheet.max_row + 1):
-        if sheet.cell(row, 1).value is None:
+        if sheet.cell(row, first.column).value is None:
             break
         values.append(sheet.cell(row, at).value)
     return values

@@ -76,11 +76,17 @@ def page():
 
 
 def _of_a_rare_spec():
-    """Bearing lives, a pulley's shaft, a transition, CEMA's estimate, loads without an answer, draws: in no spec."""
+    """Lives and ratings of rolls, parts of drives, shafts, covers, CEMA's estimate, refusals, draws: in no spec."""
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     idlers = line.idlers
-    roll = idlers.carry.roll.replace(bearing={"dynamic_rating": "22 kN", "distance": "0.3 m"})
-    carry = idlers.carry.replace(roll=roll)
+    bearing = {
+        "dynamic_rating": "22 kN",
+        "distance": "0.3 m",
+        "axle_diameter": "25 mm",
+        "support_distance": "0.4 m",
+    }
+    roll = idlers.carry.roll.replace(bearing=bearing)
+    carry = idlers.carry.replace(roll=roll, cema_class="D", flap_margin="15 %")
     cema = {"flexure_factor": 0.02, "idler_friction": "1.5 lbf"}
     line = line.replace(idlers=idlers.replace(carry=carry), calculation=line.calculation.replace(cema=cema))
     steel = line.belt.carcass.replace(kind="steel cord", strength="1600 N/mm", rating=None)
@@ -88,7 +94,13 @@ def _of_a_rare_spec():
         "name": "tail", "position": "tail", "diameter": "24 in", "shaft_diameter": "4 in", "mass": "1200 lb",
         "bearing_centres": "66 in", "hub_centres": "46 in", "shaft_steel": "C1018", "bearing_rating": "90000 lbf",
     }  # fmt: skip
-    take_up = {"kind": "fixed", "position": "tail"}
+    take_up = {"kind": "screw", "position": "tail", "travel": "2 ft"}
+    parts = {
+        "installed_power": "150 hp", "motors": 2, "motor_speed": "1770 rpm", "starts_per_hour": 1, "backstop": True,
+        "brake_force": "2000 lbf", "brake_disc": "200 lb", "diameter_loss": "0.1 in", "torque_factor": 1.6,
+        "pulley_diameter": "36 in", "coast_time": "1 min",
+    }  # fmt: skip
+    second = {"name": "second", "wrap_angle": "180 deg", "friction": 0.35, "installed_power": "150 hp"}
     route = line.route.replace(take_up=take_up, pulleys=(pulley,), head_transition={"length": "8 ft"})
     drawn = {"roll_drag": "10 %", "draws": 64}
     slow, warm = LoadCase(name="slow", speeds=("0.1 m/s",)), LoadCase(name="warm", temperatures=("95 degF",))
@@ -100,19 +112,22 @@ def _of_a_rare_spec():
         cases=(slow, warm),
         route=route,
         uncertainty=drawn,
-        belt=line.belt.replace(carcass=splice),
+        belt=line.belt.replace(carcass=splice, wear={"lump": "4 in", "loading": "medium"}),
+        drive=line.drive.replace(**parts, further_drives=(second,)),
         scenarios=(fails,),
     )
     asked = studies(line)
     refused = StateRefusal("full", 308.15, "bulk that does not fit")
-    return conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))
+    winch = conveyor.analyse(line.replace(route=route.replace(take_up={"kind": "winch"})))
+    found = conveyor.analyse(line), replace(asked, states=replace(asked.states, refused=(refused,)))
+    return [found, (winch, None)]
 
 
 @pytest.fixture(scope="module")
 def written(studied):
     """Contents of every example in both systems, and of the rare spec."""
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
-    found.append(_of_a_rare_spec())
+    found += _of_a_rare_spec()
     pairs = [
         tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found
     ]

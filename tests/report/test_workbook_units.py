@@ -134,7 +134,7 @@ def test_axes_carry_the_units_of_their_columns(pair):
     def words(title):
         return "".join(run.t for p in title.tx.rich.p for run in (p.r or ()))
 
-    for book, sign in zip(pair, ("[N]", "[lbf]"), strict=True):
+    for book, sign in zip(pair, ("[kN]", "[lbf]"), strict=True):
         chart = book["Tension diagram"]._charts[0]
         assert words(chart.y_axis.title) == f"tension {sign}"
         assert words(book["Summary"]._charts[0].y_axis.title) == f"force {sign}"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.rubber.kramers_kronig import kramers_kronig, local_loss
+from conveyor.rubber.kramers_kronig import kramers_kronig
 from conveyor.rubber.prony import PronySeries
 
 MATERIALS = Path(__file__).parents[2] / "materials"
@@ -79,23 +79,8 @@ def test_measured_compounds() -> None:
     assert all(d.loss < 0.05 for test in found.values() for d in test.decades)
 
 
-def test_local_relation() -> None:
-    # exact for a logarithmic E': a box spectrum H has E'' = pi/2 H, dE'/d ln omega = H
-    f, loss = local_loss(F, 1e6 * np.log(1e6 * F))
-    np.testing.assert_allclose(loss, 0.5 * np.pi * 1e6, rtol=1e-9)
-    f, loss = local_loss(F, STORAGE)
-    inside = (f > 1e6) & (f < 1e8)  # |z| < 1.1 about the peak of the spectrum, s = 2 ln 10 wide
-    # E'' and (pi/2) dE'/d ln omega smear H by kernels of variance pi^2/4 and pi^2/12 in ln omega: they differ by
-    # (pi^2/12) H''/H = (pi^2/12) (z^2 - 1)/s^2, at most 3.9 %, and by the width of a step, 0.33^2/24 of it
-    np.testing.assert_allclose(loss[inside], SMOOTH.loss(2 * np.pi * f[inside]), rtol=0.045)
-
-
 def test_refusals() -> None:
     with pytest.raises(InputError, match="rows farther than 1 decade from its ends; the test needs >= 6"):
         kramers_kronig([1.0, 10.0, 50.0], [1e6, 2e6, 3e6], [1e5, 1e5, 1e5])
     with pytest.raises(InputError, match=r"row 1 \(frequency 1 Hz\): loss = -1 Pa"):
         kramers_kronig([1.0, 10.0], [1e6, 2e6], [-1.0, 1e5])
-    with pytest.raises(InputError, match="must have one shape"):
-        local_loss([1.0, 2.0], [1e6])
-    with pytest.raises(InputError, match="ascend without repetition"):
-        local_loss([1.0, 1.0], [1e6, 1e6])

@@ -29,7 +29,7 @@ PLAN = {
 
 def bowl(job, points):
     """Least at 1.6 m/s and 1.2 m: 100 W; the safety grows with the speed; no answer above 1.9 m/s."""
-    _, outputs, _ = pickle.loads(job.packed)  # noqa: S301
+    _, outputs, *_ = pickle.loads(job.packed)  # noqa: S301
     found = []
     for point in points:
         speed, spacing = (float(point[path].split()[0]) for path in ("belt.speed", "idlers.carry.spacing"))

@@ -301,8 +301,8 @@ SHEETS: dict[str, tuple[Callable[[Workbook], object], str]] = {
         r'Belt!B40 a value in a row without a field \(column "Key"\)',
     ),
     "stray beside a list": (
-        lambda b: b["Sections"].__setitem__("Z40", 5),
-        r"Sections!Z40 outside the columns of the list",
+        lambda b: b["Sections"].__setitem__("AZ40", 5),
+        r"Sections!AZ40 outside the columns of the list",
     ),
     "merged value": (lambda b: belt(b).merge_cells("B5:C5"), r"Belt!B5:C5 cells are merged; unmerge them"),
     "merged items": (
@@ -476,7 +476,7 @@ SWELLING: dict[str, tuple[bytes, bytes, str]] = {
 def test_what_would_swell_is_refused_at_once(path: Path, case: str) -> None:
     old, new, message = SWELLING[case]
     in_sheet(old, new)(path)
-    assert path.stat().st_size < 150_000
+    assert path.stat().st_size < 300_000
     begun = time.process_time()
     with pytest.raises(InputError, match=message):
         load(path)

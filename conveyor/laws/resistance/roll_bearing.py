@@ -149,7 +149,7 @@ def bearing_no_load_moment(f0: float, *, viscosity: float, rotation: float, mean
     -----
     The equation works in N mm, mm²/s, 1/min, mm; the slow form holds below ν n = 2000 mm²/s/min, where the two
     differ by 0.8 %. Freshly greased bearings drag more until the grease is spread. f0 is an empirical factor
-    with a wide range: measured drag, if there is one, goes before this law.
+    with a wide range: measured drag, if there is one, takes precedence over this law.
 
     Examples
     --------

@@ -51,29 +51,7 @@ class Finding:
 def check_findings(
     place: str, curve: tuple[FloatArray, FloatArray, FloatArray], accepted: frozenset[str], shear: float
 ) -> tuple[str, ...]:
-    """Refuse a master curve for each finding that is not accepted.
-
-    Parameters
-    ----------
-    place : str
-        What messages begin with: the file [-].
-    curve : tuple of numpy.ndarray
-        Frequency [Hz], E' and E'' [Pa], each of shape `(n,)`.
-    accepted : frozenset of str
-        Names of `FINDINGS` that a person insists on [-].
-    shear : float
-        E over G: the file may have stated either [-].
-
-    Returns
-    -------
-    tuple of str
-        What was seen and accepted [-].
-
-    Raises
-    ------
-    InputError
-        For the first finding that is not accepted.
-    """
+    """Refuse a master curve for each finding that is not accepted."""
     for name in accepted - FINDINGS.keys():
         raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
     seen = []
