@@ -103,7 +103,6 @@ def bulk_on_pulley(area: float, *, width: float) -> BulkOnPulley:
 
     require_positive(area=area, width=width)
     most = math.pi * width**2 / 8.0
-    from scipy.optimize import brentq  # loads for a second; of no use to other conveyors
 
     require(area <= most, "area", area, f"at most {most:.4g} m², a half circle on the belt, is needed")
 
@@ -244,7 +243,6 @@ def slipping_discharge(
     from scipy.optimize import brentq
 
     require_positive(friction=friction, sliding_friction=sliding_friction)
-    from scipy.optimize import brentq
 
     require(sliding_friction <= friction, "sliding_friction", sliding_friction, "at most friction is needed")
     angle = discharge_angle(speed, radius=radius, inclination=inclination, gravity=gravity)
