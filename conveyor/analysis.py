@@ -82,13 +82,13 @@ class Analysis(CalculatedConveyor):
         states = None if studies is None else studies.states
         if states is None:
             return self
-        found = states.own
+        own = states.own
         return replace(
             self,
-            contacts=found.contacts,
-            balance=found.balance,
-            fixed=found.fixed,
-            convergence=found.convergence,
+            contacts=own.contacts,
+            balance=own.balance,
+            fixed=own.fixed,
+            convergence=own.convergence,
         )
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
@@ -233,10 +233,10 @@ class Analysis(CalculatedConveyor):
         return AnalysisPlots(self)
 
     def __repr__(self) -> str:
-        found = self.balance
+        balance = self.balance
         return (
-            f'Analysis("{self.conveyor.name}": motor power {found.power.motor / 1e3:.1f} kW, effective tension '
-            f"{found.forces.total:.0f} N, f {found.friction_factor:.4f}, error {self.error_estimate:.0e})"
+            f'Analysis("{self.conveyor.name}": motor power {balance.power.motor / 1e3:.1f} kW, effective tension '
+            f"{balance.forces.total:.0f} N, f {balance.friction_factor:.4f}, error {self.error_estimate:.0e})"
         )
 
     def _repr_html_(self) -> str:
@@ -490,12 +490,12 @@ def studies(
     progress: study.Progress | None = None,
 ) -> Studies:
     """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
-    found = study.studies(conveyor, given, progress=progress)
+    made = study.studies(conveyor, given, progress=progress)
     return Studies(
-        states=None if found.states is None else _faced(found.states, StateStudy),
-        cases=None if found.cases is None else _faced(found.cases, CaseStudy),
-        duty=None if found.duty is None else _faced(found.duty, DutyStudy),
-        uncertainty=None if found.uncertainty is None else _faced(found.uncertainty, UncertaintyStudy),
+        states=None if made.states is None else _faced(made.states, StateStudy),
+        cases=None if made.cases is None else _faced(made.cases, CaseStudy),
+        duty=None if made.duty is None else _faced(made.duty, DutyStudy),
+        uncertainty=None if made.uncertainty is None else _faced(made.uncertainty, UncertaintyStudy),
         dynamics=_followed(conveyor, progress) if conveyor.scenarios else None,
     )
 

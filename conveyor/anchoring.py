@@ -89,13 +89,13 @@ def anchored(
         changes |= {"name": name, "carrier": compound.name, "missing": (lacking, *missing)}
         changes["description"] = f"Tested; carried by the spectrum of {compound.name}: {compound.description}"
     made = compound.replace(**changes)
-    found = anchor_rows(made, softened=softened)
-    return Anchored(made, found, anchor_of(made, found), softened)
+    level = anchor_rows(made, softened=softened)
+    return Anchored(made, level, anchor_of(made, level), softened)
 
 
-def levels(found: Anchored) -> Table:
+def levels(anchored: Anchored) -> Table:
     """One row a tested temperature: the factor over the loads, and its band."""
-    level = found.anchor
+    level = anchored.anchor
     low, high = level.loads
     columns = (
         Column("temperature", "temperature", lambda at: at, json="temperature_degC"),
@@ -105,13 +105,13 @@ def levels(found: Anchored) -> Table:
         Column("band, down", "share", lambda at: math.expm1(-level.band(level.load, at)), json="band_down"),
         Column("band, up", "share", lambda at: math.expm1(level.band(level.load, at)), json="band_up"),
     )  # fmt: skip
-    rows = tuple(found.anchor.temperatures.tolist())
+    rows = tuple(anchored.anchor.temperatures.tolist())
     return Table("levels", SHEET, "Measured over calculated, 90 % interval", columns, rows)
 
 
-def rows(found: Anchored) -> Table:
+def rows(anchored: Anchored) -> Table:
     """One row a test point: measured, calculated, their ratio, and what the anchor leaves."""
-    tests = found.compound.tests
+    tests = anchored.compound.tests
     points = [test.points() for test in tests]
     columns = (
         Column("line load", "line force", attrgetter("line_load"), json="line_load_N_per_m"),
@@ -122,17 +122,21 @@ def rows(found: Anchored) -> Table:
         Column("measured", "line force", attrgetter("measured"), json="measured_N_per_m"),
         Column("theory", "line force", attrgetter("calculated"), json="theory_N_per_m"),
         Column("ratio", "factor", lambda row: row.measured / row.calculated, json="ratio"),
-        Column("residual", "share", found.left, json="left"),
+        Column("residual", "share", anchored.left, json="left"),
     )
-    return Table("tests", SHEET, "Tests beside the theory", columns, found.rows)
+    return Table("tests", SHEET, "Tests beside the theory", columns, anchored.rows)
 
 
-def lines(found: Anchored) -> tuple[str, ...]:
+def lines(anchored: Anchored) -> tuple[str, ...]:
     """What to know of an anchor, in sentences."""
-    left = [abs(found.left(row)) for row in found.rows]
-    level, tests = found.anchor, found.compound.tests
+    left = [abs(anchored.left(row)) for row in anchored.rows]
+    level, tests = anchored.anchor, anchored.compound.tests
     moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
-    strain = "at the strain of each test" if found.softened and found.compound.strain_dependence else "linear"
+    strain = (
+        "at the strain of each test"
+        if anchored.softened and anchored.compound.strain_dependence
+        else "linear"
+    )
     count = "1 test" if len(tests) == 1 else f"{len(tests)} tests"
     said = [
         f"{level.points} points of {count}; residual {percent(float(np.median(left)), 1)} in the median, "
@@ -148,13 +152,13 @@ def lines(found: Anchored) -> tuple[str, ...]:
     return tuple(said)
 
 
-def plain(found: Anchored) -> dict[str, Any]:
+def plain(anchored: Anchored) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
-        "compound": found.compound.name,
-        "carrier": found.compound.carrier,
-        "levels": levels(found).plain(),
-        "exponent": found.anchor.slope,
-        "tests": rows(found).plain(),
-        "notes": list(lines(found)),
+        "compound": anchored.compound.name,
+        "carrier": anchored.compound.carrier,
+        "levels": levels(anchored).plain(),
+        "exponent": anchored.anchor.slope,
+        "tests": rows(anchored).plain(),
+        "notes": list(lines(anchored)),
     }

@@ -121,7 +121,7 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     kind: str,
     *,
     source: str = "",
-    found: Said | None = None,
+    wording: Said | None = None,
     missing: str = "",
     why: Said | None = None,
     where: str = "",
@@ -140,7 +140,7 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
         Kind of both.
     source : str
         Where the limit comes from.
-    found : Said, optional
+    wording : Said, optional
         The calculated figure in other words.
     missing : str
         What to say where no limit is known.
@@ -149,7 +149,7 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     where : str
         What decides in it.
     """
-    shown = said("{}", (calculated, kind)) if found is None else found
+    shown = said("{}", (calculated, kind)) if wording is None else wording
     name = said(subject) if isinstance(subject, str) else subject
     if required is None:
         shortfall = said(missing)
@@ -162,10 +162,10 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
 
-def checks(found: CalculatedConveyor, *, contacts: bool = True) -> tuple[Check, ...]:
+def checks(result: CalculatedConveyor, *, contacts: bool = True) -> tuple[Check, ...]:
     """Check one calculation for every criterion, in the order of `CRITERIA`; without contacts not `OF_CONTACTS`."""
     chosen = [criterion for criterion in CRITERIA if contacts or criterion not in OF_CONTACTS]
-    return tuple(check for criterion in chosen for check in criterion(found))
+    return tuple(check for criterion in chosen for check in criterion(result))
 
 
 def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
@@ -180,10 +180,10 @@ def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
     return tuple(min(group, key=severity) for of in groups.values() for group in of.values())
 
 
-def leading(found: Iterable[Check]) -> tuple[Check, ...]:
+def leading(checks: Iterable[Check]) -> tuple[Check, ...]:
     """Of each criterion the check that governs, whatever its subject."""
     groups: dict[str, list[Check]] = {}
-    for check in found:
+    for check in checks:
         groups.setdefault(check.key, []).append(check)
     return tuple(min(group, key=severity) for group in groups.values())
 
@@ -198,21 +198,21 @@ def severity(check: Check) -> tuple[int, float]:
     return ("FAIL", "pass", "not checked").index(check.verdict), margin
 
 
-def filling(found: CalculatedConveyor) -> Iterator[Check]:
+def filling(result: CalculatedConveyor) -> Iterator[Check]:
     """A spec that overfills its belt is refused; how full it is remains to be said."""
-    sections = found.conveyor.cross_sections
+    sections = result.conveyor.cross_sections
     if sections is not None:
         bulk, most = sections
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
-            found=said(f"{percent(bulk / most)} of the cross-section"),
+            wording=said(f"{percent(bulk / most)} of the cross-section"),
         )  # fmt: skip
 
 
-def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
+def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
     """Every drive's motors give or hold its share in steady running, with the friction at both ends of its band."""
-    line, motor = found.line, found.balance.frame.motor
-    low, high = found.drive_forces
+    line, motor = result.line, result.balance.frame.motor
+    low, high = result.drive_forces
     for drive in line.drives:
         least, most = motor(drive.share * low), motor(drive.share * high)
         certain = abs(least) > abs(most)
@@ -232,16 +232,16 @@ def motor_power(found: CalculatedConveyor) -> Iterator[Check]:
             "at most",
             drive.power,
             "power",
-            found=said("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
+            wording=said("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
             missing="installed power not given",
             why=why,
             where="least friction" if certain else "",
         )
 
 
-def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
+def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
-    settled = found.balance.settled
+    settled = result.balance.settled
     governing = settled.condition_name(settled.governed_by)
     for name, asked in (settled.short or {governing: settled.needed}).items():
         why = said(
@@ -256,16 +256,16 @@ def take_up_tension(found: CalculatedConveyor) -> Iterator[Check]:
         yield replace(made, verdict=verdict(holds=not settled.short))
 
 
-def take_up_reach(found: CalculatedConveyor) -> Iterator[Check]:
+def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
-    unit = found.line.take_up
+    unit = result.line.take_up
     if unit.travel is not None or unit.winch is not None:
-        yield from reach(found.take_up)
+        yield from reach(result.take_up)
     if unit.kind == "screw":
         yield compared(
-            "screw_take_up", "length of a conveyor with a screw take-up", found.line.length, "at most", SCREW_LENGTH,
+            "screw_take_up", "length of a conveyor with a screw take-up", result.line.length, "at most", SCREW_LENGTH,
             "length", source="general knowledge",
-            why=said("a screw take-up on {}: give it a weight or a winch", (found.line.length, "length")),
+            why=said("a screw take-up on {}: give it a weight or a winch", (result.line.length, "length")),
         )  # fmt: skip
 
 
@@ -296,10 +296,10 @@ def reach(duty: TakeUpDuty) -> Iterator[Check]:
         )
 
 
-def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
+def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt does not slip on any drive, in running, starting and stopping."""
-    for state in every_state(found.balance, found.motions):
-        for drive, side in zip(found.line.drives, state.drives, strict=True):
+    for state in every_state(result.balance, result.motions):
+        for drive, side in zip(result.line.drives, state.drives, strict=True):
             needed = grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
             name = quoted(drive.name)
             why = said(
@@ -310,14 +310,14 @@ def drive_grip(found: CalculatedConveyor) -> Iterator[Check]:
             )
             made = compared(
                 "drive_grip", f"grip of {name}, {state.name}", side.slack, "at least", needed, "force",
-                found=said("{} on the slack side", (side.slack, "force")), why=why,
+                wording=said("{} on the slack side", (side.slack, "force")), why=why,
             )  # fmt: skip
             yield replace(made, verdict=verdict(holds=holds(side.slack, needed)))
 
 
-def sag(found: CalculatedConveyor) -> Iterator[Check]:
+def sag(result: CalculatedConveyor) -> Iterator[Check]:
     """Between no two idler sets the belt sags more than allowed while it runs steadily."""
-    settled, shape = found.balance.settled, found.line.loop
+    settled, shape = result.balance.settled, result.line.loop
     running = [settled.states[motion.name] for motion in settled.motions if motion.sagging is not None]
     lowest = [np.minimum(state.starts, state.ends) for state in running]
     over = [(tension / shape.least).tolist() for tension in lowest]
@@ -342,9 +342,9 @@ def sag(found: CalculatedConveyor) -> Iterator[Check]:
         yield replace(made, verdict=verdict(holds=holds(tension, needed)))
 
 
-def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
+def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt is nowhere slack in any state of motion; the slackest state is named, or every one that fails."""
-    states = every_state(found.balance, found.motions)
+    states = every_state(result.balance, result.motions)
     slack = [state for state in states if state.slack]
     for state in slack or [min(states, key=lambda state: state.smallest)]:
         why = said(
@@ -359,9 +359,9 @@ def slack_belt(found: CalculatedConveyor) -> Iterator[Check]:
         yield replace(made, asked=said("at least 0 (not slack)"))
 
 
-def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt's strength over its tension in steady running; not asked of a belt given by its rating alone."""
-    duty, subject = found.belt_duty, said("belt safety factor, steady")
+    duty, subject = result.belt_duty, said("belt safety factor, steady")
     if duty.safety_steady is None and duty.rating is not None:
         return
     safety, needed = duty.safety_steady, duty.safety_needed
@@ -379,9 +379,9 @@ def belt_safety(found: CalculatedConveyor) -> Iterator[Check]:
     yield replace(made, asked=asked)
 
 
-def belt_rating(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_rating(result: CalculatedConveyor) -> Iterator[Check]:
     """The tension per width, steady at most the rated one and else somewhat more; said only where a rating is given."""
-    duty = found.belt_duty
+    duty = result.belt_duty
     steady, unsteady = said("belt tension per width, steady"), said("belt tension per width, all states")
     if duty.rating is None:
         return
@@ -398,23 +398,23 @@ def belt_rating(found: CalculatedConveyor) -> Iterator[Check]:
         )
 
 
-def belt_breakage(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_breakage(result: CalculatedConveyor) -> Iterator[Check]:
     """The largest tension of all states is below the belt's strength; said only where it is not."""
-    safety = found.belt_duty.safety
+    safety = result.belt_duty.safety
     if safety is not None and safety < 1.0:
         why = said(
             "the belt's strength is exceeded: safety {} at {}",
             (safety, "safety"),
-            (found.belt_duty.largest, "force"),
+            (result.belt_duty.largest, "force"),
         )
         yield compared(
             "belt_breakage", "belt safety factor, all states", safety, "at least", 1.0, "safety", why=why
         )
 
 
-def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
+def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt is as strong as its splice asks for: by mean tension, by the strips that are longest, by starts."""
-    duty, strength = found.belt_duty, found.line.belt.strength
+    duty, strength = result.belt_duty, result.line.belt.strength
     if strength is None:
         return
     for what, needed in duty.strength_needed.items():
@@ -429,9 +429,9 @@ def splice_strength(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def cover_thickness(found: CalculatedConveyor) -> Iterator[Check]:
+def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:
     """The covers protect the carcass and outlast the bulk; where the spec says how it wears them."""
-    for cover in found.line.belt.covers:
+    for cover in result.line.belt.covers:
         least = cover.least + cover.wear
         why = said(
             f"the {cover.cover} cover is {{}}, {{}} over the carcass and {{}} for wear are needed (DIN 22101 "
@@ -444,27 +444,27 @@ def cover_thickness(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def belt_temperature(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_temperature(result: CalculatedConveyor) -> Iterator[Check]:
     """The covers stay within the temperatures that the belt's maker allows, as far as given."""
     relations: tuple[Relation, Relation] = ("at least", "at most")
-    for limit, relation in zip(found.line.belt.bears, relations, strict=True):
+    for limit, relation in zip(result.line.belt.bears, relations, strict=True):
         if limit is None:
             continue
         end = "lowest" if relation == "at least" else "highest"
         why = said(
             "the covers are at {}, the belt bears {} " + relation,
-            (found.temperature, "temperature"),
+            (result.temperature, "temperature"),
             (limit, "temperature"),
         )
         yield compared(
-            "belt_temperature", f"{end} temperature of the covers", found.temperature, relation, limit, "temperature",
+            "belt_temperature", f"{end} temperature of the covers", result.temperature, relation, limit, "temperature",
             why=why,
         )  # fmt: skip
 
 
-def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
+def pulley_diameter(result: CalculatedConveyor) -> Iterator[Check]:
     """Every pulley is as large as the carcass asks for."""
-    for pulley in found.belt_duty.pulleys:
+    for pulley in result.belt_duty.pulleys:
         size, figures = "", [(pulley.diameter, "thickness"), (pulley.least, "thickness")]
         if pulley.next_size is not None:
             size = ", standard size {}"
@@ -479,9 +479,9 @@ def pulley_diameter(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def curve_radius(found: CalculatedConveyor) -> Iterator[Check]:
+def curve_radius(result: CalculatedConveyor) -> Iterator[Check]:
     """On every vertical curve the belt stays down, its strips neither overstressed nor slack."""
-    for curve in found.belt_duty.curves:
+    for curve in result.belt_duty.curves:
         for least, fine, bad in (
             (curve.lift_off, "empty belt stays down", "the empty belt lifts off"),
             (curve.overstress, "no strip overstressed", "a strip of the belt is overstressed"),
@@ -508,9 +508,9 @@ def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: s
     )
 
 
-def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
+def horizontal_edges(result: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
-    for bend in found.horizontal:
+    for bend in result.horizontal:
         for least, fine, bad in (
             (bend.overstress, "outer edge not overstressed", "the outer edge of the belt is overstressed"),
             (bend.buckling, "inner edge not slack", "the inner edge of the belt goes slack"),
@@ -519,9 +519,9 @@ def horizontal_edges(found: CalculatedConveyor) -> Iterator[Check]:
                 yield _radius(bend, least, fine, bad)
 
 
-def belt_drift(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_drift(result: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve and state of motion the belt's edges stay on their rolls, with the wind given."""
-    for bend in found.horizontal:
+    for bend in result.horizontal:
         inside, outside = bend.farthest_in, bend.farthest_out
         cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
         if math.isinf(inside.least):
@@ -544,14 +544,14 @@ def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cur
     )
     made = compared(
         "belt_drift", f"drift to the {way}, {section}, {bend.strand}", drift, "at most", room, "thickness",
-        source="end of the roll", found=how if off else None, why=why, where=state.state,
+        source="end of the roll", wording=how if off else None, why=why, where=state.state,
     )  # fmt: skip
     return replace(made, calculated=None) if off else made
 
 
-def transitions(found: CalculatedConveyor) -> Iterator[Check]:
+def transitions(result: CalculatedConveyor) -> Iterator[Check]:
     """Between trough and pulley no strip of the belt is overstressed or slack; of the transitions given."""
-    for zone in found.belt_duty.transitions:
+    for zone in result.belt_duty.transitions:
         for least, fine, bad in (
             (zone.stretched, "no strip overstressed", "a strip of the belt is overstressed"),
             (zone.slackened, "no strip slack", "a strip of the belt goes slack"),
@@ -582,9 +582,9 @@ def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -
     return compared(key, subject, length, "at least", least, "length", why=why)
 
 
-def impact_load(found: CalculatedConveyor) -> Iterator[Check]:
+def impact_load(result: CalculatedConveyor) -> Iterator[Check]:
     """Where bulk falls, the sets bear what rests on them with the impact; of loading points that give the drop."""
-    for landing in found.landings:
+    for landing in result.landings:
         point, load = landing.point, landing.load
         if load is None:
             continue
@@ -604,9 +604,9 @@ def impact_load(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def skirtboards(found: CalculatedConveyor) -> Iterator[Check]:
+def skirtboards(result: CalculatedConveyor) -> Iterator[Check]:
     """Skirtboards reach at least as far as the belt accelerates the bulk; of loading points that give their length."""
-    for landing in found.landings:
+    for landing in result.landings:
         point = landing.point
         if point.skirtboards is not None:
             why = said(
@@ -621,11 +621,11 @@ def skirtboards(found: CalculatedConveyor) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def belt_cleaning(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_cleaning(result: CalculatedConveyor) -> Iterator[Check]:
     """The cleaners leave no more on the belt than is allowed; where the spec says what clings to it."""
-    on_belt, allowed = found.line.carryback
+    on_belt, allowed = result.line.carryback
     if on_belt is not None:
-        left = found.cleanings[-1].left if found.cleanings else None
+        left = result.cleanings[-1].left if result.cleanings else None
         left = on_belt if left is None else left
         why = said(
             "the cleaners leave {} on the belt, {} is allowed: one more, or better ones",
@@ -638,9 +638,9 @@ def belt_cleaning(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
+def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
     """The shaft of every pulley that gives its distances bears bending and torsion, and bends little at the hubs."""
-    for duty in found.pulley_duty:
+    for duty in result.pulley_duty:
         if duty.slope is None:
             continue
         name, where = quoted(duty.pulley.name), duty.largest.state
@@ -649,7 +649,7 @@ def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
         why = said(f'the shaft of pulley "{name}" bends too much at its hubs{cure}', *needed)
         yield compared(
             "pulley_shaft_slope", f"slope at the hubs, {name} pulley", duty.slope, "at most", HUB_SLOPE, "number",
-            source="CEMA B105.1", found=said(f"{duty.slope:.4f}"), why=why, where=where,
+            source="CEMA B105.1", wording=said(f"{duty.slope:.4f}"), why=why, where=where,
         )  # fmt: skip
         subject = said(f"safety of the shaft, {name} pulley")
         asked = said("at least {} (CEMA B105.1)", (SHAFT_SAFETY, "number"))
@@ -667,9 +667,9 @@ def pulley_shaft(found: CalculatedConveyor) -> Iterator[Check]:
         yield replace(made, asked=asked)
 
 
-def pulley_bearings(found: CalculatedConveyor) -> Iterator[Check]:
+def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
     """The bearings of every pulley that gives their rating live as long as asked, in steady running."""
-    for duty in found.pulley_duty:
+    for duty in result.pulley_duty:
         hours, seconds, asked = duty.bearing_hours, duty.bearing_seconds, duty.pulley.bearing_life
         if hours is None or seconds is None:
             continue
@@ -681,14 +681,14 @@ def pulley_bearings(found: CalculatedConveyor) -> Iterator[Check]:
             )
         made = compared(
             "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
-            found=said(f"{hours:,.0f} h"), missing="life asked of it (bearing_life) not given", why=why,
+            wording=said(f"{hours:,.0f} h"), missing="life asked of it (bearing_life) not given", why=why,
         )  # fmt: skip
         yield made if asked is None else replace(made, asked=said(f"at least {asked / 3600.0:,.0f} h"))
 
 
-def lagging(found: CalculatedConveyor) -> Iterator[Check]:
+def lagging(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt presses no harder on a lagging than its maker allows; of laggings that give it."""
-    for duty in found.pulley_duty:
+    for duty in result.pulley_duty:
         allowed, name = duty.pulley.allowed_pressure, quoted(duty.pulley.name)
         if allowed is not None:
             why = said(
@@ -702,9 +702,9 @@ def lagging(found: CalculatedConveyor) -> Iterator[Check]:
             )  # fmt: skip
 
 
-def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
+def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
     """The motors give what a controlled start asks, or accelerate the belt over its whole run-up; it breaks away."""
-    start = found.motions.start
+    start = result.motions.start
     if start.force <= 0.0:
         return
     if start.available is not None and start.least is not None:
@@ -722,9 +722,9 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
                 "the motors give at least {} during run-up (drive.torque_factor, torque_curve), the belt requires {}: "
                 "more power or torque",
                 (start.least, "force"),
-                (found.balance.settled.force, "force"),
+                (result.balance.settled.force, "force"),
             )
-            given, limit, relation = start.least, found.balance.settled.force, _AT_LEAST
+            given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
         yield compared("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
     why = said(
         "the starting force of {} does not overcome the resistance after standstill, up to {}: "
@@ -743,9 +743,9 @@ def starting_force(found: CalculatedConveyor) -> Iterator[Check]:
     )
 
 
-def comes_to_rest(found: CalculatedConveyor) -> Iterator[Check]:
+def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
     """The conveyor stops without power by friction alone, or by its brakes; each beside the other."""
-    moving, brakes = found.motions, math.fsum(found.line.brakes)
+    moving, brakes = result.motions, math.fsum(result.line.brakes)
     alone, stopped = moving.coasting_least, moving.braked
     why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
     if moving.runaway is not None:
@@ -776,9 +776,9 @@ def _rest(stopping: Stop | None, runaway: float | None) -> Said:
     return said("does not") if runaway is None else said("runs away at {}", (runaway, "acceleration"))
 
 
-def holding(found: CalculatedConveyor) -> Iterator[Check]:
+def holding(result: CalculatedConveyor) -> Iterator[Check]:
     """A brake or backstop holds the loaded belt, and brakes give the deceleration wanted."""
-    moving, line = found.motions, found.line
+    moving, line = result.motions, result.line
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
     shown = None if given else said("no brake or backstop given")
@@ -790,7 +790,7 @@ def holding(found: CalculatedConveyor) -> Iterator[Check]:
         )
         made = compared(
             "holding_brake", f"holding {what}, loaded belt", brakes, "at least", moving.brake_to_hold, "force",
-            found=shown, why=why,
+            wording=shown, why=why,
         )  # fmt: skip
         yield made if given else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
@@ -801,14 +801,14 @@ def holding(found: CalculatedConveyor) -> Iterator[Check]:
         )
         yield compared(
             "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
-            "force", found=shown, why=why,
+            "force", wording=shown, why=why,
         )  # fmt: skip
 
 
-def drive_parts(found: CalculatedConveyor) -> Iterator[Check]:
+def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
     """Backstops, brakes, starts an hour and sharing without control, of drives that give what they bear."""
-    motor = found.balance.frame.motor
-    for duty in found.drive_duty:
+    motor = result.balance.frame.motor
+    for duty in result.drive_duty:
         name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
         if parts.backstop is not None and duty.backstop is not None:
             why = said(
@@ -853,8 +853,8 @@ def drive_parts(found: CalculatedConveyor) -> Iterator[Check]:
 def _starts(name: str, asked: float, allowed: float | str) -> Check:
     subject = said(f"starts an hour, {name}")
     if isinstance(allowed, str):
-        found = said("{}", (asked, "number"))
-        return Check("motor_starts", subject, asked, None, "number", found, said(allowed), "not checked")
+        wanted = said("{}", (asked, "number"))
+        return Check("motor_starts", subject, asked, None, "number", wanted, said(allowed), "not checked")
     why = said(
         f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked for: '
         "a coupling or an inverter"
@@ -863,25 +863,25 @@ def _starts(name: str, asked: float, allowed: float | str) -> Check:
     return replace(made, asked=said(f"at most {allowed:.2f} (NEMA MG 10)"))
 
 
-def coasting_time(found: CalculatedConveyor) -> Iterator[Check]:
+def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
     """Without power and brakes the conveyor runs on as long as wanted; else the flywheel for it is named."""
-    wanted, stopped = found.line.coast_time, found.motions.coasting
+    wanted, stopped = result.line.coast_time, result.motions.coasting
     if wanted is None or stopped is None:
         return
-    inertia = coasting_flywheel(found.line, found.motions)
+    inertia = coasting_flywheel(result.line, result.motions)
     figures = () if inertia is None else ((inertia, "inertia"),)
     cure = ": a flywheel of {} at the motors' shafts" if figures else ""
     why = said(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
     made = compared(
         "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
-        found=said(f"{stopped.time:,.1f} s"),
+        wording=said(f"{stopped.time:,.1f} s"),
     )  # fmt: skip
     yield replace(made, asked=said(f"at least {wanted:,.1f} s"))
 
 
-def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
+def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
     """The bulk stays on the belt in running, stopping and starting."""
-    slip = found.motions.slip
+    slip = result.motions.slip
     if slip is None:
         return
     if slip.sliding:
@@ -894,7 +894,7 @@ def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
             said("no slip"), "FAIL", why,
         )  # fmt: skip
         return
-    hardest, fastest = found.motions.hardest
+    hardest, fastest = result.motions.hardest
     for key, when, occurs, allowed, where in (
         ("bulk_slip_stopping", "on stopping", -hardest, -slip.braking, slip.braking_at),
         ("bulk_slip_start", "on starting", fastest, slip.starting, slip.starting_at),
@@ -916,10 +916,10 @@ def bulk_slip(found: CalculatedConveyor) -> Iterator[Check]:
         )
 
 
-def penetration(found: CalculatedConveyor) -> Iterator[Check]:
+def penetration(result: CalculatedConveyor) -> Iterator[Check]:
     """No roll presses deeper into its cover than the law of small strain bears."""
     for strand in STRANDS:
-        deepest, thickness = found.contacts.deepest(strand), found.contacts.covers[strand].thickness
+        deepest, thickness = result.contacts.deepest(strand), result.contacts.covers[strand].thickness
         why = said(
             f"{strand} rolls indent the cover by {percent(deepest)} of its thickness ({{}}): beyond small strain, "
             "the linear law is not proven",
@@ -932,10 +932,10 @@ def penetration(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
+def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
     """Idler sets last as long as light series are rated for, where their bearings are given."""
     for strand in STRANDS:
-        life = shortest_life(found.line.stretches, strand, found.line.speed)
+        life = shortest_life(result.line.stretches, strand, result.line.speed)
         if life is None:
             continue
         why = said(
@@ -952,9 +952,9 @@ def roll_life(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
+def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
     """No set bears more than it is rated for; of sets that give a class or a rating."""
-    for strand, duties in _sets_of_strands(found):
+    for strand, duties in _sets_of_strands(result):
         rated = [(duty, duty.limits.rating) for duty in duties if duty.limits.rating is not None]
         if not rated:
             continue
@@ -974,9 +974,9 @@ def set_rating(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def roll_axle(found: CalculatedConveyor) -> Iterator[Check]:
+def roll_axle(result: CalculatedConveyor) -> Iterator[Check]:
     """The axles of the rolls bend no more at their bearings than these bear; of axles that are given."""
-    for strand, duties in _sets_of_strands(found):
+    for strand, duties in _sets_of_strands(result):
         axles = [(duty.limits.axle, duty.stretch.section) for duty in duties if duty.limits.axle is not None]
         if not axles:
             continue
@@ -993,9 +993,9 @@ def roll_axle(found: CalculatedConveyor) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def belt_flap(found: CalculatedConveyor) -> Iterator[Check]:
+def belt_flap(result: CalculatedConveyor) -> Iterator[Check]:
     """The rolls' rotation stays off the belt's natural frequencies between sets; where a distance is asked for."""
-    for strand, duties in _sets_of_strands(found):
+    for strand, duties in _sets_of_strands(result):
         asked = [duty for duty in duties if duty.limits.flap_margin is not None]
         if not asked:
             continue
@@ -1011,7 +1011,7 @@ def belt_flap(found: CalculatedConveyor) -> Iterator[Check]:
         )
         made = compared(
             "belt_flap", f"distance from resonance of belt and rolls, {strand}", worst.distance, "at least",
-            worst.limits.flap_margin, "fraction", found=said(percent(worst.distance)), why=why,
+            worst.limits.flap_margin, "fraction", wording=said(percent(worst.distance)), why=why,
             where=worst.stretch.section,
         )  # fmt: skip
         yield replace(made, asked=said(f"at least {percent(worst.limits.flap_margin or 0.0)}"))
@@ -1022,15 +1022,15 @@ def _band(ends: tuple[float, float]) -> str:
     return " to ".join(dict.fromkeys(f"{end:.3g}" for end in ends))
 
 
-def _sets_of_strands(found: CalculatedConveyor) -> Iterator[tuple[Strand, list[SetDuty]]]:
+def _sets_of_strands(result: CalculatedConveyor) -> Iterator[tuple[Strand, list[SetDuty]]]:
     for strand in STRANDS:
-        yield strand, [duty for duty in found.set_duty if duty.stretch.strand == strand]
+        yield strand, [duty for duty in result.set_duty if duty.stretch.strand == strand]
 
 
-def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
+def rubber_coverage(result: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
-    for strand, compound in compounds_by_strand(found.conveyor).items():
-        band = found.contacts.excited_band(strand)
+    for strand, compound in compounds_by_strand(result.conveyor).items():
+        band = result.contacts.excited_band(strand)
         if band is None:
             continue
         if compound.kind == "illustrative":
@@ -1040,7 +1040,7 @@ def rubber_coverage(found: CalculatedConveyor) -> Iterator[Check]:
             )  # fmt: skip
             continue
         yield _covering(
-            strand, quoted(compound.name), band, compound.frequencies(found.temperature), found.temperature
+            strand, quoted(compound.name), band, compound.frequencies(result.temperature), result.temperature
         )
 
 
@@ -1053,7 +1053,7 @@ def _covering(
     if data is None:
         missing = "range of the data not stated"
         return compared(
-            "rubber_coverage", subject, band[1], "at most", None, "frequency", found=shown, missing=missing
+            "rubber_coverage", subject, band[1], "at most", None, "frequency", wording=shown, missing=missing
         )
     why = said(
         f'compound "{name}": 90 % of the loss of the {strand} rolls lies between '
@@ -1062,15 +1062,19 @@ def _covering(
         (at, "temperature"),
     )
     ends = (
-        compared("rubber_coverage", subject, band[0], "at least", data[0], "frequency", found=shown, why=why),
-        compared("rubber_coverage", subject, band[1], "at most", data[1], "frequency", found=shown, why=why),
+        compared(
+            "rubber_coverage", subject, band[0], "at least", data[0], "frequency", wording=shown, why=why
+        ),
+        compared(
+            "rubber_coverage", subject, band[1], "at most", data[1], "frequency", wording=shown, why=why
+        ),
     )
     return replace(min(ends, key=severity), asked=said(f"within {band_words(data)}"))
 
 
-def covered(found: CalculatedConveyor) -> bool:
+def covered(result: CalculatedConveyor) -> bool:
     """Whether the rubber's data cover what a calculation rests on; else its figures are none to design by."""
-    return not any(check.failed for check in rubber_coverage(found))
+    return not any(check.failed for check in rubber_coverage(result))
 
 
 OF_CONTACTS: Final = (penetration, rubber_coverage)

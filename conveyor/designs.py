@@ -99,8 +99,8 @@ def size(duty: str | Path | SizingDuty, **options: Any) -> Sizing:
     >>> conveyor.size("examples/duties/overland.yaml", best=3).table  # doctest: +SKIP
     """
     given = duty if isinstance(duty, SizingDuty) else read_duty(duty)
-    found = sizing.size(given, **options)
-    return Sizing(**{field.name: getattr(found, field.name) for field in fields(found)})
+    sized = sizing.size(given, **options)
+    return Sizing(**{field.name: getattr(sized, field.name) for field in fields(sized)})
 
 
 def study(

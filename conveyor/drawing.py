@@ -52,8 +52,8 @@ class AnalysisPlots:
 
     def tensions(self, *, system: System | None = None) -> Figure:
         """Tension round the loop in every state, and the least that the sag allows."""
-        found = self.analysis
-        return loop_plots.tension_diagram(found.balance, found.motions, system=self._in(system))
+        result = self.analysis
+        return loop_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
 
     def flap(self, *, system: System | None = None) -> Figure:
         """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
@@ -130,8 +130,8 @@ class AnalysisPlots:
         at = celsius(conveyor.temperature)
         around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
         given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
-        found = _varied(conveyor, given, [conveyor.belt.speed])
-        return plots.power_against_temperature(found, system=self._in(system))
+        varied = _varied(conveyor, given, [conveyor.belt.speed])
+        return plots.power_against_temperature(varied, system=self._in(system))
 
     def power_against_speed(
         self, speeds: Iterable[str | Quantity] | None = None, *, system: System | None = None
@@ -153,8 +153,8 @@ class AnalysisPlots:
         conveyor = self.analysis.conveyor
         around = [scaled(conveyor.belt.speed, times) for times in _FASTER]
         given = around if speeds is None else [quantity(v, "speed") for v in speeds]
-        found = _varied(conveyor, [conveyor.ambient.belt], given)
-        return plots.power_against_speed(found, system=self._in(system))
+        varied = _varied(conveyor, [conveyor.ambient.belt], given)
+        return plots.power_against_speed(varied, system=self._in(system))
 
     def every(
         self, studies: CalculatedStudies | None = None, *, system: System | None = None
@@ -191,11 +191,11 @@ class _Alone:
 
 def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _Alone:
     compound = conveyor.carry_compound
-    found = of_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
-    if not found.scenes:
-        why = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
+    varied = of_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
+    if not varied.scenes:
+        why = "; ".join(dict.fromkeys(refusal.reason for refusal in varied.refused))
         raise InputError(f"nothing to draw: {why}")
-    return _Alone(conveyor, (compound,), found.scenes, found.coverage)
+    return _Alone(conveyor, (compound,), varied.scenes, varied.coverage)
 
 
 def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:

@@ -25,20 +25,20 @@ def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = N
         The file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
     """
     document = read_document(path)
-    found = list(document.findings)
+    faults = list(document.findings)
     try:
         read = model.model_validate(document.data, context=None if context is None else dict(context))
     except ValidationError as error:
-        found = _findings(error, model, document)
-    if found:
-        raise InputError(listing(document.path, found))
+        faults = _findings(error, model, document)
+    if faults:
+        raise InputError(listing(document.path, faults))
     return read
 
 
 def _findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:
     """Return every error of a validation in the file's order, with its place; the first say what is wrong."""
-    found = list(document.findings)
-    known = {finding.field for finding in found}
+    faults = list(document.findings)
+    known = {finding.field for finding in faults}
     placed = []
     for item in real_errors(error):
         location = _in_file(tuple(item["loc"]), document.data)
@@ -48,8 +48,8 @@ def _findings(error: ValidationError, model: type[BaseModel], document: Document
             placed.append((place, field, item))
     placed.sort(key=lambda error: error[0])
     for count, (place, field, item) in enumerate(placed):
-        found.append(Fault(place, field, message(item, model) if count < MOST_LINES else ""))
-    return sorted(found, key=lambda finding: finding.place)
+        faults.append(Fault(place, field, message(item, model) if count < MOST_LINES else ""))
+    return sorted(faults, key=lambda finding: finding.place)
 
 
 def _in_file(location: Location, data: Any) -> Location:

@@ -124,12 +124,12 @@ def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact,
     alike: dict[RollContact, list[RollContact]] = {}
     for contact in contacts:
         alike.setdefault(replace(contact, spacing=1.0), []).append(contact)
-    found = {}
+    first = {}
     for members in alike.values():
         closest = min(members, key=lambda contact: contact.spacing)
         shared = closest.support == "confined" and closest.poisson == 0.5 and spacing_error(closest) <= rtol
-        found.update({contact: closest if shared else contact for contact in members})
-    return found
+        first.update({contact: closest if shared else contact for contact in members})
+    return first
 
 
 def spacing_error(contact: RollContact) -> float:
@@ -297,17 +297,17 @@ class IndentationCurve:
         """
         w = np.asarray(line_load, dtype=float)
         unit = self.curve.problem.pressure / self.highest
-        found = self.curve.at(w * unit)
+        dimensionless = self.curve.at(w * unit)
         radius = self.contact.radius
         # p = p̃ E0 k R/(2(1-ν²)), and p̃_m = p_m 2(1-ν²)/(E0 k R) with p_m = w/λ gives the scale w/λ/p̃_m
         pascal = 1.0 / (unit * self.contact.spacing)
         return Indentation(
             line_load=w,
-            resistance=found.friction * w,
-            half_width=found.half_width * radius,
-            eccentricity=found.eccentricity * radius,
-            penetration=found.penetration * radius,
-            peak_pressure=found.peak_pressure * pascal,
+            resistance=dimensionless.friction * w,
+            half_width=dimensionless.half_width * radius,
+            eccentricity=dimensionless.eccentricity * radius,
+            penetration=dimensionless.penetration * radius,
+            peak_pressure=dimensionless.peak_pressure * pascal,
             error=self.curve.error,
             energy_error=self.curve.energy_error,
         )
@@ -334,10 +334,10 @@ def indentation_curve(
     NoSolutionError
         The contact splits or wraps the roll; the message names the roll and the load.
     """
-    (found,) = indentation_curves([contact], [lowest], [highest], rtol)
-    if isinstance(found, NoSolutionError):
-        raise found
-    return found
+    (curve,) = indentation_curves([contact], [lowest], [highest], rtol)
+    if isinstance(curve, NoSolutionError):
+        raise curve
+    return curve
 
 
 def indentation_curves(

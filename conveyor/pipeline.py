@@ -176,15 +176,15 @@ class CalculatedConveyor:
         along = {force.key: force for force in self.balance.along}
         columns = [force.newtons.tolist() for force in along.values() if not isinstance(force.newtons, float)]
         main = [key for key, force in along.items() if force.kind == "main"]
-        found = []
+        results = []
         for stretch, rolls, unit_main, *newtons in zip(
             self.line.stretches, self.contacts.rolls, self.fixed.unit_main.tolist(), *columns, strict=True
         ):
             forces = dict(zip(along, newtons, strict=True))
             total = math.fsum(forces[key] for key in main)
             cover = self.contacts.covers[stretch.strand]
-            found.append(StretchResult(stretch, cover, rolls, forces, total, unit_main))
-        return tuple(found)
+            results.append(StretchResult(stretch, cover, rolls, forces, total, unit_main))
+        return tuple(results)
 
     @cached_property
     def motions(self) -> Motions:
@@ -258,9 +258,9 @@ class CalculatedConveyor:
 def take_up_of(loads: Sequence[CalculatedConveyor]) -> TakeUpDuty:
     """What several loads of one conveyor, calculated at one setting, ask of its take-up."""
     return take_up_duty(
-        [found.balance for found in loads],
-        [found.every_state for found in loads],
-        [found.temperature for found in loads],
+        [load.balance for load in loads],
+        [load.every_state for load in loads],
+        [load.temperature for load in loads],
     )
 
 
@@ -280,10 +280,10 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
         raise InputError(
             f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
         )
-    (found,) = calculate_many([Variant(conveyor)])
-    if not isinstance(found, CalculatedConveyor):
-        raise found
-    return found
+    (result,) = calculate_many([Variant(conveyor)])
+    if not isinstance(result, CalculatedConveyor):
+        raise result
+    return result
 
 
 def calculate_many(
@@ -343,14 +343,14 @@ def calculate_many(
         for i in refused:
             made.pop(i, None)
         if one_take_up:
-            level = at_one_setting([found.balance for found in made.values()])
+            level = at_one_setting([result.balance for result in made.values()])
             made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
         acted = [i for i in going if i in made and made[i].line.tension_acts]
         again: dict[int, _Step] = {}
         for i in acted:
             try:
-                made[i] = found = replace(made[i], convergence=_convergence(made[i], going[i]))
-                again[i] = _Step.after(found)
+                made[i] = result = replace(made[i], convergence=_convergence(made[i], going[i]))
+                again[i] = _Step.after(result)
             except NoSolutionError as error:
                 refused[i] = error
                 del made[i]
@@ -371,11 +371,11 @@ class _Step:
     convergence: Convergence | None = None
 
     @classmethod
-    def after(cls, found: CalculatedConveyor) -> _Step:
+    def after(cls, result: CalculatedConveyor) -> _Step:
         """The next step; its tensions are those found."""
-        line, steady = found.line, found.balance.settled.steady
+        line, steady = result.line, result.balance.settled.steady
         held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
-        return cls(acting(line, steady), held, found.balance, found.convergence)
+        return cls(acting(line, steady), held, result.balance, result.convergence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -390,13 +390,13 @@ class _Loaded:
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
     """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
-    found: Anchors = []
+    levels: Anchors = []
     softened = conveyor.calculation.strain != "off"
     for compound in compounds if _anchored(conveyor.calculation) else ():
         if compound.tests:
             with suppress(NoSolutionError, RangeError, InputError):
-                _once(found, (compound,), (softened,), partial(anchor, compound, softened=softened))
-    return found
+                _once(levels, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    return levels
 
 
 def _anchored(calculation: Calculation) -> bool:
@@ -427,14 +427,14 @@ def _solved(
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
     solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
-    found: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
+    contacts: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
     tight = {i: one for i in loaded if (one := steps[i].pulls) is not None}
-    held = {i: fast for i in tight if isinstance(fast := found[i], Contacts)}
+    held = {i: fast for i in tight if isinstance(fast := contacts[i], Contacts)}
     if held:
         rtols = [loaded[i].line.rtol if rtol is None else rtol for i in held]
         belts = solve_belts(list(held.values()), [tight[i] for i in held], rtols, shared.tensioned)
-        found |= dict(zip(held, belts, strict=True))
-    return found
+        contacts |= dict(zip(held, belts, strict=True))
+    return contacts
 
 
 def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
@@ -449,21 +449,21 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) ->
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    found = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
-    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, found, loaded.fixed)
+    closed = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
+    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, closed, loaded.fixed)
 
 
-def _convergence(found: CalculatedConveyor, step: _Step) -> Convergence | None:
+def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
     """How the tensions that act on rolls changed since the step before; None without them or it."""
     if step.before is None:
         return None
-    before, now = step.before.settled.steady, found.balance.settled.steady
-    return converged(step.convergence, before, now, found.line, found.balance.tensions.largest)
+    before, now = step.before.settled.steady, result.balance.settled.steady
+    return converged(step.convergence, before, now, result.line, result.balance.tensions.largest)
 
 
-def _settled(found: CalculatedConveyor) -> bool:
+def _settled(result: CalculatedConveyor) -> bool:
     """Whether tensions and what they do to the rolls agree."""
-    return found.convergence is not None and found.convergence.settled(found.line.rtol)
+    return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
 class _Shared:
@@ -544,14 +544,14 @@ class _Shared:
         calculation = conveyor.calculation
         anchored = _anchored(calculation)
         softened = calculation.strain != "off"
-        found: dict[Strand, Level | None] = {}
+        levels: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():
             tests = None
             if anchored and compound.tests:
                 made = partial(anchor, compound, softened=softened)
                 tests = _once(self._anchors, (compound,), (softened,), made)
-            found[strand] = None if tests is None else Level(tests, at)
-        return found
+            levels[strand] = None if tests is None else Level(tests, at)
+        return levels
 
 
 def _once(
@@ -561,9 +561,9 @@ def _once(
     make: Callable[[], T],
 ) -> T:
     """What was made of the very same parts and equal values, or what is made of them now."""
-    for others, equals, found in known:
+    for others, equals, kept in known:
         if values == equals and all(a is b for a, b in zip(parts, others, strict=True)):
-            return found
+            return kept
     made = make()
     known.append((parts, values, made))
     return made

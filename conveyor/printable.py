@@ -21,7 +21,7 @@ def printable(text: str) -> str:
     >>> printable("got \x1b[31mred\x9b")
     'got \\x1b[31mred\\x9b'
     """
-    return _NOT_SHOWN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
+    return _NOT_SHOWN.sub(lambda match: match[0].encode("unicode_escape").decode("ascii"), text)
 
 
 def in_json(written: str) -> str:
@@ -32,4 +32,4 @@ def in_json(written: str) -> str:
     >>> in_json('"\x9b"')
     '"\\u009b"'
     """
-    return _NOT_SHOWN.sub(lambda found: f"\\u{ord(found[0]):04x}", written)
+    return _NOT_SHOWN.sub(lambda match: f"\\u{ord(match[0]):04x}", written)

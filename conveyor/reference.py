@@ -85,7 +85,7 @@ def example(model: type[BaseModel], path: str) -> Example | None:
     shown = (_at(_starter(kind), _first_alike(path)) for kind in kinds)
     listed = _examples()["spec" if model is Conveyor else "compound"].get(_first_alike(path))
     written = _written(leaf.default, leaf) if leaf.default not in _NOTHING else next(iter(leaf.choices), None)
-    return next((found for found in (*shown, listed, written) if found is not None), None)
+    return next((given for given in (*shown, listed, written) if given is not None), None)
 
 
 def _first_alike(path: str) -> str:
@@ -117,7 +117,7 @@ def _at(data: Any, path: str) -> Any:
         return None
     inner = data[head.removesuffix("[]")]
     if head.endswith("[]"):
-        return next((found for item in inner if (found := _at(item, rest)) is not None), None)
+        return next((given for item in inner if (given := _at(item, rest)) is not None), None)
     return _at(inner, rest)
 
 
@@ -231,8 +231,8 @@ class _Writer:
     def _shown(self, leaf: Leaf, path: str) -> str:
         if leaf.kind == "reference":
             return "`standard-cover`"
-        found = example(self._model, path)
-        return "" if found is None else f"`{_yaml(found)}`"
+        given = example(self._model, path)
+        return "" if given is None else f"`{_yaml(given)}`"
 
 
 def _cells(*texts: str) -> str:

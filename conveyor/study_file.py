@@ -94,7 +94,7 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
             f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
         )
     named = [(one[1], one[2] or "") for one in heads if one is not None]
-    found: dict[tuple[Value, ...], float] = {}
+    hours: dict[tuple[Value, ...], float] = {}
     for number, cells, *_ in lines[1:]:
         if len(cells) != len(named) or not all(cells):
             raise InputError(f"{path}: row {number}: expected {len(named)} cells, none of them empty")
@@ -103,12 +103,12 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
         if time is None:
             raise InputError(f"{path}: row {number}: hours: expected a time above 0")
         alike = tuple(given.values())
-        found[alike] = found.get(alike, 0.0) + time
+        hours[alike] = hours.get(alike, 0.0) + time
     paths = [name for name, _ in named if name != HOURS]
     timed = any(name == HOURS for name, _ in named)
     return tuple(
         dict(zip(paths, alike, strict=True)) | ({HOURS: time} if timed else {})
-        for alike, time in found.items()
+        for alike, time in hours.items()
     )
 
 

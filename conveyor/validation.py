@@ -228,9 +228,9 @@ def _printed(source: str, quantity: str, figure: str, got: float, units: float =
 def _reference_contacts() -> Iterator[ReferenceCheck]:
     worst: dict[str, tuple[float, str, float, float]] = {}
     for case in reference_cases():
-        found = solve(case.problem, rtol=_RTOL, throw=False)
+        contact = solve(case.problem, rtol=_RTOL, throw=False)
         if case.friction is None:
-            strips = len(found.patches)
+            strips = len(contact.patches)
             yield ReferenceCheck(
                 _PROTOTYPE,
                 f"strips, {case.name}",
@@ -240,9 +240,9 @@ def _reference_contacts() -> Iterator[ReferenceCheck]:
                 0.0,
             )
             continue
-        yield _close(_PROTOTYPE, f"friction μ [-], {case.name}", case.friction, found.friction, _RTOL)
+        yield _close(_PROTOTYPE, f"friction μ [-], {case.name}", case.friction, contact.friction, _RTOL)
         for place in ("half_width", "eccentricity", "penetration"):
-            expected, got = getattr(case, place), getattr(found, place)
+            expected, got = getattr(case, place), getattr(contact, place)
             off = abs(got - expected)
             if off >= worst.get(place, (0.0,))[0]:
                 worst[place] = (off, case.name, expected, got)
@@ -254,11 +254,11 @@ def _reference_contacts() -> Iterator[ReferenceCheck]:
 def _split_contacts() -> Iterator[ReferenceCheck]:
     for radius, friction, depth, strips in _TWO_STRIPS:
         creep = CreepSpectrum(0.1, [0.9], [3.0])
-        found = solve(ContactProblem("free", radius, 0.13, creep, 1.0), rtol=1e-9)
+        contact = solve(ContactProblem("free", radius, 0.13, creep, 1.0), rtol=1e-9)
         name = f"R/λ {radius}"
-        yield _close(_STRIPS, f"friction μ [-], {name}", friction, found.friction, _STRIP_TOLERANCE)
-        yield _close(_STRIPS, f"penetration over R [-], {name}", depth, found.penetration, _STRIP_TOLERANCE)
-        for k, (expected, got) in enumerate(zip(strips, found.patches.ravel(), strict=True), 1):
+        yield _close(_STRIPS, f"friction μ [-], {name}", friction, contact.friction, _STRIP_TOLERANCE)
+        yield _close(_STRIPS, f"penetration over R [-], {name}", depth, contact.penetration, _STRIP_TOLERANCE)
+        for k, (expected, got) in enumerate(zip(strips, contact.patches.ravel(), strict=True), 1):
             yield _close(_STRIPS, f"edge {k} over R [-], {name}", expected, float(got), _STRIP_TOLERANCE)
 
 
@@ -277,12 +277,12 @@ def _hunter() -> Iterator[ReferenceCheck]:
     for ratio in (2.0, 10.0, 100.0):
         for memory in (0.1, 1.0, 10.0):
             closed = hunter_at_load(ratio, memory=memory)
-            found, _ = _isolated(ratio, memory)
+            contact, _ = _isolated(ratio, memory)
             at = f"E∞/E0 = {ratio:g}, Vτ/a0 = {memory:g}"
             figures = (
-                ("friction μR/a0", closed.friction_at_load, found.friction / _SHALLOW),
-                ("half width a/a0", closed.shrinkage, found.half_width / _SHALLOW),
-                ("eccentricity e/a", closed.eccentricity, found.eccentricity / found.half_width),
+                ("friction μR/a0", closed.friction_at_load, contact.friction / _SHALLOW),
+                ("half width a/a0", closed.shrinkage, contact.half_width / _SHALLOW),
+                ("eccentricity e/a", closed.eccentricity, contact.eccentricity / contact.half_width),
             )
             for name, expected, got in figures:
                 yield _close(_HUNTER, f"{name} [-], {at}", expected, got, _CLOSED_FORM_TOLERANCE)
@@ -294,8 +294,8 @@ def _contact_program() -> Iterator[ReferenceCheck]:
     width = hertz_half_width(600.0, radius=50.0, plane_modulus=modulus)
     peak = hertz_peak_pressure(width, radius=50.0, plane_modulus=modulus)
     for length, figure in ((0.0, "60.32"), (9.0, "78.74"), (45.0, "84.72"), (2000.0, "85.31")):
-        found, scale = _isolated(1143.0 / 571.5, length / width)
-        got = peak * found.peak_pressure / scale
+        contact, scale = _isolated(1143.0 / 571.5, length / width)
+        got = peak * contact.peak_pressure / scale
         # one unit: the program's 85.31 lies above its own limit of infinite speed, 85.3028
         yield _printed(_CONTACT, f"p_max [N/mm²], Vτ = {length:g} mm", figure, got, units=1.0)
 
@@ -402,13 +402,13 @@ def _motor_starts() -> Iterator[ReferenceCheck]:
 def _transition() -> Iterator[ReferenceCheck]:
     """The standard's formula where the pulley is level with the middle roll; a belt of 1600 mm by finite elements."""
     wing, lam, stiffness, induced = 0.4, math.radians(35.0), 72e6, 40e3
-    found = transition.transition_stretch(1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=0.0)
+    zone = transition.transition_stretch(1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=0.0)
     # M, ΔT: induced in the edge against the middle
     expected = wing * math.sqrt(stiffness / induced * (1.0 - math.cos(lam)))
-    got = math.sqrt(stiffness * (found.edge - found.middle) / induced)
+    got = math.sqrt(stiffness * (zone.edge - zone.middle) / induced)
     yield _close(_TRANSITION, "length [m], 1.2 m, 35 deg, ΔT 40 N/mm", expected, got, _IDENTITY_TOLERANCE)
     for depth in (1.0, 0.5):  # of the trough, from the pulley to its edge: z = h, z = h/2
-        found = transition.transition_stretch(
+        zone = transition.transition_stretch(
             1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=1.0 - depth
         )
         raised = (1.0 - depth) * wing * math.sin(lam)
@@ -416,7 +416,7 @@ def _transition() -> Iterator[ReferenceCheck]:
             wing * (1.0 - math.cos(lam)), depth * wing * math.sin(lam)
         )
         # the middle rises to the pulley, too: its own way is counted from it
-        edge = found.edge - found.middle + 0.5 * raised**2
+        edge = zone.edge - zone.middle + 0.5 * raised**2
         got = math.sqrt(stiffness * edge / induced)
         name = f"length [m], 1.2 m, 35 deg, pulley at {depth:g} of the trough"
         yield _close(_CEMA_TRANSITION, name, expected, got, _IDENTITY_TOLERANCE)

@@ -63,20 +63,20 @@ def anchor(
     from conveyor import shelf as store
     from conveyor.measured.rolling_tests import read_rolling_tests
 
-    found = anchoring.anchored(
+    anchored = anchoring.anchored(
         store.compound(compound, extra=session.shelf or ()), read_rolling_tests(tests, source), name=name
     )
     if output is not None:
-        to.add("compound file", output, {output: store.dump(found.compound, marks.FITTED).encode()})
-    session.answer(anchoring.plain(found), to, lambda: _show(found, session.system()))
+        to.add("compound file", output, {output: store.dump(anchored.compound, marks.FITTED).encode()})
+    session.answer(anchoring.plain(anchored), to, lambda: _show(anchored, session.system()))
 
 
-def _show(found: Anchored, system: System) -> None:
+def _show(anchored: Anchored, system: System) -> None:
     """What the tests say, row by row and in all."""
     from conveyor import anchoring
     from conveyor.cli.terminal import console, grid, wrapped
 
     screen = console()
-    for part in (anchoring.rows(found), anchoring.levels(found)):
+    for part in (anchoring.rows(anchored), anchoring.levels(anchored)):
         screen.print(grid(part, system), "")
-    say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(found)))
+    say(*(wrapped(line, screen.width, further="  ") for line in anchoring.lines(anchored)))

@@ -244,16 +244,16 @@ def values(given: str, option: str, *units: str) -> list[str]:
     unit = next((known for known in units if given.strip().endswith(known)), units[0])
     body = given.strip().removesuffix(unit).strip()
     try:
-        found = spaced(body) if ":" in body else [float(part) for part in body.split(",")]
+        numbers = spaced(body) if ":" in body else [float(part) for part in body.split(",")]
     except ValueError:
-        found = []
-    if not (0 < len(found) <= MOST and all(map(math.isfinite, found))):
+        numbers = []
+    if not (0 < len(numbers) <= MOST and all(map(math.isfinite, numbers))):
         allowed = " or ".join(units)
         raise InputError(
             f'{option}: got "{given}", expected from:to:step (at most {MOST} values) or a,b,c in {allowed}, '
             'such as "-30:40:5" or "20"'
         )
-    return [f"{value:.12g} {unit}" for value in found]
+    return [f"{value:.12g} {unit}" for value in numbers]
 
 
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:

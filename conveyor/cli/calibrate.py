@@ -76,7 +76,7 @@ def calibrate(
     line = session.read(spec)
     system = session.system(line)
     with session.progress() as told:
-        found = conveyor.calibrate(
+        calibration = conveyor.calibrate(
             line,
             measured,
             error=None if error is None else _share(error),
@@ -84,27 +84,32 @@ def calibrate(
             progress=None if told is None else partial(told, "runs"),
         )
     if output is not None and is_book:
-        to.add("workbook", output, excel.files(found.contents(system), output, {}))
+        to.add("workbook", output, excel.files(calibration.contents(system), output, {}))
     elif output is not None:
-        to.add("part of a spec", output, {output: found.fragment.encode()})
-    session.answer(found.to_dict(), to, lambda: _show(found, system))
+        to.add("part of a spec", output, {output: calibration.fragment.encode()})
+    session.answer(calibration.to_dict(), to, lambda: _show(calibration, system))
 
 
-def _show(found: CalibrationStudy, system: System) -> None:
+def _show(calibration: CalibrationStudy, system: System) -> None:
     """Factors, correlation, runs, and the part of the spec."""
     from conveyor.cli.terminal import console, grid, wrapped
     from conveyor.report import calibrating
 
     screen = console()
-    runs = calibrating.runs(found).only(*_OF_RUNS)
-    for part in (calibrating.factors(found), calibrating.correlation(found), runs):
+    runs = calibrating.runs(calibration).only(*_OF_RUNS)
+    for part in (calibrating.factors(calibration), calibrating.correlation(calibration), runs):
         if not part.empty:
             screen.print(grid(part, system), "")
             if part.note:
                 say(part.note, "")
     say("basis and limitations:")
-    say(*(wrapped(line, screen.width, first="  - ", further="    ") for line in calibrating.lines(found)))
-    say("", "to paste into the spec:", found.fragment.rstrip())
+    say(
+        *(
+            wrapped(line, screen.width, first="  - ", further="    ")
+            for line in calibrating.lines(calibration)
+        )
+    )
+    say("", "to paste into the spec:", calibration.fragment.rstrip())
 
 
 def _share(given: str) -> float:

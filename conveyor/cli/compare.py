@@ -109,7 +109,7 @@ def compare(
     line = session.read(spec)
     system = session.system(line)
     with session.progress() as told:
-        found = compare_compounds(
+        comparison = compare_compounds(
             line,
             compounds,
             temperatures=None
@@ -122,17 +122,17 @@ def compare(
             shelves=session.shelf or (),
             progress=None if told is None else partial(told, "compounds"),
         )
-    if not found.scenes:
-        reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in found.refused))
+    if not comparison.scenes:
+        reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
     from conveyor.report import comparing
 
-    contents = comparing.of_comparison(found, system)
+    contents = comparing.of_comparison(comparison, system)
     _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
-    _figures(found, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
+    _figures(comparison, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
     from conveyor.cli.compare_tables import show
 
-    session.answer(comparing.plain(found), to, lambda: show(contents))
+    session.answer(comparing.plain(comparison), to, lambda: show(contents))
 
 
 def _reports(
@@ -160,7 +160,7 @@ def _reports(
 
 
 def _figures(
-    found: Comparison,
+    comparison: Comparison,
     to: Outputs,
     system: System,
     *,
@@ -172,9 +172,9 @@ def _figures(
     from conveyor.report.plots import drawn
 
     for path, draw in (
-        (plot, found.plots.power_against_temperature),
-        (speed_plot, found.plots.power_against_speed),
-        (tan_delta, found.plots.loss_tangents),
+        (plot, comparison.plots.power_against_temperature),
+        (speed_plot, comparison.plots.power_against_speed),
+        (tan_delta, comparison.plots.loss_tangents),
     ):
         if path is not None:
             to.add("figure", path, {path: drawn(draw(system=system), path)})

@@ -90,17 +90,17 @@ def dynamics(
         how: Any = {"executor": executor, "workers": workers,
                     "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
         if size is None:
-            found = follow(line, chosen, error=error, **how)
+            followed = follow(line, chosen, error=error, **how)
         else:
             from conveyor.dynamics.design import sized
 
-            found = sized(line, chosen, size.value, error=error, **how)
-    contents = of_dynamics(found, system)
+            followed = sized(line, chosen, size.value, error=error, **how)
+    contents = of_dynamics(followed, system)
     for path in output or ():
-        _write(found, contents, path, to)
+        _write(followed, contents, path, to)
     from conveyor.cli.dynamics_tables import show
 
-    session.answer(plain(found), to, lambda: show(contents))
+    session.answer(plain(followed), to, lambda: show(contents))
 
 
 def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
@@ -115,7 +115,7 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
     return tuple(every[name] for name in names) if names else tuple(every.values())
 
 
-def _write(found: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
+def _write(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
     """Make a file of the kind its name says; of several scenarios a figure each."""
     from conveyor.report import dynamics_tables, excel
     from conveyor.report import html as page
@@ -129,7 +129,7 @@ def _write(found: CalculatedDynamics, contents: Contents, path: Path, to: Output
     elif ending in {".html", ".htm"}:
         to.add("page", path, {path: page.build(contents, dynamics_tables.PARTS).encode()})
     else:
-        several = len(found.followed) > 1
-        for one in found.followed:
+        several = len(dynamics.followed) > 1
+        for one in dynamics.followed:
             at = path.with_stem(f"{path.stem}_{slug(one.name)}") if several else path
             to.add("figure", at, {at: drawn(picture(one, system=contents.system), at)})

@@ -70,25 +70,27 @@ def optimise(
                     said(best, campaign, system) if best.keeps else "none keeps the limits",
                 )
 
-        found = search(campaign, known, executor=executor, workers=workers, progress=tell)
+        searched = search(campaign, known, executor=executor, workers=workers, progress=tell)
         new = len(known) - before
-    figures = said(found.design, campaign, system)
-    to.add("spec", output, {output: spec_of(campaign, found.design, figures)})
+    figures = said(searched.design, campaign, system)
+    to.add("spec", output, {output: spec_of(campaign, searched.design, figures)})
     plain = {
-        "changes": dict(found.design.changes),
-        "figures_SI": dict(found.design.figures),
-        "designs": found.tried,
+        "changes": dict(searched.design.changes),
+        "figures_SI": dict(searched.design.figures),
+        "designs": searched.tried,
         "calculated": new,
-        "generations": found.generations,
-        "settled": found.settled,
-        "history_SI": list(found.history),
+        "generations": searched.generations,
+        "settled": searched.settled,
+        "history_SI": list(searched.history),
         "spec": str(output),
     }
 
     def show() -> None:
-        say(*(f"{path}: {value}" for path, value in found.design.changes.items()), figures)
+        say(*(f"{path}: {value}" for path, value in searched.design.changes.items()), figures)
         more = "stopped at the limit of designs: a better one may exist"
-        end = "settled" if found.settled else more
-        say(f"{found.tried} designs in {found.generations} generations, {new} points calculated now; {end}")
+        end = "settled" if searched.settled else more
+        say(
+            f"{searched.tried} designs in {searched.generations} generations, {new} points calculated now; {end}"
+        )
 
     session.answer(plain, to, show)

@@ -91,10 +91,10 @@ class Outputs:
         if not kind or self._force or not path.exists():
             return
         try:
-            found = marks.mark(path.read_bytes()) if path.stat().st_size <= _LARGEST else None
+            mark = marks.mark(path.read_bytes()) if path.stat().st_size <= _LARGEST else None
         except OSError as error:
             raise InputError(f"{path}: exists and cannot be read ({error.strerror or error})") from None
-        if found != kind:
+        if mark != kind:
             what = (
                 "" if kind == marks.TO_FILL_IN else f" and is no {kind.partition(':')[0]} that conveyor wrote"
             )

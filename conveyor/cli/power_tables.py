@@ -60,8 +60,8 @@ def show(contents: Contents) -> None:
 
 
 def _figure(contents: Contents, key: str) -> Figure:
-    found: Figure = next(row for row in contents["results"].rows if row.key == key)
-    return found
+    figure: Figure = next(row for row in contents["results"].rows if row.key == key)
+    return figure
 
 
 def _head(screen: Console, contents: Contents) -> None:
@@ -168,8 +168,8 @@ def _take_up(contents: Contents) -> str:
 
 
 def _checks(screen: Console, contents: Contents) -> None:
-    found = contents["checks"].rows
-    counts = {word: sum(check.verdict == word for check in found) for word in ("pass", "FAIL", "not checked")}
+    rows = contents["checks"].rows
+    counts = {word: sum(check.verdict == word for check in rows) for word in ("pass", "FAIL", "not checked")}
     said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
     screen.print(words(f"checks: {said}", style="bold"))
     made, cases = table(), "case" in [column.key for column in contents["checks"].columns]
@@ -177,7 +177,7 @@ def _checks(screen: Console, contents: Contents) -> None:
         made.add_column(
             heading, justify="right" if heading == "margin" else "left", no_wrap=heading == "margin"
         )
-    for check in found:
+    for check in rows:
         if check.leads or check.verdict == "FAIL":
             cells = [check.subject, f"{check.found}, {check.asked}", unit("margin").written(check.margin)]
             cells += [*([check.case] if cases else []), check.verdict]

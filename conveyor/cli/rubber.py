@@ -198,19 +198,19 @@ def fit(
 
     files = [file for file in (*data, shift, strain) if file is not None]
     with _placed(files):
-        found = described.from_files(data, request)
-    lines = told.lines(found)
+        fitted = described.from_files(data, request)
+    lines = told.lines(fitted)
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(told.figure(found), plot)})
+        to.add("figure", plot, {plot: plots.drawn(told.figure(fitted), plot)})
     for path in compounds:
-        to.add("compound file", path, {path: shelf_of.dump(found.compound, marks.FITTED).encode()})
+        to.add("compound file", path, {path: shelf_of.dump(fitted.compound, marks.FITTED).encode()})
     if write_shift is not None:
-        to.add("shift factors", write_shift, {write_shift: told.shift_table(found).encode()})
-    _exported(found.compound, export, to)
+        to.add("shift factors", write_shift, {write_shift: told.shift_table(fitted).encode()})
+    _exported(fitted.compound, export, to)
     if books or html is not None or spec is not None:
-        lines += _judged(found, spec, said, [*books, *([] if html is None else [html])], to)
+        lines += _judged(fitted, spec, said, [*books, *([] if html is None else [html])], to)
     lines += to.save()
     lines += [f'specs and --compound name the compound "{path.stem}" or by its path' for path in compounds]
     if not quiet:
@@ -229,7 +229,7 @@ def _said(words: str) -> tuple[str, str]:
 
 
 def _judged(
-    found: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], paths: Sequence[Path], to: Outputs
+    rubber: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], paths: Sequence[Path], to: Outputs
 ) -> list[str]:
     """Lines of the verdict; add the page to sign and the workbook."""
     from conveyor.fitting import page, tables, verdict
@@ -237,14 +237,14 @@ def _judged(
     from conveyor.report import excel
     from conveyor.spec import load
 
-    if isinstance(found, Tabulated):
+    if isinstance(rubber, Tabulated):
         raise InputError("--html, --spec, -o .xlsx: a Prony table has no measurement to judge")
-    criteria = verdict.verdict(found, None if spec is None else load(spec))
+    criteria = verdict.verdict(rubber, None if spec is None else load(spec))
     for path in paths:
         if path.suffix.lower() == ".xlsx":
-            to.add("workbook", path, excel.files(tables.of_fit(found, criteria, said), path, {}))
+            to.add("workbook", path, excel.files(tables.of_fit(rubber, criteria, said), path, {}))
         else:
-            to.add("page", path, {path: page.build(found, criteria, said).encode()})
+            to.add("page", path, {path: page.build(rubber, criteria, said).encode()})
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

@@ -69,20 +69,20 @@ def size(
 
     read = read_duty(duty, shelves=session.shelf or ())
     with session.progress() as told:
-        found = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
+        designs = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
     pictured = (
         session.as_json or tables is not None or any(ending not in {".yaml", ".yml"} for _, ending in asked)
     )
-    contents = of_sizing(found, session.system(read), vary=pictured)
+    contents = of_sizing(designs, session.system(read), vary=pictured)
     for path, ending in asked:
-        _write(found, contents, path, ending, to)
+        _write(designs, contents, path, ending, to)
     if tables is not None:
         from conveyor.report import files
 
         to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
     from conveyor.cli.sizing_tables import show
 
-    session.answer(plain(contents, found), to, lambda: show(contents))
+    session.answer(plain(contents, designs), to, lambda: show(contents))
 
 
 def _ranked(path: Path, best: int) -> list[Path]:
@@ -90,7 +90,7 @@ def _ranked(path: Path, best: int) -> list[Path]:
     return [path] if best == 1 else [path.with_stem(f"{path.stem}-{rank}") for rank in range(1, best + 1)]
 
 
-def _write(found: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
+def _write(sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
     """Make a file of the kind its name says."""
     from conveyor.report import excel, sizing_tables
     from conveyor.report import html as page
@@ -98,10 +98,10 @@ def _write(found: CalculatedSizing, contents: Contents, path: Path, ending: str,
     from conveyor.spec import dump
 
     if ending in {".yaml", ".yml"}:
-        names = _ranked(path, len(found.designs) if len(found.designs) > 1 else 1)
+        names = _ranked(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
         made = {
             name: f"# Rank {rank} of conveyor size.\n{dump(design.conveyor)}".encode()
-            for rank, (name, design) in enumerate(zip(names, found.designs, strict=True), start=1)
+            for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1)
         }
         to.add("specs", path, made)
     elif ending == ".xlsx":

@@ -118,11 +118,11 @@ def study(
         new, spent, count = len(known) - before, perf_counter() - begun, campaign.listed.count
         if parts is None:
             table.write(output, (row(number, keyed) for number, keyed in running.keyed_points(campaign)))
-        found = explored(campaign, running.designs(campaign, known))
+        evaluated = explored(campaign, running.designs(campaign, known))
         if designs is not None:
-            designed.write(designs, campaigning.design_rows(found, running.designs(campaign, known)))
-    contents = designing.of_study(found, system)
-    _made(to, campaign, found, contents, html=html, plots=plots, specs=specs)
+            designed.write(designs, campaigning.design_rows(evaluated, running.designs(campaign, known)))
+    contents = designing.of_study(evaluated, system)
+    _made(to, campaign, evaluated, contents, html=html, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
     def show() -> None:
@@ -133,7 +133,7 @@ def study(
             say(f"{times} without an answer: {reason}")
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
-    session.answer(plain | designing.plain(found), to, show)
+    session.answer(plain | designing.plain(evaluated), to, show)
 
 
 def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:
@@ -145,7 +145,7 @@ def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) ->
 def _made(
     to: Outputs,
     campaign: Campaign,
-    found: Explored,
+    study: Explored,
     contents: Contents,
     *,
     html: Path | None,
@@ -160,11 +160,11 @@ def _made(
     if html is not None:
         to.add("page", html, {html: page.build(contents, designing.PARTS).encode()})
     if plots is not None:
-        drawings = designing.drawings(found, contents.system)
+        drawings = designing.drawings(study, contents.system)
         files = {plots / f"{name}.png": figure for name, figure in drawings}
         to.add("figures", plots, {path: drawn(figure, path) for path, figure in files.items()})
     if specs is not None:
-        ranked = enumerate(found.best, start=1)
+        ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
         told = {
             path: spec_of(campaign, one, said(one, campaign, contents.system)) for path, one in made.items()

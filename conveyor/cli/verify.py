@@ -92,7 +92,7 @@ def verify_sheet(
         if text is not None
     }
     with session.progress() as told:
-        found = conveyor.verify_sheet(
+        sheet = conveyor.verify_sheet(
             compounds,
             conveyor=line,
             softened=softened,
@@ -100,14 +100,14 @@ def verify_sheet(
             progress=None if told is None else partial(told, "compounds"),
             **axes,
         )
-    contents = found.contents(session.system(line))
+    contents = sheet.contents(session.system(line))
     if output is not None:
         to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
     if html is not None:
         to.add("page", html, {html: page.build(contents, verifying.PARTS).encode()})
-    session.answer(found.to_dict(), to, lambda: _show(found))
+    session.answer(sheet.to_dict(), to, lambda: _show(sheet))
 
 
-def _show(found: VerificationSheet) -> None:
-    without = sum(row.reason != "" for row in found.rows) + sum(row.reason != "" for row in found.sets)
-    say(f"{len(found.rows)} rows, {len(found.sets)} of an idler set; {without} without a figure")
+def _show(sheet: VerificationSheet) -> None:
+    without = sum(row.reason != "" for row in sheet.rows) + sum(row.reason != "" for row in sheet.sets)
+    say(f"{len(sheet.rows)} rows, {len(sheet.sets)} of an idler set; {without} without a figure")

@@ -174,9 +174,9 @@ class ProductIK:
 
     def falling(self, order: int) -> Array:
         """K_v/K_order of v = 0 … order, shape (order + 1, k, t)."""
-        found = np.ones((order + 1, *self._rise.shape[1:]))
-        found[:-1] = np.cumprod(1.0 / self._rise[:order][::-1], axis=0)[::-1]
-        return found
+        ratios = np.ones((order + 1, *self._rise.shape[1:]))
+        ratios[:-1] = np.cumprod(1.0 / self._rise[:order][::-1], axis=0)[::-1]
+        return ratios
 
     def weighted(self, weights: Array) -> tuple[Array, Array]:
         """Sums over the terms.
@@ -237,8 +237,8 @@ class ProductIK:
             here *= factors[v + 1] + beyond[0]
             beyond = [beyond[1], here]
             total -= (2.0 * factors[v - 1]) * self._diagonal[v] * here
-        found: Array = (total * weights).sum(axis=1)
-        return found
+        sums: Array = (total * weights).sum(axis=1)
+        return sums
 
 
 def _ratio_i(order: int, b: Array) -> Array:

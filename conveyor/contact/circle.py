@@ -133,10 +133,10 @@ def eccentricity(
     eps = np.where(np.abs(start) < 0.9 * room, start, np.sign(start) * 0.9 * room)
     count = row.shape[1] + 1
     few = _shown(float((_NEAR * radius / np.maximum(alpha, np.finfo(float).tiny)).min()), count)
-    found, settled = _newton(row, (alpha, eps, radius), room, few)
-    if few < count and not (settled & (np.abs(found) <= (1.0 - _NEAR) * radius)).all():
-        found, settled = _newton(row, (alpha, eps, radius), room, count)
-    return found, settled & fits
+    root, settled = _newton(row, (alpha, eps, radius), room, few)
+    if few < count and not (settled & (np.abs(root) <= (1.0 - _NEAR) * radius)).all():
+        root, settled = _newton(row, (alpha, eps, radius), room, count)
+    return root, settled & fits
 
 
 def _newton(

@@ -94,7 +94,7 @@ class LoadCurve:
         ends = self.at([self.lowest, self.highest])
         there = [("friction there", ends.friction), ("half_width there", ends.half_width)]
         rows = [("mean pressure p̃_m", f"{self.lowest:.6g} to {self.highest:.6g}")]
-        rows += [(name, " to ".join(f"{value:.6g}" for value in found)) for name, found in there]
+        rows += [(name, " to ".join(f"{value:.6g}" for value in span)) for name, span in there]
         rows.append(("relative error of friction", f"{self.error:.1e}"))
         return listing("LoadCurve, lengths over R", rows)
 

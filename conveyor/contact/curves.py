@@ -88,10 +88,10 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
     """
     if not 0.0 < lowest <= highest:
         raise InputError(f"loads from {lowest!r} to {highest!r}: give 0 < lowest <= highest")
-    (found,) = load_curves([problem], [lowest], [highest], rtol)
-    if isinstance(found, NoSolutionError):
-        raise found
-    return found
+    (curve,) = load_curves([problem], [lowest], [highest], rtol)
+    if isinstance(curve, NoSolutionError):
+        raise curve
+    return curve
 
 
 @checked
@@ -128,9 +128,9 @@ def load_curves(
     if not (low.shape == high.shape == (len(problems),) and np.all((low > 0.0) & (low <= high))):
         raise InputError("lowest and highest: one of each for every scene, 0 < lowest <= highest")
     loaded = [replace(problem, pressure=float(p)) for problem, p in zip(problems, high, strict=True)]
-    found = _narrow(loaded, low, rtol)
+    by_row = _narrow(loaded, low, rtol)
     return [
-        found[i] if i in found else _alone(problem, float(low[i]), rtol) for i, problem in enumerate(loaded)
+        by_row[i] if i in by_row else _alone(problem, float(low[i]), rtol) for i, problem in enumerate(loaded)
     ]
 
 
@@ -218,9 +218,9 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
         for start in range(0, order.size, step):
             chosen = order[start : start + step]
             sampler = _narrow_sampler(group[chosen], light[chosen], (low[chosen], high[chosen]), rtol)
-            for row, found in sampler.curves(rtol).items():
-                if isinstance(found, LoadCurve):
-                    curves[members[chosen[row]]] = found
+            for row, curve in sampler.curves(rtol).items():
+                if isinstance(curve, LoadCurve):
+                    curves[members[chosen[row]]] = curve
     return curves
 
 
@@ -286,7 +286,7 @@ class _Sampler:
 
     def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
         """Curves by row; why there is none, or nothing where another way may have one."""
-        found: dict[int, LoadCurve | NoSolutionError] = {}
+        by_row: dict[int, LoadCurve | NoSolutionError] = {}
         n = lowest_order(rtol)
         waiting = np.arange(self.rows.size)
         for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 4 if self.narrow else None]:
@@ -294,7 +294,7 @@ class _Sampler:
                 break
             first = self._sample(waiting, points(degree), n)
             for row in waiting[~first.valid]:
-                found[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
+                by_row[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
             first = first[np.flatnonzero(first.valid & self._enclosed(first))]
             waiting = first.rows
             if waiting.size == 0:
@@ -302,9 +302,9 @@ class _Sampler:
             miss = missed(first.contact, np.repeat(self.group.rho[waiting], degree + 1), degree)
             enough = (miss <= rtol) | (degree == _DEGREES[-1])
             if enough.any():
-                self._settle(first[np.flatnonzero(enough)], miss[enough], rtol, found)
+                self._settle(first[np.flatnonzero(enough)], miss[enough], rtol, by_row)
             waiting = waiting[~enough]
-        return found
+        return by_row
 
     def _sample(self, rows: Index, t: Array, n: int) -> _Batch:
         """Contacts of order n of some rows at places t of their half width."""
@@ -324,7 +324,7 @@ class _Sampler:
         return np.asarray((pressure[:, 0] >= highest) & (pressure[:, -1] <= self.lowest[first.rows]))
 
     def _settle(
-        self, first: _Batch, miss: Array, rtol: float, found: dict[int, LoadCurve | NoSolutionError]
+        self, first: _Batch, miss: Array, rtol: float, curves: dict[int, LoadCurve | NoSolutionError]
     ) -> None:
         """Raise the order until each curve meets rtol, at a few of the points where all press plainly."""
         exponent = _exponents(first)
@@ -352,14 +352,14 @@ class _Sampler:
                 plain = bool(pressing[k].all())
                 key = int(self.rows[row])
                 if not batch.valid[k]:
-                    found[key] = NoSolutionError(Status.WRAP_LIMIT.message)
+                    curves[key] = NoSolutionError(Status.WRAP_LIMIT.message)
                 elif pulling[k].any():
-                    found[key] = self._split(row)
+                    curves[key] = self._split(row)
                 elif total <= rtol and (plain or n >= SIGN_ORDER):
                     if not (self.narrow and may_touch_elsewhere(sampled.contacts, self.group.rho[row]).any()):
-                        found[key] = self._curve(row, sampled, (total, float(energy[k])), n)
+                        curves[key] = self._curve(row, sampled, (total, float(energy[k])), n)
                 elif n == ORDERS[-1]:
-                    found[key] = _unsettled(total)
+                    curves[key] = _unsettled(total)
                 elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
                     todo.setdefault((n, False), []).append(place)
                 else:

@@ -64,5 +64,5 @@ def excited_harmonics(
     order = np.argsort(m)
     lost = lost[order]
     middle = np.cumsum(lost) - 0.5 * lost  # a node stands for what lies to both sides of it
-    found: Array = np.exp(np.interp(np.asarray(shares) * lost.sum(), middle, np.log(m[order])))
-    return found
+    harmonics: Array = np.exp(np.interp(np.asarray(shares) * lost.sum(), middle, np.log(m[order])))
+    return harmonics

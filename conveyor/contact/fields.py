@@ -157,12 +157,12 @@ def _sines(c: Array, angle: Array) -> Array:
     width = math.isqrt(c.size) + 1
     table = np.zeros((c.size // width + 1, width))
     table.ravel()[1 : c.size + 1] = c
-    found = []
+    sums = []
     for part in np.array_split(angle, 1 + angle.size * 2 * width // _CHUNK):
         low = np.exp(1j * np.multiply.outer(part, np.arange(width)))
         high = np.exp(1j * np.multiply.outer(part, width * np.arange(table.shape[0])))
-        found.append(((low @ table.T) * high).sum(axis=1).imag)
-    return np.concatenate(found)
+        sums.append(((low @ table.T) * high).sum(axis=1).imag)
+    return np.concatenate(sums)
 
 
 def sampled_sines(c: Array, count: int) -> Array:

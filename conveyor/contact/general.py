@@ -226,8 +226,8 @@ def _limit(scene: Scene, wrapped: GridContact) -> float | None:
             wrapped = start
             break
         load *= math.exp(2.0 * _LIMIT_ABOUT)
-    found = _least_wrapped(finer, wrapped, _LIMIT_WIDTH, 2.0 * _LIMIT_ABOUT)
-    return None if found is None else found.mean_pressure
+    is_wrapped = _least_wrapped(finer, wrapped, _LIMIT_WIDTH, 2.0 * _LIMIT_ABOUT)
+    return None if is_wrapped is None else is_wrapped.mean_pressure
 
 
 def _settled(grid: Grid, load: float, *starts: GridContact) -> GridContact | None:
@@ -249,16 +249,16 @@ def _least_wrapped(grid: Grid, wrapped: GridContact, width: float, stride: float
     high, low, carried = math.log(wrapped.mean_pressure), -math.inf, wrapped
     while high - low > width:
         step = min(stride, 0.5 * (high - low))
-        found = None
-        while found is None and step >= 0.5 * width:
-            found = _settled(grid, math.exp(high - step), wrapped, carried)
-            step *= 1.0 if found is not None else 0.5
-        if found is None:
+        wrapped_one = None
+        while wrapped_one is None and step >= 0.5 * width:
+            wrapped_one = _settled(grid, math.exp(high - step), wrapped, carried)
+            step *= 1.0 if wrapped_one is not None else 0.5
+        if wrapped_one is None:
             break
-        if found.at_roll_end:
-            high, wrapped = high - step, found
+        if wrapped_one.at_roll_end:
+            high, wrapped = high - step, wrapped_one
         else:
-            low, carried = high - step, found
+            low, carried = high - step, wrapped_one
         if high < lightest:
             return None
     return wrapped

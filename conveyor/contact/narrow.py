@@ -245,8 +245,8 @@ class Search:
         """Half widths where a straight line through the middle meets the load: for those far outside."""
         rise = np.where(self.load[:, 1] > _FLATTEST, self.load[:, 1], _FLATTEST)
         away = RANGE * (self.group.target - self.load[:, 0]) / rise
-        found: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
-        return found
+        values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
+        return values
 
     def move(self, rows: Index) -> None:
         """Newton on the cubic and its offset, to the place where the load is met; rows far outside are given up."""

@@ -23,8 +23,8 @@ def points(degree: int) -> Array:
 
 def coefficients(values: Array) -> Array:
     """Chebyshev coefficients of values at the points, along the last axis but one."""
-    found: Array = _transform(values.shape[-2] - 1) @ values
-    return found
+    series: Array = _transform(values.shape[-2] - 1) @ values
+    return series
 
 
 @lru_cache(maxsize=16)
@@ -121,11 +121,11 @@ class Sampled:
     def interpolated(self, figures: Callable[[Contact], Array]) -> Array:
         """Chebyshev coefficients of figures of the contacts, which have shape (k, f)."""
         values = figures(self.contacts)
-        found = coefficients(values)
+        series = coefficients(values)
         if self.finer is not None:
             change = figures(self.finer) - values[:: stride(self.contacts, self.finer)]
-            found[: change.shape[0]] += coefficients(change)
-        return found
+            series[: change.shape[0]] += coefficients(change)
+        return series
 
     def left(self, rho: float) -> float:
         """What reading the higher order's change between its points may do to friction.

@@ -50,10 +50,10 @@ def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcom
 
     `near` is where order `DENSE` did not suffice.
     """
-    found = _converged(scene, rtol, near)
-    if found is None:
+    half_width = _converged(scene, rtol, near)
+    if half_width is None:
         return None
-    state, contact, error, energy, edges = found
+    state, contact, error, energy, edges = half_width
     rho = scene.problem.rho
     pressing = sign(contact, rtol)
     if pressing is Sign.PULLING:

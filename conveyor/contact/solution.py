@@ -124,10 +124,10 @@ class ContactSolution:
     @property
     def _plainly_shallow(self) -> bool:
         """Whether |S| ≤ 1 and |p̂_m| ≤ p̃_m alone keep Δ far below R: W ≤ 2 p̃_m (ln 1/α + 2), and the roll's own drop."""
-        found = self._need()
+        solved = self._need()
         if not isinstance(self.problem.layer, (HalfSpace, Confined)):
             return False
-        sunk = 2.0 * found.mean_pressure * (2.0 + max(math.log(1.0 / found.half_width), 0.0))
+        sunk = 2.0 * solved.mean_pressure * (2.0 + max(math.log(1.0 / solved.half_width), 0.0))
         return sunk + self.outer_edge**2 < _SHALLOW
 
     @cached_property
@@ -218,9 +218,9 @@ class ContactSolution:
     @property
     def edge_error(self) -> float:
         """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity."""
-        found = self._need()
+        solved = self._need()
         return (
-            found.edge_error + found.fields.edge_error()
+            solved.edge_error + solved.fields.edge_error()
         ) / self.problem.rho + self.outer_edge * self.error_estimate
 
     @cached_property
@@ -286,13 +286,13 @@ class ContactSolution:
         Inside the contact the roll's own shape, outside the Fourier series up to m α = 600: cut off at about
         1e-7 of the depth, 3e-5 at the very edges.
         """
-        found = self._need()
+        solved = self._need()
         at = self._beside_roll(x)
         touching = ((at[..., None] >= self.patches[:, 0]) & (at[..., None] <= self.patches[:, 1])).any(
             axis=-1
         )
         out = np.asarray(self.penetration - 1.0 + np.sqrt(1.0 - np.where(touching, at, 0.0) ** 2))
-        out[~touching] = found.fields.outside(at[~touching] * self.problem.rho)
+        out[~touching] = solved.fields.outside(at[~touching] * self.problem.rho)
         return out
 
     def _beside_roll(self, x: ArrayLike) -> Array:

@@ -141,9 +141,9 @@ def equilibrium(
     if settled.all():
         return contact
     rows = np.flatnonzero(~settled)
-    found = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
+    newton = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
     for name in ("alpha", "eps", "c", "pressure", "friction", "inside"):
-        getattr(contact, name)[rows] = getattr(found, name)
+        getattr(contact, name)[rows] = getattr(newton, name)
     return contact
 
 
@@ -183,9 +183,9 @@ def of_order(lower: Array, slopes: Array, contact: Contact, rho: Array | float) 
     To second order in the shift of the eccentricity; `slopes` is their `slope_expansion`.
     """
     slope, c, step = _balanced(lower, slopes[:, : lower.shape[2] + 2])
-    found = pressed(c, slope, (contact.alpha, contact.eps + step), rho)
-    inside = (contact.alpha + np.abs(found.eps) < rho) & (found.pressure > 0.0)
-    return replace(found, inside=inside)
+    contact_there = pressed(c, slope, (contact.alpha, contact.eps + step), rho)
+    inside = (contact.alpha + np.abs(contact_there.eps) < rho) & (contact_there.pressure > 0.0)
+    return replace(contact_there, inside=inside)
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:

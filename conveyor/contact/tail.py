@@ -159,8 +159,8 @@ class Tail:
             for k in range(segment.up.shape[0] - 1, -1, -1):
                 if low + (k + 1) * _BLOCK in starts:
                     given = np.concatenate([given, np.zeros((1, terms, terms))])
-                given, found = _eliminated(segment, k, given)
-                answers.append(found[0])
+                given, answer = _eliminated(segment, k, given)
+                answers.append(answer[0])
             kept.append(_Answers(np.array(answers[::-1]), segment.down, segment.across))
         below = _Segment(parts, alpha, core // 2, core, core // 4)
         most, _ = _eliminated(below, 1, given[:1])
@@ -190,9 +190,9 @@ class Tail:
                 x = answers @ below
                 below = across * below + down.T @ x
                 out.append(x)
-        found = np.concatenate(out)
-        found[self.core :] /= orders[self.core :]
-        return found
+        every = np.concatenate(out)
+        every[self.core :] /= orders[self.core :]
+        return every
 
     def level(self, ik: ProductIK, c: Array) -> float:
         """Its share of W_0, Σ_t d_t ζ_t K_0 B_t (spectral.level), from the core's coefficients, shape (n,)."""

@@ -71,13 +71,13 @@ def _waves(x: Array, end: float) -> _Waves:
 def _table(points: int, octaves: int) -> tuple[_Waves, ...]:
     """Waves of the places within two half widths, and of each octave beyond on either side."""
     end = HARMONICS * points
-    found = [_waves(np.linspace(-NEAR, NEAR, points + 1), end)]
+    tables = [_waves(np.linspace(-NEAR, NEAR, points + 1), end)]
     steps = max(2, points // OCTAVE)
     for octave in range(octaves):
         begin = NEAR * 2.0**octave
         away = begin * 2.0 ** np.linspace(0.0, 1.0, steps + 1)[1:]
-        found.append(_waves(np.concatenate([-away, away]), min(end, FAR / (begin - 1.0))))
-    return tuple(found)
+        tables.append(_waves(np.concatenate([-away, away]), min(end, FAR / (begin - 1.0))))
+    return tuple(tables)
 
 
 @lru_cache(maxsize=32)
@@ -110,21 +110,21 @@ def working_strains(
     InputError, NoSolutionError
         As `interior`.
     """
-    found: dict[int, tuple[float, float]] = {}
+    strains_of: dict[int, tuple[float, float]] = {}
     plain: dict[tuple[int, int], list[int]] = {}
     for i, solution in enumerate(solutions):
         if _forgets(solution):
             plain.setdefault((solution.stats.order, _octaves(solution)), []).append(i)
         else:
             one = interior(solution, depths=depths, points=points)
-            found[i] = one.working_strain, one.wave_number
+            strains_of[i] = one.working_strain, one.wave_number
     for (order, octaves), alike in plain.items():
         tables = list(zip(_table(points, octaves), _bessel(order, points, octaves), strict=True))
         for start in range(0, len(alike), _CHUNK):
             chosen = alike[start : start + _CHUNK]
             strains = _strains([Inside(solutions[i], points) for i in chosen], tables, depths)
-            found.update(zip(chosen, strains, strict=True))
-    return [found[i] for i in range(len(solutions))]
+            strains_of.update(zip(chosen, strains, strict=True))
+    return [strains_of[i] for i in range(len(solutions))]
 
 
 def _forgets(solution: ContactSolution) -> bool:

@@ -51,108 +51,109 @@ class Peak:
     @classmethod
     def of(
         cls,
-        found: Followed,
+        scenario: Followed,
         cells: slice | NDArray[np.int_],
         section: str,
         strand: str = "",
         least: float = 0.0,
     ) -> Peak:
         """Of some cells."""
-        record = found.record
+        record = scenario.record
         high, low = int(record.highest[cells].argmax()), int(record.lowest[cells].argmin())
         return cls(
             section, strand, float(record.highest[cells][high]), float(record.highest_at[cells][high]),
             float(record.lowest[cells][low]), float(record.lowest_at[cells][low]), least,
-            float(found.sag[cells].max()),
+            float(scenario.sag[cells].max()),
         )  # fmt: skip
 
 
-def peaks(found: Followed) -> Iterator[Peak]:
+def peaks(scenario: Followed) -> Iterator[Peak]:
     """Extreme tensions of every stretch, as the belt meets them from the take-up."""
-    shape = found.line.loop
-    for k, cells in found.stretches():
+    shape = scenario.line.loop
+    for k, cells in scenario.stretches():
         stretch = shape.stretches[k]
-        yield Peak.of(found, cells, stretch.section, stretch.strand, float(shape.least[k]))
+        yield Peak.of(scenario, cells, stretch.section, stretch.strand, float(shape.least[k]))
 
 
-def at_pulley(found: Followed, pulley: int) -> Peak:
+def at_pulley(scenario: Followed, pulley: int) -> Peak:
     """Extreme tensions of the belt on both sides of a pulley of the line."""
-    return Peak.of(found, found.beside(pulley), found.line.pulleys[pulley].name)
+    return Peak.of(scenario, scenario.beside(pulley), scenario.line.pulleys[pulley].name)
 
 
-def _strength(found: Followed) -> Iterator[Check]:
-    belt = found.line.belt
-    i = int(found.record.highest.argmax())
-    where = f"{found.place(i)}, {found.record.highest_at[i]:.1f} s"
+def _strength(scenario: Followed) -> Iterator[Check]:
+    belt = scenario.line.belt
+    i = int(scenario.record.highest.argmax())
+    where = f"{scenario.place(i)}, {scenario.record.highest_at[i]:.1f} s"
     most = f"DIN 22101:1982 in steady running; {_MORE}"
     if belt.strength is not None:
         needed = CLASSIC_SAFETY["steel cord" if belt.steel_cord else "textile"] / RATED_START
-        safety = belt_safety(found.highest, nominal_strength=belt.strength, belt_width=belt.width)
-        why = said("safety of the belt {} at {}, {} required", (safety, "safety"), (found.highest, "force"),
+        safety = belt_safety(scenario.highest, nominal_strength=belt.strength, belt_width=belt.width)
+        why = said("safety of the belt {} at {}, {} required", (safety, "safety"), (scenario.highest, "force"),
                    (needed, "safety"))  # fmt: skip
         yield compared("dynamic_safety", "safety of the belt", safety, "at least", needed, "safety",
                        source=most, why=why, where=where)  # fmt: skip
     if belt.rating is not None:
-        tension = found.highest / belt.width
+        tension = scenario.highest / belt.width
         why = said("the belt bears {}", (tension, "belt rating"))
         yield compared("dynamic_rating", "belt tension per width", tension, "at most", RATED_START * belt.rating,
                        "belt rating", source=_MORE, why=why, where=where)  # fmt: skip
 
 
-def _splice(found: Followed) -> Iterator[Check]:
+def _splice(scenario: Followed) -> Iterator[Check]:
     """The belt is strong enough for a splice anywhere at its highest tension."""
-    belt = found.line.belt
+    belt = scenario.line.belt
     if belt.strength is None or belt.splice_strength is None:
         return
-    i = int(found.record.highest.argmax())
+    i = int(scenario.record.highest.argmax())
     needed = needed_strength(
-        found.highest / (RATED_START * belt.width), splice_strength=belt.splice_strength,
+        scenario.highest / (RATED_START * belt.width), splice_strength=belt.splice_strength,
         s0=SPLICE_SAFETY[belt.splice_making], s1=DUTY_SAFETY[belt.duty],
     )  # fmt: skip
     why = said("a splice there requires a belt of {}, given: {}", (needed, "belt strength"),
                (belt.strength, "belt strength"))  # fmt: skip
     yield compared(
         "dynamic_splice", "belt strength for the splice", belt.strength, "at least", needed, "belt strength", why=why,
-        source=f"DIN 22101:2002, {_MORE}", where=f"{found.place(i)}, {found.record.highest_at[i]:.1f} s",
+        source=f"DIN 22101:2002, {_MORE}", where=f"{scenario.place(i)}, {scenario.record.highest_at[i]:.1f} s",
     )  # fmt: skip
 
 
-def _sag(found: Followed) -> Iterator[Check]:
+def _sag(scenario: Followed) -> Iterator[Check]:
     """How far the belt sags between its idlers; from a tenth of the span on it is slack."""
-    i = int(found.sag.argmax())
-    sag, at = float(found.sag[i]), f"{found.place(i)}, {found.record.lowest_at[i]:.1f} s"
-    least = float(found.cells.slack[i])
+    i = int(scenario.sag.argmax())
+    sag, at = float(scenario.sag[i]), f"{scenario.place(i)}, {scenario.record.lowest_at[i]:.1f} s"
+    least = float(scenario.cells.slack[i])
     help_ = "raise the take-up's tension, or slow the motion by ramps or flywheels"
-    slack = said(f"the belt goes slack in {quoted(found.place(i))} at {found.record.lowest_at[i]:.1f} s: down to {{}}; "
-                 f"{help_}", (float(found.record.lowest[i]), "force"))  # fmt: skip
+    slack = said(f"the belt goes slack in {quoted(scenario.place(i))} at {scenario.record.lowest_at[i]:.1f} s: down "
+                 f"to {{}}; {help_}", (float(scenario.record.lowest[i]), "force"))  # fmt: skip
     yield compared(
-        "dynamic_slack", "belt is taut", float(found.record.lowest[i]), "at least", least, "force", why=slack, where=at,
+        "dynamic_slack", "belt is taut", float(scenario.record.lowest[i]), "at least", least, "force", why=slack,
+        where=at,
         source=f"sag of {percent(SLACK_SAG.value)} of the span, general knowledge",
     )  # fmt: skip
     most = MOVING_SAG.value
-    why = said(f"the belt sags by {percent(sag)} of the span in {quoted(found.place(i))}; {help_}")
+    why = said(f"the belt sags by {percent(sag)} of the span in {quoted(scenario.place(i))}; {help_}")
     made = compared("dynamic_sag", "sag over the span", sag, "at most", most, "fraction", why=why, where=at)
     yield replace(made, found=said(percent(sag)), asked=said(f"at most {percent(most)} (general knowledge)"))
 
 
-def _lift_off(found: Followed) -> Iterator[Check]:
-    sections = {section.name: section for section in found.line.sections if section.curve == "concave"}
-    stretches = {f"{s.section}, {s.strand}": s for s in found.line.loop.stretches}
-    for peak in peaks(found):
+def _lift_off(scenario: Followed) -> Iterator[Check]:
+    sections = {section.name: section for section in scenario.line.sections if section.curve == "concave"}
+    stretches = {f"{s.section}, {s.strand}": s for s in scenario.line.loop.stretches}
+    for peak in peaks(scenario):
         if peak.section not in sections:
             continue
         stretch, radius = stretches[f"{peak.section}, {peak.strand}"], abs(sections[peak.section].radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=stretch.inclination,
-                                gravity=found.line.gravity)  # fmt: skip
+                                gravity=scenario.line.gravity)  # fmt: skip
         why = said("the empty belt lifts off on the concave curve of {}; at least {} are needed", (radius, "length"),
                    (least, "length"))  # fmt: skip
         yield compared("dynamic_lift_off", f"empty belt stays down, {quoted(peak.section)}, {peak.strand}", radius,
                        "at least", least, "length", why=why, where=f"{peak.highest_at:.1f} s")  # fmt: skip
 
 
-def _grip(found: Followed) -> Iterator[Check]:
-    for d, drive in enumerate(found.ride.drives):
-        way, heat = float(found.record.slipped[d]), float(found.record.heat[d])
+def _grip(scenario: Followed) -> Iterator[Check]:
+    for d, drive in enumerate(scenario.ride.drives):
+        way, heat = float(scenario.record.slipped[d]), float(scenario.record.heat[d])
         why = said(
             f'the belt slips on "{quoted(drive.name)}" by {{}} and heats it with {heat / 1e6:.3g} MJ; raise the '
             "take-up's tension, the wrap or the friction, or slow the motion",
@@ -165,19 +166,19 @@ def _grip(found: Followed) -> Iterator[Check]:
                       asked=said("no slip"))  # fmt: skip
 
 
-def _torque(found: Followed) -> Iterator[Check]:
+def _torque(scenario: Followed) -> Iterator[Check]:
     """Motors keep within their limits; a led one off its ramp at its limit is told how long."""
-    for d, drive in enumerate(found.ride.drives):
-        name, most = quoted(drive.name), float(found.ride.limits()[d].max() / found.ride.rated[d])
-        size = np.abs(found.torque[:, d])
-        held = float((size >= (1.0 - _AT_LIMIT) * most).sum()) * found.record.step
+    for d, drive in enumerate(scenario.ride.drives):
+        name, most = quoted(drive.name), float(scenario.ride.limits()[d].max() / scenario.ride.rated[d])
+        size = np.abs(scenario.torque[:, d])
+        held = float((size >= (1.0 - _AT_LIMIT) * most).sum()) * scenario.record.step
         made = compared("dynamic_torque", f"torque of {name} over rated", float(size.max()), "at most",
                         (1.0 + _AT_LIMIT) * most, "safety", source="its limit")  # fmt: skip
         words = f", at its limit for {held:.1f} s" if held else ""
         yield replace(made, found=said(f"{{}}{words}", (float(size.max()), "safety")))
         if drive.power is not None:
-            turned = found.record.drives["motor"][:, d] * found.record.drives["rim"][:, d]
-            power = float(np.abs(turned).max()) / found.line.efficiency
+            turned = scenario.record.drives["motor"][:, d] * scenario.record.drives["rim"][:, d]
+            power = float(np.abs(turned).max()) / scenario.line.efficiency
             why = said(
                 f'"{name}" gives {{}}, its torque limit allows {{}}',
                 (power, "power"),
@@ -187,71 +188,71 @@ def _torque(found: Followed) -> Iterator[Check]:
                            "power", source="torque limit at overspeed", why=why)  # fmt: skip
 
 
-def _backward(found: Followed) -> Iterator[Check]:
+def _backward(scenario: Followed) -> Iterator[Check]:
     """A belt does not roll back; what holds it does so by the spec's word."""
-    least = float(found.belt_speed.min())
+    least = float(scenario.belt_speed.min())
     why = said("the belt rolls back at {}: a backstop or a brake is needed", (-least, "speed"))
     yield compared(
-        "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACKWARD * found.line.speed,
+        "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACKWARD * scenario.line.speed,
         "speed", source="the swing of a wave, general knowledge", why=why,
     )  # fmt: skip
-    for d, drive in enumerate(found.ride.drives):
-        held = max(0.0, -float(found.record.drives["holding"][:, d].min()))
-        if not found.ride.backstops[d] or held == 0.0:
+    for d, drive in enumerate(scenario.ride.drives):
+        held = max(0.0, -float(scenario.record.drives["holding"][:, d].min()))
+        if not scenario.ride.backstops[d] or held == 0.0:
             continue
         shown = said("{} at the belt", (held, "force"))
         if drive.radius is not None:
             shown = said("{} at the pulley's shaft", (held * drive.radius, "moment"))
-        assumed = found.ride.assumed_backstop
+        assumed = scenario.ride.assumed_backstop
         why = said("the spec names no backstop (drive.backstop); one is assumed")
         yield Check("dynamic_backstop", said(f"backstop of {quoted(drive.name)}"), held, None, "force", shown,
                     said("a backstop"), "not checked" if assumed else "pass", why if assumed else None)  # fmt: skip
 
 
-def _take_up(found: Followed) -> Iterator[Check]:
+def _take_up(scenario: Followed) -> Iterator[Check]:
     """The carriage moves no further than the take-up's travel for start, stop and reserve."""
-    duty = found.ride.given.steady.take_up.travel
-    if duty is None or found.line.take_up.keeps_length:
+    duty = scenario.ride.given.steady.take_up.travel
+    if duty is None or scenario.line.take_up.keeps_length:
         return
-    way = float(np.ptp(found.travel))
+    way = float(np.ptp(scenario.travel))
     room = duty.whole - duty.tensioning
     why = said("the carriage of the take-up moves by {}; its computed travel, with the belt taut, is {}",
                (way, "length"), (room, "length"))  # fmt: skip
     yield compared("dynamic_travel", "way of the take-up's carriage", way, "at most", room, "length", why=why)
 
 
-def _end(found: Followed) -> Iterator[Check]:
+def _end(scenario: Followed) -> Iterator[Check]:
     """A stop comes to rest without running away; a start reaches full speed."""
-    full, top = found.line.speed, float(np.abs(found.belt_speed).max())
-    if found.stops:
+    full, top = scenario.line.speed, float(np.abs(scenario.belt_speed).max())
+    if scenario.stops:
         words = said("not within the calculated time")
-        if found.rests_at is not None:
-            words = said(f"in {found.rests_at:,.1f} s, {{}}", (found.way, "length"))
-        why = said("the belt does not stop; {} at the end", (float(found.belt_speed[-1]), "speed"))
-        yield Check("dynamic_rest", said("stopping"), found.rests_at, None, "duration", words, said("a stop"),
-                    verdict(holds=found.rests_at is not None), why)  # fmt: skip
+        if scenario.rests_at is not None:
+            words = said(f"in {scenario.rests_at:,.1f} s, {{}}", (scenario.way, "length"))
+        why = said("the belt does not stop; {} at the end", (float(scenario.belt_speed[-1]), "speed"))
+        yield Check("dynamic_rest", said("stopping"), scenario.rests_at, None, "duration", words, said("a stop"),
+                    verdict(holds=scenario.rests_at is not None), why)  # fmt: skip
         why = said("the belt runs away to {}", (top, "speed"))
         yield compared("dynamic_overspeed", "speed of the belt", top, "at most", OVERSPEED * full, "speed",
                        source="general knowledge", why=why)  # fmt: skip
-    elif not found.ride.scene.running:
-        end = float(found.belt_speed[-1])
+    elif not scenario.ride.scene.running:
+        end = float(scenario.belt_speed[-1])
         why = said("the belt reaches {}", (end, "speed"))
         yield compared(
             "dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed", why=why
         )
 
 
-def _bulk(found: Followed) -> Iterator[Check]:
+def _bulk(scenario: Followed) -> Iterator[Check]:
     """The bulk stays on the belt, by the mean acceleration between two samples, where it stays at even speed."""
-    line, worst = found.line, []
-    for k, cells in found.stretches():
+    line, worst = scenario.line, []
+    for k, cells in scenario.stretches():
         stretch = line.loop.stretches[k]
         grip = line.bulk_on_belt - abs(np.tan(stretch.inclination))
         if stretch.bulk_mass == 0.0 or grip <= 0.0:
             continue
         low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
-        hardest = float(found.record.slowest[cells.start : cells.stop + 1].min())
-        fastest = float(found.record.fastest[cells.start : cells.stop + 1].max())
+        hardest = float(scenario.record.slowest[cells.start : cells.stop + 1].min())
+        fastest = float(scenario.record.fastest[cells.start : cells.stop + 1].max())
         worst += [
             (-hardest / -low, -hardest, -low, stretch.section),
             (fastest / high, fastest, high, stretch.section),
@@ -269,11 +270,11 @@ CRITERIA: Final[tuple[Callable[[Followed], Iterator[Check]], ...]] = (
 )  # fmt: skip
 
 
-def checks_of(found: CalculatedDynamics) -> tuple[Check, ...]:
+def checks_of(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
     """Every criterion of every scenario; of a backstop, which has no limit, the scenario that loads it most."""
     every = [
         replace(check, case=scenario_case(followed))
-        for followed in found.followed
+        for followed in dynamics.followed
         for criterion in CRITERIA
         for check in criterion(followed)
     ]
@@ -286,6 +287,6 @@ def checks_of(found: CalculatedDynamics) -> tuple[Check, ...]:
     return tuple(check for check in every if check is most.get(check.subject, check))
 
 
-def scenario_case(found: Followed) -> Said:
+def scenario_case(scenario: Followed) -> Said:
     """A scenario as the case of a check."""
-    return said(quoted(found.name))
+    return said(quoted(scenario.name))

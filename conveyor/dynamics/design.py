@@ -78,20 +78,20 @@ def size(
     least, most, below, fails = _least(scenario.name, made, low, high)
     error = None if below is None else least / below - 1.0
     first = fails[0] if fails else None
-    found = Size(
+    sized = Size(
         scenario.name, _LABELS[sought], kind, least, error, most, "" if first is None else first.subject.text(),
         "" if first is None or first.why is None else first.why.text(), _named(made(least), sought, least),
     )  # fmt: skip
-    return _of_take_up(conveyor, scenario, found) if sought == "take-up" else found
+    return _of_take_up(conveyor, scenario, sized) if sought == "take-up" else sized
 
 
 def sized(
     conveyor: Conveyor, scenarios: Sequence[Scenario], sought: Sought, *, error: float = ERROR, **how: Any
 ) -> CalculatedDynamics:
     """Size every scenario, and follow it with what was found; arguments and errors as of `size` and `follow`."""
-    found = tuple(size(conveyor, one, sought) for one in scenarios)
+    sizes = tuple(size(conveyor, one, sought) for one in scenarios)
     _, given = prepared_rides(conveyor, scenarios)
-    return CalculatedDynamics(conveyor, given, refined([one.ride for one in found], error, **how), found)
+    return CalculatedDynamics(conveyor, given, refined([one.ride for one in sizes], error, **how), sizes)
 
 
 def _ramped(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:
@@ -154,14 +154,14 @@ def _followed(made: Callable[[float], Ride], values: list[float], k: int) -> lis
     return side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / (_CELLS * 2**k))
 
 
-def _checks(found: Followed) -> list[Check]:
-    every = [check for criterion in CRITERIA for check in criterion(found)]
+def _checks(scenario: Followed) -> list[Check]:
+    every = [check for criterion in CRITERIA for check in criterion(scenario)]
     return [check for check in every if check.key not in _NOT_SIZED]
 
 
-def _failing(found: Followed) -> list[Check]:
+def _failing(scenario: Followed) -> list[Check]:
     """What of it fails."""
-    return [check for check in _checks(found) if check.failed]
+    return [check for check in _checks(scenario) if check.failed]
 
 
 def _least(
@@ -196,11 +196,11 @@ def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: flo
     best: tuple[float, float, Followed] | None = None
     for k in range(_ROUNDS):
         values = np.linspace(low, high, _TRIED).tolist()
-        found = _followed(made, values, k)
-        serve = [(one.highest, value, one) for value, one in zip(values, found, strict=True)
+        followed = _followed(made, values, k)
+        serve = [(one.highest, value, one) for value, one in zip(values, followed, strict=True)
                  if not _failing(one)]  # fmt: skip
         if not serve and best is None:
-            why = "; ".join(check.why.text() for check in _failing(found[-1]) if check.why is not None)
+            why = "; ".join(check.why.text() for check in _failing(followed[-1]) if check.why is not None)
             raise NoSolutionError(
                 f'scenario "{ride.scene.name}": no delay to {high:.4g} s keeps every criterion: {why}'
             )
@@ -223,14 +223,14 @@ def _named(ride: Ride, sought: str, value: float) -> Ride:
     return replace(ride, scene=replace(ride.scene, name=f"{ride.scene.name}, {sought} {figure}"))
 
 
-def _of_take_up(conveyor: Conveyor, scenario: Scenario, found: Size) -> Size:
+def _of_take_up(conveyor: Conveyor, scenario: Scenario, size: Size) -> Size:
     """The same calculated with the tension in the spec; of a weight its mass."""
     given = conveyor.route.take_up or TakeUp.from_data({"kind": "gravity"})
-    unit = given.replace(tension=f"{found.value:.9g} N", mass=None)
+    unit = given.replace(tension=f"{size.value:.9g} N", mass=None)
     (ride,), _ = prepared_rides(conveyor.replace(route=conveyor.route.replace(take_up=unit)), (scenario,))
-    found = replace(found, ride=_named(ride, "take-up", found.value))
+    size = replace(size, ride=_named(ride, "take-up", size.value))
     if given.kind != "gravity":
-        return found
+        return size
     line = ride.loop.line
 
     def mass(tension: float | None) -> float | None:
@@ -240,8 +240,6 @@ def _of_take_up(conveyor: Conveyor, scenario: Scenario, found: Size) -> Size:
             tension, reeving=line.take_up.reeving, gravity=line.gravity, strands=line.take_up.strands
         )
 
-    value = mass(found.value)
+    value = mass(size.value)
     assert value is not None  # noqa: S101 it has a tension
-    return replace(
-        found, label="mass of the take-up's weight", kind="mass", value=value, most=mass(found.most)
-    )
+    return replace(size, label="mass of the take-up's weight", kind="mass", value=value, most=mass(size.most))

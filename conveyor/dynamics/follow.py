@@ -299,17 +299,17 @@ def refined(
         return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
 
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
-    open_ones, found = list(range(len(rides))), dict(enumerate(beside(list(rides), step)))
+    open_ones, followed = list(range(len(rides))), dict(enumerate(beside(list(rides), step)))
     for _ in range(_REFINED):
         if progress is not None:
             progress(len(rides) - len(open_ones), len(rides))
         step *= 0.5
         for i, now in zip(open_ones, beside([rides[i] for i in open_ones], step), strict=True):
-            found[i] = replace(now, error=_error(found[i], now))
-        open_ones = [i for i in open_ones if (found[i].error or 0.0) > error]
+            followed[i] = replace(now, error=_error(followed[i], now))
+        open_ones = [i for i in open_ones if (followed[i].error or 0.0) > error]
         if not open_ones:
-            return tuple(found[i] for i in range(len(rides)))
-    worst = max((found[i] for i in open_ones), key=lambda one: one.error or 0.0)
+            return tuple(followed[i] for i in range(len(rides)))
+    worst = max((followed[i] for i in open_ones), key=lambda one: one.error or 0.0)
     raise NoSolutionError(
         f'scenario "{worst.name}": its peaks still change by {percent(worst.error or 0.0, 1)} at cells of {step:.3g} '
         "s: ask for a "
@@ -399,16 +399,16 @@ def _case(conveyor: Conveyor, scenario: Scenario) -> LoadCase:
 
 
 def _answers(variants: list[Variant], *, one_take_up: bool = False) -> list[CalculatedConveyor]:
-    found = []
+    results = []
     for one in calculate_many(variants, one_take_up=one_take_up):
         if not isinstance(one, CalculatedConveyor):
             raise one
-        found.append(one)
-    return found
+        results.append(one)
+    return results
 
 
-def _assumed(found: CalculatedDynamics) -> Iterator[str]:
-    line = found.given.line
+def _assumed(dynamics: CalculatedDynamics) -> Iterator[str]:
+    line = dynamics.given.line
     if line.belt.retardation is None and line.belt.relaxing is None:
         yield f"belt.carcass.retardation_time not given: {BELT_RETARDATION.value:g} s, general knowledge"
     if line.belt.stiffness is None:
@@ -420,13 +420,13 @@ def _assumed(found: CalculatedDynamics) -> Iterator[str]:
         )
     if line.take_up.kind == "slack side":
         yield "route.take_up not given: a weight on the slack side of the drive"
-    if any(float(followed.record.slipped.max()) > 0.0 for followed in found.followed):
+    if any(float(followed.record.slipped.max()) > 0.0 for followed in dynamics.followed):
         yield (
             f"drag of a drive without power, whose belt slips, not given: {percent(DRIVE_DRAG.value)} of its "
             "loss at rated "
             "power, general knowledge"
         )
-    for followed in found.followed:
+    for followed in dynamics.followed:
         yield from _assumed_drives(followed.ride)
 
 

@@ -237,10 +237,10 @@ def _turned(values: Array, line: Line) -> Array:
     return np.roll(values, line.count)
 
 
-def _along(found: CalculatedConveyor) -> tuple[Array, Array]:
+def _along(result: CalculatedConveyor) -> tuple[Array, Array]:
     """Friction and slope resistance of every stretch [N]."""
-    friction, weight = np.zeros(2 * found.line.count), np.zeros(2 * found.line.count)
-    for force in found.balance.along:
+    friction, weight = np.zeros(2 * result.line.count), np.zeros(2 * result.line.count)
+    for force in result.balance.along:
         if force.certain:
             weight = weight + force.newtons
         else:
@@ -258,10 +258,10 @@ def _over_speed(speed: float, slower: Sequence[Array], full: Array, line: Line) 
     )
 
 
-def _lumps(found: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iterator[_Lump]:
+def _lumps(result: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iterator[_Lump]:
     """Forces at places, and the pulleys that no drive turns."""
-    speed = found.line.speed
-    for force in found.balance.singles:
+    speed = result.line.speed
+    for force in result.balance.singles:
         if force.spot is None:
             continue
         at = distance(force.spot)
@@ -271,7 +271,7 @@ def _lumps(found: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iter
             yield _Lump(at, square=force.total / speed**2)
         else:
             yield _Lump(at, friction=force.total)
-    for pulley in found.line.pulleys:
+    for pulley in result.line.pulleys:
         if not pulley.driven:
             yield _Lump(distance(pulley.spot), mass=PULLEY_INERTIA.value * pulley.mass)
 
@@ -284,17 +284,17 @@ def _apart(times: Array, whole: float, step: float) -> list[float]:
     NoSolutionError
         There is no room for them.
     """
-    found = [0.0 if t < 0.5 * step else whole if t > whole - 0.5 * step else float(t) for t in times]
-    order = sorted(range(len(found)), key=lambda i: found[i])
+    instants = [0.0 if t < 0.5 * step else whole if t > whole - 0.5 * step else float(t) for t in times]
+    order = sorted(range(len(instants)), key=lambda i: instants[i])
     for k, i in enumerate(order):
-        least = found[order[k - 1]] + step if k else step
-        found[i] = found[i] if k == 0 and found[i] == 0.0 else max(found[i], least)
+        least = instants[order[k - 1]] + step if k else step
+        instants[i] = instants[i] if k == 0 and instants[i] == 0.0 else max(instants[i], least)
     latest = whole
     for i in reversed(order):
-        if found[i] > latest - step and latest == whole and found[i] != whole:
-            latest = whole if found[i] > whole - 0.5 * step else whole - step
-        found[i] = min(found[i], latest)
-        latest = found[i] - step
-    if found and min(found) < 0.0:
+        if instants[i] > latest - step and latest == whole and instants[i] != whole:
+            latest = whole if instants[i] > whole - 0.5 * step else whole - step
+        instants[i] = min(instants[i], latest)
+        latest = instants[i] - step
+    if instants and min(instants) < 0.0:
         raise NoSolutionError("the belt is too short for waves between its drives: a rigid belt will do")
-    return found
+    return instants

@@ -81,17 +81,17 @@ class Ride:
     @cached_property
     def rated(self) -> Array:
         """Rated force of the motors at the belt [N]; where not given the largest steady one of loaded belt or spec."""
-        line, found = self.loop.line, []
+        line, torques = self.loop.line, []
         for drive in self.drives:
             if drive.power is None:
                 largest = max(
                     abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force)
                 )
-                found.append(max(drive.share, 1.0 / len(self.drives)) * largest)
+                torques.append(max(drive.share, 1.0 / len(self.drives)) * largest)
             else:
-                found.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
+                torques.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
                                          rated_belt_speed=line.speed))  # fmt: skip
-        return np.array(found)
+        return np.array(torques)
 
     @cached_property
     def rims(self) -> Array:

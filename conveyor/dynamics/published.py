@@ -103,8 +103,8 @@ def lodewijks(shape: str, rising: float = 0.5) -> float:
         speed, rising,
     )  # fmt: skip
     at = np.linspace(0.0, 50.0, 1001)
-    found, _ = loop.followed(50.0, speed * ramp(at / time, shape=shape), 0.16)
-    return float(found.highest.max()) / stiffness
+    tensions, _ = loop.followed(50.0, speed * ramp(at / time, shape=shape), 0.16)
+    return float(tensions.highest.max()) / stiffness
 
 
 @dataclass(frozen=True)
@@ -122,15 +122,15 @@ def harrison() -> HarrisonStart:
     loop = EvenLoop(((2.0 * length, mass, 0.0),), mass * 1450.0**2, 49e3, 20e3 / 16.0, 1.0)
     whole = 170.0
     at = np.linspace(0.0, whole, 17001)
-    found, _ = loop.followed(whole, 1.6 * ramp(at / 4.0, shape="cosine"), 0.1)
-    behind = np.abs(found.speeds[:, 0, 0])
-    belt, times = found.take_up["belt"][:, 0], found.step * np.arange(len(found.take_up["belt"]))
+    tensions, _ = loop.followed(whole, 1.6 * ramp(at / 4.0, shape="cosine"), 0.1)
+    behind = np.abs(tensions.speeds[:, 0, 0])
+    belt, times = tensions.take_up["belt"][:, 0], tensions.step * np.arange(len(tensions.take_up["belt"]))
     after = times > 10.0
     swing = (belt[after] - belt[after].mean()) * np.hanning(int(after.sum()))
     periods = np.linspace(20.0, 40.0, 401)
     power = [abs(swing @ np.exp(-2j * np.pi * times[after] / period)) for period in periods]
     return HarrisonStart(
-        float(found.times[int(np.argmax(behind > 0.05 * 1.6))]),
+        float(tensions.times[int(np.argmax(behind > 0.05 * 1.6))]),
         abs(float(np.interp(7.0, times, belt))) / 4.0,
         float(periods[int(np.argmax(power))]),
     )
@@ -145,11 +145,11 @@ def nordell_ciozda() -> tuple[float, float]:
         tuple((_FOOT * length, mass, 0.0) for length, mass in feet), stiffness, 1e6, 0.0, speed,
         drive=_FOOT * (2700.0 + 8150.0 + 5150.0),
     )  # fmt: skip
-    found, at = loop.followed(8.0, np.array([1.0, *np.zeros(800)]), 0.02)
-    slower = found.speeds[:, 0] < 0.97
+    tensions, at = loop.followed(8.0, np.array([1.0, *np.zeros(800)]), 0.02)
+    slower = tensions.speeds[:, 0] < 0.97
 
     def arrival(place: float) -> float:
         i = int(np.argmin(np.abs(at - place)))
-        return float(found.times[int(np.argmax(slower[:, i]))])
+        return float(tensions.times[int(np.argmax(slower[:, i]))])
 
     return arrival(_FOOT * (2700.0 + 3000.0)), arrival(0.0)

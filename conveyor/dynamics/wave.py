@@ -228,9 +228,9 @@ class _Extremes:
             (block.argmax(axis=0), self.high, self.high_at, np.greater),
             (block.argmin(axis=0), self.low, self.low_at, np.less),
         ):
-            found = np.take_along_axis(block, extreme[None], axis=0)[0]
-            new = better(found, best)
-            best[new] = found[new]
+            extremes = np.take_along_axis(block, extreme[None], axis=0)[0]
+            new = better(extremes, best)
+            best[new] = extremes[new]
             at[new] = (self.first + extreme)[new]
         self.first += self.count
         self.count = 0
@@ -334,8 +334,8 @@ class _Solver:
         self.answer = np.take_along_axis(self.columns, chain.nodes[:, :, None], axis=2)[:, :, 0]
 
     def _banded(self, right: Array) -> Array:
-        found, _ = dpttrs(self.lower, self.off, right.ravel())
-        return np.asarray(found).reshape(right.shape)
+        solution, _ = dpttrs(self.lower, self.off, right.ravel())
+        return np.asarray(solution).reshape(right.shape)
 
     def _apart(self, speed: Array) -> Array:
         """How much faster the belt runs into the take-up than out of it."""

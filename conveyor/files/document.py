@@ -159,10 +159,10 @@ def read_document(path: Path) -> Document:
     if root is None:
         raise InputError(f"{path}:1:1 file: empty; expected fields (key: value)")
     if not isinstance(root, MappingNode):
-        found = "a list" if isinstance(root, SequenceNode) else "a single value"
+        given = "a list" if isinstance(root, SequenceNode) else "a single value"
         place = _place(root)
         raise InputError(
-            f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {found}"
+            f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {given}"
         )
     reader = _Reader(str(path))
     read = reader.value(root, ())

@@ -92,14 +92,14 @@ def entry(library: Library, name: str) -> Entry:
     """
     known = entries(library)
     folded = {other.casefold(): other for other in known}
-    found = folded.get(name.casefold().strip())
-    if found is None:
+    name_there = folded.get(name.casefold().strip())
+    if name_there is None:
         near = difflib.get_close_matches(name.casefold(), folded, n=1)
         guess = f'; did you mean "{folded[near[0]]}"?' if near else ";"
         raise InputError(
             f'"{shortened(name)}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
         )
-    return known[found]
+    return known[name_there]
 
 
 def belts() -> pd.DataFrame:
@@ -169,10 +169,10 @@ def flat(fields: Mapping[str, Any], above: str = "") -> dict[str, Any]:
     >>> flat({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}})
     {'mass': '27 kg/m^2', 'carcass.kind': 'EP'}
     """
-    found: dict[str, Any] = {}
+    flattened: dict[str, Any] = {}
     for name, value in fields.items():
         if isinstance(value, Mapping):
-            found |= flat(value, f"{above}{name}.")
+            flattened |= flat(value, f"{above}{name}.")
         else:
-            found[f"{above}{name}"] = value
-    return found
+            flattened[f"{above}{name}"] = value
+    return flattened

@@ -68,11 +68,11 @@ def mark(content: bytes) -> str | None:
         or (head.startswith(b"%PDF") and b"/Creator (conveyor " in content),
         TABLE: content.startswith(b"PAR1") and PARQUET.encode() in content,
     }
-    found = next((kind for kind, known in signs.items() if known), None)
-    if found is None and content.startswith(_BOM):
+    kind_there = next((kind for kind, known in signs.items() if known), None)
+    if kind_there is None and content.startswith(_BOM):
         headings = content.partition(b"\r\n")[0].decode("utf-8-sig", "replace")
         return f"{TABLE}: {_UNIT.sub('', headings)}"
-    return found
+    return kind_there
 
 
 def _is_report(content: bytes) -> bool:

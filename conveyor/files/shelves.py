@@ -41,16 +41,16 @@ def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
     listed += [Path(folder) for folder in os.environ.get(ENVIRONMENT, "").split(os.pathsep) if folder]
     for folder in listed:
         if not folder.is_dir():
-            found = "is a file, no folder" if folder.is_file() else "no such folder"
+            why = "is a file, no folder" if folder.is_file() else "no such folder"
             raise InputError(
-                f"shelf {folder}: {found} (given by --shelf, shelves= or the variable {ENVIRONMENT})"
+                f"shelf {folder}: {why} (given by --shelf, shelves= or the variable {ENVIRONMENT})"
             )
     return [*listed, built_in()]
 
 
 def files(extra: Iterable[str | Path]) -> dict[str, list[Path]]:
     """Find the compound files by their name on the shelf: the file's name without its ending."""
-    found: dict[str, list[Path]] = {}
+    by_name: dict[str, list[Path]] = {}
     unique = {folder.resolve(): folder for folder in folders(extra)}
     for folder in unique.values():
         try:
@@ -59,5 +59,5 @@ def files(extra: Iterable[str | Path]) -> dict[str, list[Path]]:
             raise InputError(f"shelf {folder}: cannot be read ({error.strerror or error})") from None
         for path in listed:
             if path.suffix.lower() in SUFFIXES:
-                found.setdefault(path.stem.casefold(), []).append(path)
-    return found
+                by_name.setdefault(path.stem.casefold(), []).append(path)
+    return by_name

@@ -95,7 +95,7 @@ def plain_json(said: str) -> str:
 
 def _plain(said: str, words: tuple[tuple[str, str], ...]) -> str:
     for pattern, plain in words:
-        found = re.search(pattern, said, re.DOTALL)
-        if found is not None:
-            return plain.replace(r"\1", found[1]) if found.groups() else plain
+        match = re.search(pattern, said, re.DOTALL)
+        if match is not None:
+            return plain.replace(r"\1", match[1]) if match.groups() else plain
     return " ".join(said.split())

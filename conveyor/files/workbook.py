@@ -83,8 +83,8 @@ class Sheet:
 
     def text(self, row: int, column: int) -> str:
         """Return the text of a cell, "" where it holds no value."""
-        found = self.cells.get((row, column))
-        return str(found.value).strip() if found is not None and found.kind == "value" else ""
+        cell = self.cells.get((row, column))
+        return str(cell.value).strip() if cell is not None and cell.kind == "value" else ""
 
     def rows(self) -> list[int]:
         """Return the rows that hold anything."""
@@ -205,13 +205,13 @@ def _on_sheet(reference: str) -> bool:
     """Whether a row's number or a cell's name is one that a sheet has; what is neither is for the reader to refuse."""
     if reference.isdecimal():
         return len(reference) < 9 and int(reference) <= LAST_ROW
-    found = _REFERENCE.fullmatch(reference)
-    if found is None:
+    match = _REFERENCE.fullmatch(reference)
+    if match is None:
         return True
     column = 0
-    for letter in found[1].upper():
+    for letter in match[1].upper():
         column = 26 * column + ord(letter) - ord("A") + 1
-    return column <= LAST_COLUMN and int(found[2]) <= LAST_ROW
+    return column <= LAST_COLUMN and int(match[2]) <= LAST_ROW
 
 
 def _sheet(sheet: Any, place: str) -> Sheet:
@@ -240,9 +240,9 @@ def _sheet(sheet: Any, place: str) -> Sheet:
         )
         for _, row in parser.parse():
             for read in row:
-                found = _found(ReadOnlyCell(sheet, **read))
+                values = _found(ReadOnlyCell(sheet, **read))
                 where = (read["row"], read["column"])
-                if found is not None and cells.setdefault(where, found) is not found:
+                if values is not None and cells.setdefault(where, values) is not values:
                     cell = f"{get_column_letter(where[1])}{where[0]}"
                     raise InputError(
                         f"{place}: sheet '{sheet.title}' has cell {cell} twice; open and save the workbook again"

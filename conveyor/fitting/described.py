@@ -28,10 +28,10 @@ _FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run o
 
 
 def as_fitted(
-    read: Sequence[DmaData], request: Request, found: tuple[str, PronyFit], band: ReplicaBand | None
+    read: Sequence[DmaData], request: Request, fitted: tuple[str, PronyFit], band: ReplicaBand | None
 ) -> dict[str, Any]:
     """What a compound file says of a fit at its reference temperature, with its band."""
-    reference, fit = found
+    reference, fit = fitted
     described = of_series(read, request, reference, fit.series, fit.window)
     if band is not None:
         described["prony"]["band"] = _band(band)

@@ -24,24 +24,24 @@ _LINE: Final = 0.13  # of a plot's height, between names beside it
 _NAMED: Final = 6  # isotherms in a legend; of more every few are named
 
 
-def figures(found: Fitted) -> Iterator[tuple[str, str, Figure]]:
+def figures(fitted: Fitted) -> Iterator[tuple[str, str, Figure]]:
     """Name, caption and figure of everything that the data allow to draw."""
-    sweeps = np.unique(found.rows.temperature).size > 1
+    sweeps = np.unique(fitted.rows.temperature).size > 1
     if sweeps:
-        yield "isotherms", "Isotherms before and after shifting; E' filled, E'' open.", isotherms(found)
-    if found.laws:
+        yield "isotherms", "Isotherms before and after shifting; E' filled, E'' open.", isotherms(fitted)
+    if fitted.laws:
         yield (
             "shifts",
             "Shift factors with their standard errors, and the laws; below: law less shift.",
-            shifts(found),
+            shifts(fitted),
         )
     caption = (
         "Free of frequency: van Gurp-Palmen above, Cole-Cole below. Rows of one material lie on one curve."
     )
-    yield "collapse", caption, frequency_free(found)
+    yield "collapse", caption, frequency_free(fitted)
     caption = "Series less data, over data, row by row; shaded: scatter of the rows themselves."
-    yield "residuals", caption, residuals(found)
-    yield "band", "Master curve, series and its 90 % band.", band(found)
+    yield "residuals", caption, residuals(fitted)
+    yield "band", "Master curve, series and its 90 % band.", band(fitted)
 
 
 def _shades(values: np.ndarray) -> list[Any]:
@@ -82,13 +82,13 @@ def _beside(axis: Axes) -> None:
         mark.set_label("_")  # named; a page gives other colours to what has a label
 
 
-def _reduced(found: Fitted) -> str:
-    return f"frequency at {celsius(found.compound.reference):.4g} °C [Hz]"
+def _reduced(fitted: Fitted) -> str:
+    return f"frequency at {celsius(fitted.compound.reference):.4g} °C [Hz]"
 
 
-def isotherms(found: Fitted) -> Figure:
+def isotherms(fitted: Fitted) -> Figure:
     """E' and E'' over frequency, as measured above, shifted below."""
-    rows = found.rows
+    rows = fitted.rows
     made, (above, below) = stacked(2, _HEIGHT)
     reduced, storage, loss = rows.curve
 
@@ -102,16 +102,16 @@ def isotherms(found: Fitted) -> Figure:
     above.set(
         xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="E', E'' [MPa]", title="as measured"
     )
-    below.set(xscale="log", yscale="log", xlabel=_reduced(found), ylabel="E', E'' [MPa]")
+    below.set(xscale="log", yscale="log", xlabel=_reduced(fitted), ylabel="E', E'' [MPa]")
     _beside(above)
     return made
 
 
-def shifts(found: Fitted) -> Figure:
+def shifts(fitted: Fitted) -> Figure:
     """log10 a_T over temperature with the laws; below, what the laws miss."""
     made, (above, below) = stacked(2, _HEIGHT)
-    shifted = found.superposition
-    table = next(law.law for law in found.laws if isinstance(law.law, ShiftTable))
+    shifted = fitted.superposition
+    table = next(law.law for law in fitted.laws if isinstance(law.law, ShiftTable))
     kelvin = shifted.temperatures if shifted is not None else table.temperatures
     decades = shifted.log10_a_T if shifted is not None else table.log10_factors
     nearest = table.reference  # where the laws are 0
@@ -121,7 +121,7 @@ def shifts(found: Fitted) -> Figure:
     above.errorbar(
         kelvin - ZERO_CELSIUS, decades, error, fmt="o", color="0.1", markersize=3.5, capsize=2, label="shifts"
     )
-    known = [(law, law.law) for law in found.laws if law.law is not None]
+    known = [(law, law.law) for law in fitted.laws if law.law is not None]
     for k, (law, shift) in enumerate(known):
         drawn = zero + shift.log10_a_T(np.clip(at, law.low, law.high))
         above.plot(at - ZERO_CELSIUS, drawn, color=colour(k), label=f"{law.name}, rms {law.rms:.2f}")
@@ -138,9 +138,9 @@ def shifts(found: Fitted) -> Figure:
     return made
 
 
-def frequency_free(found: Fitted) -> Figure:
+def frequency_free(fitted: Fitted) -> Figure:
     """Phase angle over |E*| above, E'' over E' below: without frequency, so without shift."""
-    rows = found.rows
+    rows = fitted.rows
     made, (above, below) = stacked(2, _HEIGHT)
     _, stored, lost = rows.curve
     angle, modulus = np.degrees(np.arctan2(lost, stored)), np.hypot(stored, lost) / 1e6
@@ -150,8 +150,8 @@ def frequency_free(found: Fitted) -> Figure:
         _marked(below, stored[here] / 1e6, lost[here] / 1e6, shade, None)
 
     _by_temperature(rows, draw)
-    low, high = found.fit.window
-    series = found.fit.series
+    low, high = fitted.fit.window
+    series = fitted.fit.series
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
     storage, loss = series.storage(omega), series.loss(omega)
     above.plot(
@@ -165,26 +165,26 @@ def frequency_free(found: Fitted) -> Figure:
     return made
 
 
-def residuals(found: Fitted) -> Figure:
+def residuals(fitted: Fitted) -> Figure:
     """Series over data less one: E' above, E'' below."""
     from matplotlib.ticker import MaxNLocator
 
     made, axes = stacked(2, _HEIGHT)
-    f, storage, loss = found.rows.curve
-    omega, series = 2.0 * np.pi * f, found.fit.series
+    f, storage, loss = fitted.rows.curve
+    omega, series = 2.0 * np.pi * f, fitted.fit.series
     both = (
-        (series.storage(omega), storage, found.fit.storage_noise),
-        (series.loss(omega), loss, found.fit.loss_noise),
+        (series.storage(omega), storage, fitted.fit.storage_noise),
+        (series.loss(omega), loss, fitted.fit.loss_noise),
     )
     for axis, (model, data, noise), label in zip(axes, both, ("E'", "E''"), strict=True):
-        for k, name in enumerate(found.files):
-            mine = found.rows.file == k
+        for k, name in enumerate(fitted.files):
+            mine = fitted.rows.file == k
             _marked(axis, f[mine], 100.0 * (model / data - 1.0)[mine], colour(k), name)
         if noise is not None:
             axis.axhspan(-100.0 * noise, 100.0 * noise, color="0.5", alpha=0.2, linewidth=0)
         axis.axhline(0.0, color="0.3", linewidth=0.8)
         axis.yaxis.set_major_locator(MaxNLocator(4))
         axis.set(xscale="log", ylabel=f"error of {label} [%]")
-    axes[1].set(xlabel=_reduced(found))
+    axes[1].set(xlabel=_reduced(fitted))
     _beside(axes[0])
     return made

@@ -134,10 +134,10 @@ def stored_law(laws: Sequence[ShiftComparison], reference: float, request: Reque
         raise InputError(
             f"--law {request.law}: shifts at {LEAST_TEMPERATURES} temperatures and more are needed"
         )
-    (found,) = (law for law in laws if law.name.lower() == request.law)
-    if isinstance(found.law, WLF | Arrhenius):
-        return _moved(found.law, reference)
-    raise InputError(f"--law {request.law}: the shifts do not follow it: {found.remark}")
+    (law_asked,) = (law for law in laws if law.name.lower() == request.law)
+    if isinstance(law_asked.law, WLF | Arrhenius):
+        return _moved(law_asked.law, reference)
+    raise InputError(f"--law {request.law}: the shifts do not follow it: {law_asked.remark}")
 
 
 def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
@@ -148,11 +148,11 @@ def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
     return WLF(law.c1 * law.c2 / c2, c2, reference)
 
 
-def law_maker(found: Superposition, law: WLF | Arrhenius) -> Callable[[Array], WLF | Arrhenius]:
+def law_maker(superposition: Superposition, law: WLF | Arrhenius) -> Callable[[Array], WLF | Arrhenius]:
     """What makes a law of the same kind of other log10 a_T at the temperatures of the isotherms, as `laws_of` does."""
-    kelvin, fit = found.temperatures, fit_wlf if isinstance(law, WLF) else fit_arrhenius
+    kelvin, fit = superposition.temperatures, fit_wlf if isinstance(law, WLF) else fit_arrhenius
     nearest = int(np.argmin(np.abs(kelvin - law.reference)))
-    error = np.maximum(found.log10_a_T_error, _SMALLEST_ERROR)
+    error = np.maximum(superposition.log10_a_T_error, _SMALLEST_ERROR)
 
     def made(decades: Array) -> WLF | Arrhenius:
         return _moved(
@@ -224,13 +224,15 @@ def _stated(read: DmaData) -> Iterator[tuple[str, str]]:
         yield f"{data}:{read.row_numbers[0]}: column of the temperature", f"{mean:.{DIGITS}g} degC"
 
 
-def _check_order(read: Sequence[DmaData], parts: Sequence[Sweep], found: Superposition, by: str) -> None:
+def _check_order(
+    read: Sequence[DmaData], parts: Sequence[Sweep], superposition: Superposition, by: str
+) -> None:
     """Refuse shifts that do not fall with temperature, with the exchange of two temperatures that would mend them."""
-    shifts = found.log10_a_T
+    shifts = superposition.log10_a_T
     rising = np.flatnonzero(np.diff(shifts) >= 0.0)
     if not rising.size:
         return
-    names = [f"{celsius(t):.2f} degC" for t in found.temperatures.tolist()]
+    names = [f"{celsius(t):.2f} degC" for t in superposition.temperatures.tolist()]
     ordered = sorted(parts, key=lambda part: part.isotherm.temperature)
     rows, cold = [part.first_row for part in ordered], int(rising[0])
     advice = (

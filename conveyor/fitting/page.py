@@ -21,7 +21,7 @@ _LINE: Final = "flex: 1; border-top: 1px solid; padding-top: .2rem; margin-top: 
 
 
 def build(
-    found: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
+    fitted: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
 ) -> Html:
     """Return the page of a fit.
 
@@ -37,15 +37,15 @@ def build(
     paper : {"A4", "Letter"}
         To print on.
     """
-    known = tables.said(found, document)
+    known = tables.said(fitted, document)
     said = [(name, known.get(name, Html("&nbsp;"))) for name in tables.DOCUMENT]
-    compound = found.compound
-    drawn = [figure(inline(made, f"fit-{name}", caption), caption) for name, caption, made in figures(found)]
+    compound = fitted.compound
+    drawn = [figure(inline(made, f"fit-{name}", caption), caption) for name, caption, made in figures(fitted)]
     parts = (
-        Part("verdict", "Verdict", _verdict(found, criteria)),
+        Part("verdict", "Verdict", _verdict(fitted, criteria)),
         Part("figures", "Figures", joined(drawn)),
-        Part("tables", "Shifts and files", joined(_tables(found))),
-        Part("read", "What was read and done", element("div", bullets(found.understood), class_="note")),
+        Part("tables", "Shifts and files", joined(_tables(fitted))),
+        Part("read", "What was read and done", element("div", bullets(fitted.understood), class_="note")),
         Part("unknown", "Not known", bullets(compound.missing)),
         Part("glossary", "Glossary", _glossary()),
     )
@@ -55,7 +55,7 @@ def build(
     )  # fmt: skip
 
 
-def _verdict(found: Fitted, criteria: Sequence[Criterion]) -> Html:
+def _verdict(fitted: Fitted, criteria: Sequence[Criterion]) -> Html:
     """The verdict, its criteria, what the compound is, and lines to sign on: the first sheet."""
     count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
     counted = joined(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
@@ -69,13 +69,13 @@ def _verdict(found: Fitted, criteria: Sequence[Criterion]) -> Html:
         style="display: flex; gap: 3rem",
         class_="keep",
     )
-    sheet = element("div", line, facts(tables.facts(found)), shown, signed, style="break-after: page")
+    sheet = element("div", line, facts(tables.facts(fitted)), shown, signed, style="break-after: page")
     return joined([sheet])
 
 
-def _tables(found: Fitted) -> list[Html]:
+def _tables(fitted: Fitted) -> list[Html]:
     """Tables behind the figures, with their headings as captions."""
-    every = (tables.shifts(found), tables.laws(found), tables.files(found))
+    every = (tables.shifts(fitted), tables.laws(fitted), tables.files(fitted))
     return [table(shown, shown.heading) for shown in every if not shown.empty]
 
 

@@ -80,11 +80,13 @@ class ShiftFactors(NamedTuple):
     log10_b_T: Array | None  # noqa: N815
 
 
-def shift_factors(found: Superposition | None, given: DmaData | None) -> ShiftFactors | None:
+def shift_factors(superposition: Superposition | None, given: DmaData | None) -> ShiftFactors | None:
     """Those of a superposition, else of a file."""
-    if found is not None:
-        vertical = found.log10_b_T if np.any(found.log10_b_T) else None
-        return ShiftFactors(found.temperatures, found.log10_a_T, found.log10_a_T_error, vertical)
+    if superposition is not None:
+        vertical = superposition.log10_b_T if np.any(superposition.log10_b_T) else None
+        return ShiftFactors(
+            superposition.temperatures, superposition.log10_a_T, superposition.log10_a_T_error, vertical
+        )
     if given is None or given.temperature is None or given.log10_a_T is None:
         return None
     return ShiftFactors(given.temperature, given.log10_a_T, None, given.log10_b_T)
@@ -94,20 +96,20 @@ def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaD
     """Files without the rows that a person names, 12-15,20 or isotherms.csv:12-15,20; and a sentence a file."""
     left, said = list(reads), []
     for given in exclude:
-        found = _ROWS.fullmatch(given.strip())
-        if found is None:
+        match = _ROWS.fullmatch(given.strip())
+        if match is None:
             raise InputError(
                 f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
             )
         named = [
-            k for k, read in enumerate(reads) if found["file"] in {None, read.source, Path(read.source).name}
+            k for k, read in enumerate(reads) if match["file"] in {None, read.source, Path(read.source).name}
         ]
         if len(named) != 1:
             names = ", ".join(Path(read.source).name for read in reads)
             raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
         (k,) = named
         kept = np.ones(left[k].row_numbers.size, dtype=np.bool_)
-        for part in found["rows"].split(","):
+        for part in match["rows"].split(","):
             low, _, high = part.partition("-")
             kept &= (left[k].row_numbers < int(low)) | (left[k].row_numbers > int(high or low))
         gone = int(np.count_nonzero(~kept))
@@ -116,18 +118,18 @@ def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaD
             raise InputError(f'--exclude: "{given}": {left[k].source} {what}')
         columns = {name: getattr(left[k], name) for name in _COLUMNS}
         left[k] = replace(left[k], **{name: c[kept] for name, c in columns.items() if c is not None})
-        said.append(f"{Path(left[k].source).name}: {gone} row(s) excluded by hand: {found['rows']}")
+        said.append(f"{Path(left[k].source).name}: {gone} row(s) excluded by hand: {match['rows']}")
     return left, tuple(said)
 
 
 def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:
     """Frequency sweeps of all files, those of relaxation converted; `stated` temperatures of files [K]."""
-    found: list[Sweep] = []
+    taken: list[Sweep] = []
     said = []
     for number, read in enumerate(reads):
         if read.kind == "isotherms":
             rows = read.isotherms()
-            found += [
+            taken += [
                 Sweep(
                     number, Isotherm(s.temperature, s.frequency, s.storage, s.loss), int(s.row_numbers.min())
                 )
@@ -135,15 +137,15 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
             ]
         elif read.kind == "master curve":
             at = _temperature(read, number, stated)
-            found.append(Sweep(number, Isotherm(at, *moduli_of(read)), int(read.row_numbers.min())))
+            taken.append(Sweep(number, Isotherm(at, *moduli_of(read)), int(read.row_numbers.min())))
         elif read.kind == "relaxation":
             converted = list(_relaxed(read, number, stated))
-            found += converted
+            taken += converted
             said.append(
                 f"{Path(read.source).name}: {len(converted)} relaxation curve(s), each as the frequency sweep that "
                 "says the same, a decade inside its window"
             )
-    return found, tuple(said)
+    return taken, tuple(said)
 
 
 def _temperature(read: DmaData, number: int, stated: Mapping[int, float]) -> float:
@@ -180,20 +182,20 @@ def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterato
         yield Sweep(number, Isotherm(at, *converted), int(read.row_numbers[rows].min()))
 
 
-def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
+def overridden(superposition: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
     """Put shift factors of a file in place of those found, each at the isotherm of its temperature."""
-    shift, vertical = found.log10_a_T.copy(), found.log10_b_T.copy()
-    error, said = found.log10_a_T_error.copy(), []
-    covariance = found.joint_covariance.copy()
+    shift, vertical = superposition.log10_a_T.copy(), superposition.log10_b_T.copy()
+    error, said = superposition.log10_a_T_error.copy(), []
+    covariance = superposition.joint_covariance.copy()
     own = shift_factors(None, given)
     if own is None:
         raise InputError(f"{given.source}: holds no shift factors")
     for k, (t, a) in enumerate(zip(own.temperatures.tolist(), own.log10_a_T.tolist(), strict=True)):
-        at = int(np.argmin(np.abs(found.temperatures - t)))
-        if abs(found.temperatures[at] - t) > ISOTHERM_GAP:
+        at = int(np.argmin(np.abs(superposition.temperatures - t)))
+        if abs(superposition.temperatures[at] - t) > ISOTHERM_GAP:
             raise InputError(
                 f"{given.source}:{given.row_numbers[k]}: no isotherm at {t - 273.15:.2f} degC; those measured are at "
-                + ", ".join(f"{kelvin - 273.15:.2f}" for kelvin in found.temperatures.tolist())
+                + ", ".join(f"{kelvin - 273.15:.2f}" for kelvin in superposition.temperatures.tolist())
             )
         said.append(
             f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades"
@@ -203,7 +205,7 @@ def overridden(found: Superposition, given: DmaData) -> tuple[Superposition, tup
         if own.log10_b_T is not None:
             vertical[at] = own.log10_b_T[k]
     moved = replace(
-        found, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance
+        superposition, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance
     )
     return moved, tuple(said)
 
@@ -239,21 +241,23 @@ def laid(
     parts: Sequence[Sweep],
     ramps: Sequence[tuple[int, DmaData]],
     law: ShiftLaw | None,
-    found: Superposition | None,
+    superposition: Superposition | None,
     whole: tuple[int, float, DmaData, Array | float] | None,
 ) -> tuple[MeasuredRows, tuple[str, ...]]:
     """Lay sweeps, temperature sweeps and a whole curve (file, reference [K], rows, log10 b_T) by a shift law."""
     columns: list[tuple[Any, ...]] = []
     vertical: dict[float, float] = {}
-    if found is not None:
-        vertical = dict(zip(found.temperatures.tolist(), found.log10_b_T.tolist(), strict=True))
+    if superposition is not None:
+        vertical = dict(
+            zip(superposition.temperatures.tolist(), superposition.log10_b_T.tolist(), strict=True)
+        )
     for part in parts:
         one = part.isotherm
         a = 0.0 if law is None else float(law.log10_a_T(one.temperature))
         shift = (a, vertical.get(one.temperature, 0.0))
         rows = np.array([one.frequency, one.storage, one.loss])
-        if found is not None:
-            rows = rows[:, found.kept(one.frequency)]
+        if superposition is not None:
+            rows = rows[:, superposition.kept(one.frequency)]
         columns.append(_column(part.file, one.temperature, (rows[0], rows[1], rows[2]), shift))
     if whole is not None:
         number, reference, read, b = whole
@@ -269,7 +273,7 @@ def laid(
             raise InputError(
                 f"{read.source}: a temperature sweep has no vertical shift of its own; leave out --vertical"
             )
-        known = getattr(law, "temperatures", None) if found is None else found.temperatures
+        known = getattr(law, "temperatures", None) if superposition is None else superposition.temperatures
         low, high = (
             (read.temperature.min(), read.temperature.max()) if known is None else (known[0], known[-1])
         )

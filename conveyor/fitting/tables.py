@@ -20,7 +20,7 @@ DOCUMENT: Final = ("laboratory", "number", "specimen", "instrument", "method", "
 
 
 def of_fit(
-    found: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
+    fitted: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
 ) -> Contents:
     """Return every table of a fit.
 
@@ -35,25 +35,25 @@ def of_fit(
     paper : {"A4", "Letter"}
         To print on.
     """
-    about = said(found, document)
+    about = said(fitted, document)
     pairs = (("what", itemgetter(0)), ("words", itemgetter(1)))
     plain = tuple(Column(label, "text", get) for label, get in pairs)
     parts = (
         judged(criteria),
-        Table("about", "Verdict", "The master curve", plain, (*about.items(), *facts(found))),
-        shifts(found), laws(found), files(found), master_curve(found), series(found),
-        Table("read", "Read and done", "What was read and done", plain[1:], tuple(("", w) for w in found.understood)),
-        Table("unknown", "Read and done", "Not known", plain[1:], tuple(("", w) for w in found.compound.missing)),
+        Table("about", "Verdict", "The master curve", plain, (*about.items(), *facts(fitted))),
+        shifts(fitted), laws(fitted), files(fitted), master_curve(fitted), series(fitted),
+        Table("read", "Read and done", "What was read and done", plain[1:], tuple(("", w) for w in fitted.understood)),
+        Table("unknown", "Read and done", "Not known", plain[1:], tuple(("", w) for w in fitted.compound.missing)),
         Table("glossary", "Glossary", "Glossary", plain, GLOSSARY),
         Table("provenance", "Read and done", "Made by", plain[1:], (("", marks.maker()),)),
     )  # fmt: skip
-    head = ReportHead(found.compound.name, "Master curve of a rubber", about, "", paper)
+    head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper)
     return Contents(head, tuple(part for part in parts if not part.empty), "SI")
 
 
-def said(found: Fitted, document: Mapping[str, str]) -> dict[str, str]:
+def said(fitted: Fitted, document: Mapping[str, str]) -> dict[str, str]:
     """What is said of the document, given or stated by the files."""
-    stated = {key.lower(): value for key, value in found.metadata.items()}
+    stated = {key.lower(): value for key, value in fitted.metadata.items()}
     return {name: words for name in DOCUMENT if (words := document.get(name) or stated.get(name))}
 
 
@@ -69,17 +69,17 @@ def judged(criteria: Sequence[Criterion]) -> Table:
     return Table("criteria", "Verdict", "Criteria", columns, tuple(criteria))
 
 
-def facts(found: Fitted) -> list[tuple[str, str]]:
+def facts(fitted: Fitted) -> list[tuple[str, str]]:
     """What a reader asks first, in words."""
-    fit, compound = found.fit, found.compound
+    fit, compound = fitted.fit, fitted.compound
     low, high = fit.window
-    law = kept(found).name if found.laws else "none"
+    law = kept(fitted).name if fitted.laws else "none"
     kelvin = () if compound.range is None else compound.range.kelvin
     return [
         ("window", f"{low:.2g} to {high:.2g} Hz at {celsius(compound.reference):.4g} °C"),
         ("temperatures", " to ".join(f"{celsius(t):.0f} °C" for t in dict.fromkeys(kelvin))),
         ("shift law kept", law),
-        ("rows", f"{found.rows.frequency.size} of {len(found.files)} file{'s' * (len(found.files) > 1)}"),
+        ("rows", f"{fitted.rows.frequency.size} of {len(fitted.files)} file{'s' * (len(fitted.files) > 1)}"),
         ("terms", f"{fit.active_terms}, E_e {fit.series.equilibrium / 1e6:.3g} MPa"),
         ("error of the series, rms", f"E' {percent(fit.storage.rms, 1)}, E'' {percent(fit.loss.rms, 1)}"),
         ("strain", compound.strain or "not stated"),
@@ -87,9 +87,9 @@ def facts(found: Fitted) -> list[tuple[str, str]]:
     ]
 
 
-def shifts(found: Fitted) -> Table:
+def shifts(fitted: Fitted) -> Table:
     """Shift factors of isotherms; no rows without them."""
-    shifted = found.superposition
+    shifted = fitted.superposition
     columns = ("temperature", "log10 a_T", "standard error", "log10 b_T")
     kinds = ("temperature", "decades", "decades", "decades")
     rows: list[tuple[float, ...]] = []
@@ -99,7 +99,7 @@ def shifts(found: Fitted) -> Table:
     return Table("shifts", "Shifts", "Shift factors found", _numbered(columns, kinds), rows)
 
 
-def laws(found: Fitted) -> Table:
+def laws(fitted: Fitted) -> Table:
     """How well each law follows the shifts."""
     columns = (
         Column("law", "text", attrgetter("name")),
@@ -110,33 +110,33 @@ def laws(found: Fitted) -> Table:
         Column("remark", "text", attrgetter("remark")),
     )
     return Table(
-        "laws", "Shifts", "Shift laws", columns, tuple(law for law in found.laws if law.law is not None)
+        "laws", "Shifts", "Shift laws", columns, tuple(law for law in fitted.laws if law.law is not None)
     )
 
 
-def files(found: Fitted) -> Table:
+def files(fitted: Fitted) -> Table:
     """Error of the series, file by file."""
 
     def rms(which: int, number: int) -> float:
-        return float(np.sqrt(np.mean(found.fit.errors[which][found.rows.file == number] ** 2)))
+        return float(np.sqrt(np.mean(fitted.fit.errors[which][fitted.rows.file == number] ** 2)))
 
     columns = (
-        Column("file", "text", lambda k: found.files[k]),
-        Column("rows", "count", lambda k: int(np.count_nonzero(found.rows.file == k))),
+        Column("file", "text", lambda k: fitted.files[k]),
+        Column("rows", "count", lambda k: int(np.count_nonzero(fitted.rows.file == k))),
         Column("E', rms", "share", lambda k: rms(0, k), key="storage"),
         Column("E'', rms", "share", lambda k: rms(1, k), key="loss"),
     )
-    numbers = tuple(k for k in range(len(found.files)) if (found.rows.file == k).any())
+    numbers = tuple(k for k in range(len(fitted.files)) if (fitted.rows.file == k).any())
     return Table("files", "Files", "Error of the series, file by file", columns, numbers)
 
 
-def master_curve(found: Fitted) -> Table:
+def master_curve(fitted: Fitted) -> Table:
     """Every row as measured, where it was laid, and the series there."""
-    rows, (f, storage, loss) = found.rows, found.rows.curve
-    omega, made = 2.0 * np.pi * f, found.fit.series
+    rows, (f, storage, loss) = fitted.rows, fitted.rows.curve
+    omega, made = 2.0 * np.pi * f, fitted.fit.series
     numbers = np.array([
         rows.temperature, rows.frequency, rows.storage, rows.loss, f, storage, loss, made.storage(omega),
-        made.loss(omega), *found.fit.errors,
+        made.loss(omega), *fitted.fit.errors,
     ]).T.tolist()  # fmt: skip
     kinds = (
         ("temperature", "frequency", "pressure", "pressure")
@@ -148,14 +148,14 @@ def master_curve(found: Fitted) -> Table:
         "temperature", "frequency", "E'", "E''", "reduced frequency", "reduced E'", "reduced E''", "E' of the series",
         "E'' of the series", "error of E'", "error of E''",
     )  # fmt: skip
-    named = [(found.files[k], *row) for k, row in zip(rows.file.tolist(), numbers, strict=True)]
+    named = [(fitted.files[k], *row) for k, row in zip(rows.file.tolist(), numbers, strict=True)]
     columns = _numbered(("file", *names), ("text", *kinds))
     return Table("master_curve", "Master curve", "Rows as measured, as laid, and the series", columns, named)
 
 
-def series(found: Fitted) -> Table:
+def series(fitted: Fitted) -> Table:
     """Terms of the series, the modulus at rest first."""
-    made = found.fit.series
+    made = fitted.fit.series
     rows = [("E_e", None, made.equilibrium)]
     rows += [
         (f"E_{k}", tau, e)

@@ -27,31 +27,31 @@ _POINTS = 400
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
 
-def lines(found: Fitted | Tabulated) -> list[str]:
+def lines(rubber: Fitted | Tabulated) -> list[str]:
     """What was understood, the shift, the fit and its errors, and what to doubt."""
-    if isinstance(found, Tabulated):
-        series = found.compound.series_at_reference
+    if isinstance(rubber, Tabulated):
+        series = rubber.compound.series_at_reference
         return [
             "read",
-            *(f"  {line}" for line in found.understood),
-            f"{found.compound.name}: {series.times.size} terms as tabulated, nothing fitted; E_e "
+            *(f"  {line}" for line in rubber.understood),
+            f"{rubber.compound.name}: {series.times.size} terms as tabulated, nothing fitted; E_e "
             f"{series.equilibrium / 1e6:.4g} MPa, E_inf {series.glassy / 1e6:.4g} MPa",
-            "not known: " + "; ".join(found.compound.missing),
+            "not known: " + "; ".join(rubber.compound.missing),
         ]
     return [
         "read",
-        *(f"  {line}" for line in found.understood),
-        *_shift(found),
-        *_laws(found),
-        *_series(found),
-        *_criterion(found),
-        *_consistency(found),
-        "not known: " + ("; ".join(found.compound.missing) or "nothing listed"),
+        *(f"  {line}" for line in rubber.understood),
+        *_shift(rubber),
+        *_laws(rubber),
+        *_series(rubber),
+        *_criterion(rubber),
+        *_consistency(rubber),
+        "not known: " + ("; ".join(rubber.compound.missing) or "nothing listed"),
     ]
 
 
-def _shift(found: Fitted) -> Iterator[str]:
-    shifted = found.superposition
+def _shift(fitted: Fitted) -> Iterator[str]:
+    shifted = fitted.superposition
     if shifted is None:
         return
     yield f"shift of {shifted.temperatures.size} isotherms to {celsius(shifted.reference):.4g} degC"
@@ -94,18 +94,18 @@ def _shift(found: Fitted) -> Iterator[str]:
         )
 
 
-def _laws(found: Fitted) -> Iterator[str]:
-    if found.laws:
+def _laws(fitted: Fitted) -> Iterator[str]:
+    if fitted.laws:
         yield "shift laws"
-    for law in found.laws:
+    for law in fitted.laws:
         yield (
             f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at {celsius(law.worst_temperature):.0f} "
             f"degC; a point left out is missed by {law.left_out:.2f} decades"
         )
 
 
-def _series(found: Fitted) -> Iterator[str]:
-    fit, compound = found.fit, found.compound
+def _series(fitted: Fitted) -> Iterator[str]:
+    fit, compound = fitted.fit, fitted.compound
     yield (
         f"{compound.name}: {fit.active_terms} terms, E_e {fit.series.equilibrium / 1e6:.4g} MPa, "
         f"E_inf {fit.series.glassy / 1e6:.4g} MPa"
@@ -138,8 +138,8 @@ def _outliers(fit: PronyFit) -> Iterator[str]:
             yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 
-def _criterion(found: Fitted) -> Iterator[str]:
-    candidates = found.fit.candidates
+def _criterion(fitted: Fitted) -> Iterator[str]:
+    candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
     yield "  number of terms by AICc (best first): per decade, penalty, terms, effective parameters, residual, score"
@@ -150,18 +150,18 @@ def _criterion(found: Fitted) -> Iterator[str]:
         )
 
 
-def _consistency(found: Fitted) -> Iterator[str]:
+def _consistency(fitted: Fitted) -> Iterator[str]:
     yield (
-        f"any positive spectrum leaves at least {percent(found.fit.consistency_floor, 1)} rms of both: that "
+        f"any positive spectrum leaves at least {percent(fitted.fit.consistency_floor, 1)} rms of both: that "
         "much the data "
         "scatter or contradict themselves"
     )
-    if found.entropic_floor is not None:
+    if fitted.entropic_floor is not None:
         yield (
             "  with the vertical shift of an entropic network, b_T = T/T_ref, it would leave "
-            f"{percent(found.entropic_floor, 1)}: try --vertical"
+            f"{percent(fitted.entropic_floor, 1)}: try --vertical"
         )
-    known = found.consistency
+    known = fitted.consistency
     if known is None:
         yield "  Kramers-Kronig: not tested, the window has too few rows beyond a decade from its ends"
         return
@@ -173,9 +173,9 @@ def _consistency(found: Fitted) -> Iterator[str]:
         )
 
 
-def shift_table(found: Fitted | Tabulated) -> str:
+def shift_table(rubber: Fitted | Tabulated) -> str:
     """Shift factors of a fit as a file that `--shift` reads, after a person's hand or without."""
-    shifted = None if isinstance(found, Tabulated) else found.superposition
+    shifted = None if isinstance(rubber, Tabulated) else rubber.superposition
     if shifted is None:
         raise InputError("--write-shift: shift factors are found from isotherms at two temperatures and more")
     columns = zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_b_T, strict=True)
@@ -183,17 +183,17 @@ def shift_table(found: Fitted | Tabulated) -> str:
     return "\n".join(["temperature_degC,log10_aT,log10_bT", *rows, ""])
 
 
-def figure(found: Fitted | Tabulated) -> Figure:
+def figure(rubber: Fitted | Tabulated) -> Figure:
     """Data, fit and band: E', E'' above, tan δ below."""
-    if isinstance(found, Tabulated):
-        return master_curve(found.compound)
+    if isinstance(rubber, Tabulated):
+        return master_curve(rubber.compound)
     made, (above, below) = stacked(2, 7.0)
-    f, storage, loss = found.rows.curve
-    low, high = found.fit.window
+    f, storage, loss = rubber.rows.curve
+    low, high = rubber.fit.window
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
     at = omega / (2.0 * np.pi)
-    series = found.fit.series
-    replicas = found.compound.replicas(found.compound.reference)
+    series = rubber.fit.series
+    replicas = rubber.compound.replicas(rubber.compound.reference)
     models: tuple[Callable[[PronySeries], FloatArray], ...] = (
         lambda s: s.storage(omega) / 1e6,
         lambda s: s.loss(omega) / 1e6,
@@ -209,12 +209,12 @@ def figure(found: Fitted | Tabulated) -> Figure:
                 [model(replica) for replica in replicas], (0.05, 0.95), axis=0, method="weibull"
             )
             axis.fill_between(at, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
-    reference = text(found.compound.reference_temperature)
+    reference = text(rubber.compound.reference_temperature)
     above.set(
         xscale="log",
         yscale="log",
         ylabel="modulus [MPa]",
-        title=f"{found.compound.name}: data, fit, 90 % band",
+        title=f"{rubber.compound.name}: data, fit, 90 % band",
     )
     below.set(xscale="log", xlabel=f"frequency at {reference} [Hz]", ylabel="tan δ [-]")
     below.set_ylim(bottom=0.0)

@@ -93,7 +93,7 @@ class Criterion:
         )
 
 
-def verdict(found: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
+def verdict(fitted: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
     """Return every criterion of a fit; those of a conveyor's rolls where one is given.
 
     Parameters
@@ -105,8 +105,8 @@ def verdict(found: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion,
     """
     made = (_noise, _shifts, _shape, _collapse, _consistent, _residual, _ends)
     return (
-        *(one for of in made for one in of(found)),
-        *(() if conveyor is None else _covered(found, conveyor)),
+        *(one for of in made for one in of(fitted)),
+        *(() if conveyor is None else _covered(fitted, conveyor)),
     )
 
 
@@ -131,9 +131,9 @@ def _open(name: str, why: str) -> Criterion:
     return Criterion(name, "", "", "not checked", why)
 
 
-def _noise(found: Fitted) -> Iterator[Criterion]:
+def _noise(fitted: Fitted) -> Iterator[Criterion]:
     for label, value, most in zip(
-        ("E'", "E''"), (found.fit.storage_noise, found.fit.loss_noise), NOISE, strict=True
+        ("E'", "E''"), (fitted.fit.storage_noise, fitted.fit.loss_noise), NOISE, strict=True
     ):
         name, why = f"scatter of {label} from row to row", "instrument, clamping, range of its force"
         yield (
@@ -141,8 +141,8 @@ def _noise(found: Fitted) -> Iterator[Criterion]:
         )
 
 
-def _shifts(found: Fitted) -> Iterator[Criterion]:
-    shifted = found.superposition
+def _shifts(fitted: Fitted) -> Iterator[Criterion]:
+    shifted = fitted.superposition
     if shifted is not None:
         worst = float(np.max(shifted.log10_a_T_error))
         yield _most(
@@ -153,10 +153,10 @@ def _shifts(found: Fitted) -> Iterator[Criterion]:
             "least overlap of neighbours", _decades(least), f"at least {_decades(OVERLAP)}",
             "pass" if round(least, 2) >= OVERLAP else "FAIL", "measure a temperature between, or more frequencies",
         )  # fmt: skip
-    if not found.laws:
+    if not fitted.laws:
         yield _open("smoothness of the shifts", "fewer than five temperatures")
         return
-    law = kept(found)
+    law = kept(fitted)
     missed = law.left_out if law.name == "table" else law.rms
     farthest = f"; worst {law.worst:+.2f} at {celsius(law.worst_temperature):.0f} °C"
     what = (
@@ -170,17 +170,17 @@ def _shifts(found: Fitted) -> Iterator[Criterion]:
     )  # fmt: skip
 
 
-def kept(found: Fitted) -> ShiftComparison:
+def kept(fitted: Fitted) -> ShiftComparison:
     """The comparison of the shift law that the compound keeps."""
-    shift = found.compound.shift
+    shift = fitted.compound.shift
     name = "table" if shift is None else shift.law
-    return next(law for law in found.laws if law.name.lower() == name)
+    return next(law for law in fitted.laws if law.name.lower() == name)
 
 
-def _shape(found: Fitted) -> Iterator[Criterion]:
-    if found.superposition is not None:
+def _shape(fitted: Fitted) -> Iterator[Criterion]:
+    if fitted.superposition is not None:
         yield _most(
-            "correlation of neighbouring residuals", found.superposition.correlation, SHAPE, lambda v: f"{v:.2f}",
+            "correlation of neighbouring residuals", fitted.superposition.correlation, SHAPE, lambda v: f"{v:.2f}",
             "isotherms that differ in shape superpose at no shift",
         )  # fmt: skip
 
@@ -211,7 +211,7 @@ def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, flo
     angles, moduli = np.arctan2(loss, storage), np.log(np.hypot(storage, loss))
     turned = np.hypot(np.radians(ANGLE), 0.5 * np.sin(2.0 * angles) * np.hypot(*noise))
     temperatures = [t for t in np.unique(rows.temperature) if np.count_nonzero(rows.temperature == t) > 2]
-    found = []
+    spreads = []
     for cold, hot in pairwise(temperatures):
         line = np.flatnonzero(rows.temperature == hot)  # rows are in the order of the frequency
         apart = []
@@ -230,13 +230,13 @@ def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, flo
             if not first and not last:
                 apart.append(float(distance[nearest]))
         if apart:
-            found.append((float(np.sqrt(np.mean(np.square(apart)) / 2.0)), float(cold), float(hot)))
-    return max(found, default=None)
+            spreads.append((float(np.sqrt(np.mean(np.square(apart)) / 2.0)), float(cold), float(hot)))
+    return max(spreads, default=None)
 
 
-def _collapse(found: Fitted) -> Iterator[Criterion]:
-    noise = (found.fit.storage_noise or 0.0, found.fit.loss_noise or 0.0)
-    worst, name = collapse(found.rows, noise), "van Gurp-Palmen collapse"
+def _collapse(fitted: Fitted) -> Iterator[Criterion]:
+    noise = (fitted.fit.storage_noise or 0.0, fitted.fit.loss_noise or 0.0)
+    worst, name = collapse(fitted.rows, noise), "van Gurp-Palmen collapse"
     if worst is None:
         yield _open(name, "no two isotherms with moduli in common")
         return
@@ -245,14 +245,14 @@ def _collapse(found: Fitted) -> Iterator[Criterion]:
     yield _most(name, worst[0], OF_SCATTER, lambda v: f"{v:.1f} times scatter", why)
 
 
-def _consistent(found: Fitted) -> Iterator[Criterion]:
+def _consistent(fitted: Fitted) -> Iterator[Criterion]:
     why = "more is in the data: two strains, two set-ups, an outlier"
-    if found.entropic_floor is not None:
+    if fitted.entropic_floor is not None:
         why = (
-            f"with b_T = T/T_ref {percent(found.entropic_floor, 1)}: a vertical shift is missing, --vertical"
+            f"with b_T = T/T_ref {percent(fitted.entropic_floor, 1)}: a vertical shift is missing, --vertical"
         )
-    yield _most("best positive spectrum of E' and E''", found.fit.consistency_floor, DOUBTED, _percent, why)
-    known = found.consistency
+    yield _most("best positive spectrum of E' and E''", fitted.fit.consistency_floor, DOUBTED, _percent, why)
+    known = fitted.consistency
     if known is None:
         yield _open("Kramers-Kronig", "too few rows beyond a decade from the ends of the window")
         return
@@ -261,8 +261,8 @@ def _consistent(found: Fitted) -> Iterator[Criterion]:
         yield _most(f"Kramers-Kronig, {label}", misfit.rms, KRAMERS_KRONIG, _percent, where)
 
 
-def _residual(found: Fitted) -> Iterator[Criterion]:
-    fit = found.fit
+def _residual(fitted: Fitted) -> Iterator[Criterion]:
+    fit = fitted.fit
     scatter = float(np.hypot(fit.storage_noise or 0.0, fit.loss_noise or 0.0)) / np.sqrt(2.0)
     most = max(fit.consistency_floor + BEYOND_BEST, OVER_SCATTER * scatter)
     yield _most(
@@ -271,8 +271,8 @@ def _residual(found: Fitted) -> Iterator[Criterion]:
     )  # fmt: skip
 
 
-def _ends(found: Fitted) -> Iterator[Criterion]:
-    fit = found.fit
+def _ends(fitted: Fitted) -> Iterator[Criterion]:
+    fit = fitted.fit
     decades, trust = np.log10(fit.rows.frequency), fit.rows.trust.reshape(2, -1)
     slow, fast = decades <= decades[0] + END, decades >= decades[-1] - END
     ends = [(f"{label}, {side} end", k, here) for side, here in (("slow", slow), ("fast", fast))
@@ -288,10 +288,10 @@ def _ends(found: Fitted) -> Iterator[Criterion]:
     yield _most("ends of the window", abs(means[0][worst]), ENDS, _percent, why)
 
 
-def _covered(found: Fitted, conveyor: Conveyor) -> Iterator[Criterion]:
+def _covered(fitted: Fitted, conveyor: Conveyor) -> Iterator[Criterion]:
     where = f"window covers {conveyor.name}"
     try:
-        result = calculate(with_compound(conveyor, found.compound, "bottom"))
+        result = calculate(with_compound(conveyor, fitted.compound, "bottom"))
     except ConveyorError as error:
         yield Criterion(where, "no answer", f"data at {text(conveyor.ambient.belt)}", "FAIL", str(error))
         return

@@ -217,19 +217,19 @@ class SheetReader:
 
     def _refuse_strays(self, grid: Sheet, row: int, columns: set[int]) -> None:
         """Refuse what stands beside the columns of a list in a row that gives no item."""
-        for (r, column), found in grid.cells.items():
-            if r == row and column not in columns and not problem_of(found):
+        for (r, column), cell in grid.cells.items():
+            if r == row and column not in columns and not problem_of(cell):
                 place = address(grid.name, row, column)
                 self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
 
     def _whole(self, grid: Sheet, row: int, column: int) -> int | None:
-        found = grid.cells.get((row, column))
-        if found is None:
+        cell = grid.cells.get((row, column))
+        if cell is None:
             return None
-        value = found.value
+        value = cell.value
         if isinstance(value, int | float) and not isinstance(value, bool) and value == int(value):
             return int(value)
-        message = problem_of(found) or f'got "{value}", expected the number of an item'
+        message = problem_of(cell) or f'got "{value}", expected the number of an item'
         self.refuse(address(grid.name, row, column), message)
         return None
 
@@ -239,8 +239,8 @@ class SheetReader:
             count = above.count(item.parent) if item.parent is not None else 0
             if count != 1:
                 given = "nothing" if item.parent is None else item.parent
-                found = "no row has" if count == 0 else "several rows have"
-                self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {found}')
+                which = "no row has" if count == 0 else "several rows have"
+                self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {which}')
 
 
 def _entry(grid: Sheet, row: int, column: int, of_unit: int | None) -> FieldEntry:

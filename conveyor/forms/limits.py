@@ -25,21 +25,21 @@ def limits_like(allowed: str, value: Any) -> str:
     >>> limits_like("> 0 m, ≤ 5 m", "42 in"), limits_like("> 0, ≤ 1", 0.35)
     ('> 0 in, ≤ 196 in', '> 0, ≤ 1')
     """
-    return _BOUND.sub(lambda found: _limit(found, value), allowed)
+    return _BOUND.sub(lambda match: _limit(match, value), allowed)
 
 
-def _limit(found: re.Match[str], value: Any) -> str:
-    limit = like(found[2], value)
-    if limit is None or limit[1] == found[2].split(" ")[1]:
-        return found[0]
+def _limit(match: re.Match[str], value: Any) -> str:
+    limit = like(match[2], value)
+    if limit is None or limit[1] == match[2].split(" ")[1]:
+        return match[0]
     number, unit = limit
     digits = _DIGITS - 1 - (math.floor(math.log10(abs(number))) if number else 0)
-    towards = math.ceil if found[1] in ">≥" else math.floor
+    towards = math.ceil if match[1] in ">≥" else math.floor
     near = round(number, digits)  # of 19999.999999999996 the 20000 that is meant
     inward = (
         near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
     )
-    return f"{found[1]} {_plain_number(inward)} {unit}"
+    return f"{match[1]} {_plain_number(inward)} {unit}"
 
 
 def like(given: str, value: Any) -> tuple[float, str] | None:

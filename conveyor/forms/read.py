@@ -97,8 +97,8 @@ def _content(path: FilePath) -> bytes:
             raise InputError(f"{path}: protected by a password; save it without one")
         raise InputError(f"{path}: not a workbook of the .xlsx format; save it as .xlsx")
     if not content.startswith(MAGIC):
-        found = "empty" if not content else "not a workbook (.xlsx)"
-        raise InputError(f"{path}: {found}; write one with: conveyor template input.xlsx")
+        what = "empty" if not content else "not a workbook (.xlsx)"
+        raise InputError(f"{path}: {what}; write one with: conveyor template input.xlsx")
     return content
 
 
@@ -212,8 +212,8 @@ class _Reader:
     @staticmethod
     def _refused(entry: FieldEntry) -> tuple[str, str] | None:
         """Return the place and the reason why the cells of a field cannot be taken."""
-        for found, place in ((entry.value, entry.place), (entry.unit, entry.unit_place)):
-            problem = "" if found is None else problem_of(found)
+        for value, place in ((entry.value, entry.place), (entry.unit, entry.unit_place)):
+            problem = "" if value is None else problem_of(value)
             if problem:
                 return place, problem
         if entry.value is not None and entry.value.percent and entry.unit is not None and entry.unit.value:

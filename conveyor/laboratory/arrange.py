@@ -53,15 +53,15 @@ def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | Non
         tolerance = SAME_REDUCED_FREQUENCY if merged else SAME_SET_POINT
         duplicates = duplicate_runs(np.log(swept), parted, tolerance=tolerance, merged=merged)
     run = labels if labels is not None else duplicates
-    again, second = (zero if found is None else found for found in (duplicates, run))
+    again, second = (zero if marks is None else marks for marks in (duplicates, run))
     first = parted if group is None else group
     return Arrangement(np.lexsort((swept, again, second, first)), group, run, duplicates)
 
 
 def _pairs(first: IntArray, second: IntArray) -> IntArray:
     """Number the pairs of two labels."""
-    found = np.unique(np.stack([first, second]), axis=1, return_inverse=True)[1]
-    return found.reshape(-1).astype(np.int64)
+    inverse = np.unique(np.stack([first, second]), axis=1, return_inverse=True)[1]
+    return inverse.reshape(-1).astype(np.int64)
 
 
 def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> IntArray | None:
@@ -77,7 +77,9 @@ def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None
     return group if group is None or kind == "isotherms" else _pairs(group, level)
 
 
-def check_trend(table: DataTable, kind: str, columns: Mapping[str, FloatArray], found: Arrangement) -> None:
+def check_trend(
+    table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
+) -> None:
     """Compare both ends of a sorted series, and refuse a temperature with two shift factors.
 
     Notes
@@ -85,7 +87,7 @@ def check_trend(table: DataTable, kind: str, columns: Mapping[str, FloatArray], 
     E' rises with frequency and E(t) falls with time for every linear viscoelastic solid (Prony series with
     moduli > 0). With f_reduced = f a_T a rubber has a_T > 1 below the reference temperature.
     """
-    first, last = int(found.order[0]), int(found.order[-1])
+    first, last = int(arrangement.order[0]), int(arrangement.order[-1])
     wrong: tuple[int, tuple[str, ...], str] | None = None
     if first == last:
         return
@@ -98,9 +100,9 @@ def check_trend(table: DataTable, kind: str, columns: Mapping[str, FloatArray], 
     elif kind == "relaxation" and columns["modulus"][last] * SCATTER > columns["modulus"][first]:
         what = "E(t) rises with time: a creep compliance, or times in descending order? correct the header"
         wrong = last, ("relaxation",), what
-    elif kind == "shift factors" and found.duplicates is not None:
+    elif kind == "shift factors" and arrangement.duplicates is not None:
         what = "a second shift factor at this temperature; delete one of the two rows"
-        wrong = int(np.flatnonzero(found.duplicates)[0]), ("temperature",), what
+        wrong = int(np.flatnonzero(arrangement.duplicates)[0]), ("temperature",), what
     elif kind == "shift factors" and columns["log10_a_T"][last] > columns["log10_a_T"][first]:
         what = "a_T rises with temperature: 1/a_T in the other convention? write a_T with f_reduced = f a_T"
         wrong = last, ("a_T",), what

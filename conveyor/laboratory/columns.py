@@ -98,11 +98,11 @@ def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
         notes.append(f"{table.label(labelled)} tells runs apart")
     read = Read({}, labels, notes, [])
     for quantity, columns in used.items():
-        found = [
+        in_si = [
             _in_si(table, column, _numbers(table, column, cells[column.index], mark), given, read)
             for column in columns
         ]
-        read.series[quantity] = found[0] if len(found) == 1 else _agreed(table, *found)
+        read.series[quantity] = in_si[0] if len(in_si) == 1 else _agreed(table, *in_si)
     notes += [f"{table.label(c)} is not needed" for c in unneeded]
     for column in table.columns:
         if column.meaning is None and any(_cell(table, row, column) for row in range(len(table.rows))):
@@ -139,12 +139,12 @@ def _used(table: DataTable) -> dict[str, list[DataColumn]]:
 
 def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
     """Take out the clock of a dynamic test, and the complex modulus beside E' and E''."""
-    found: list[DataColumn] = []
+    unneeded: list[DataColumn] = []
     if {"storage", "loss", "complex"} & set(used) and "relaxation" not in used:
-        found += used.pop("time", [])
+        unneeded += used.pop("time", [])
     if {"storage", "loss"} <= set(used):
-        found += used.pop("complex", [])
-    return found
+        unneeded += used.pop("complex", [])
+    return unneeded
 
 
 def _check_width(table: DataTable) -> None:
@@ -170,12 +170,12 @@ def _cell(table: DataTable, row: int, column: DataColumn) -> str:
 
 def _cells(table: DataTable, column: DataColumn) -> list[str]:
     """Cells of one column, none empty."""
-    found = [_cell(table, row, column) for row in range(len(table.rows))]
-    if "" in found:
+    cells = [_cell(table, row, column) for row in range(len(table.rows))]
+    if "" in cells:
         hint = "a formula without a stored value?" if table.grid.sheet else "a line cut short?"
         what = f"the cell is empty ({hint}); complete or delete the row"
-        raise table.refusal(column, what, found.index(""))
-    return found
+        raise table.refusal(column, what, cells.index(""))
+    return cells
 
 
 def _mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[str]]) -> str:

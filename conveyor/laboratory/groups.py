@@ -67,9 +67,9 @@ def set_points(values: FloatArray) -> IntArray:
 
 def _clusters(values: FloatArray, gap: float) -> IntArray:
     order = np.argsort(values, kind="stable")
-    found = np.empty(values.size, dtype=np.int64)
-    found[order] = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
-    return found
+    members = np.empty(values.size, dtype=np.int64)
+    members[order] = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
+    return members
 
 
 def duplicate_runs(

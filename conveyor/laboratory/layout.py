@@ -114,13 +114,13 @@ def _is_data(line: TextLine) -> bool:
 
 def _headers(grid: TextGrid) -> list[int]:
     """Positions of the lines without a number that name two quantities and more."""
-    found = []
+    headers = []
     for position, line in enumerate(grid.lines):
         if len(line.cells) >= 2 and not _numbers(line):
             quantities = {m.quantity for cell in line.cells if cell and (m := meaning(cell)) is not None}
             if len(quantities) >= 2:
-                found.append(position)
-    return found
+                headers.append(position)
+    return headers
 
 
 def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int]:

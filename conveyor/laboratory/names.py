@@ -126,9 +126,9 @@ def meaning(header: str) -> Meaning | None:
     if len(header) > _LONGEST_NAME:
         return None
     text = " ".join(header.translate(_PRIMES).split())
-    found = _linear(text)
-    if found is not None or not (log := _LOG.fullmatch(text)):
-        return found
+    sense = _linear(text)
+    if sense is not None or not (log := _LOG.fullmatch(text)):
+        return sense
     rest = log["rest"].strip()
     whole = rest[1:-1] if rest[0] + rest[-1] in {"()", "[]"} else rest
     outer = re.sub(r"\(([^()]+)\)(?=\s*[\[(][^()\[\]]+[\])]$)", r"\1 ", rest, count=1)  # "(f) [Hz]"
@@ -145,9 +145,9 @@ def _linear(text: str) -> Meaning | None:
         return bare
     for split in (*_BRACKETS, *_LOOSE):
         match = re.fullmatch(split, text)
-        found = _named(match["name"], match["unit"]) if match else None
-        if match and found and (split in _BRACKETS or find_unit(DIMENSIONS[found.quantity], match["unit"])):
-            return found._replace(unit=match["unit"].strip())
+        sense = _named(match["name"], match["unit"]) if match else None
+        if match and sense and (split in _BRACKETS or find_unit(DIMENSIONS[sense.quantity], match["unit"])):
+            return sense._replace(unit=match["unit"].strip())
     return None
 
 
@@ -155,9 +155,9 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
     """A name without its unit; a symbol may follow or precede the words, as in "Storage modulus E'"."""
     if text.strip() in {"t", "T"}:
         return Meaning(_time_or_temperature(text.strip(), unit))
-    found = _word(text)
-    if found is not None:
-        return _by_unit(text.strip(), found, unit)
+    sense = _word(text)
+    if sense is not None:
+        return _by_unit(text.strip(), sense, unit)
     parts = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", text) or re.fullmatch(r"(.+)[\s,]+(\S+)", text)
     if parts is None:
         return None
@@ -173,12 +173,12 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
     )
 
 
-def _by_unit(name: str, found: Meaning, unit: str | None) -> Meaning | None:
+def _by_unit(name: str, meaning: Meaning, unit: str | None) -> Meaning | None:
     """What a known name means beside its unit: F is a force without Hz, g_i in MPa a modulus and no share."""
-    if found.quantity == "share" and unit is not None and find_unit("modulus", unit):
+    if meaning.quantity == "share" and unit is not None and find_unit("modulus", unit):
         return Meaning("term", letter="G" if name[0] in "gG" else "")
     force = name == "F" and not (unit is not None and find_unit("frequency", unit))
-    return None if force or name in _OTHER_LETTERS else found
+    return None if force or name in _OTHER_LETTERS else meaning
 
 
 def _time_or_temperature(letter: str, unit: str | None) -> str:
@@ -191,10 +191,10 @@ def _time_or_temperature(letter: str, unit: str | None) -> str:
 def _word(text: str) -> Meaning | None:
     """A name alone, with the letter of its modulus."""
     compact = re.sub(r"[\s_.|\-]+", "", text.lower())
-    found = _MEANINGS.get(compact)
-    if found is None or DIMENSIONS[found.quantity] != "modulus":
-        return found
-    return found._replace(
+    sense = _MEANINGS.get(compact)
+    if sense is None or DIMENSIONS[sense.quantity] != "modulus":
+        return sense
+    return sense._replace(
         letter="G"
         if compact.startswith(("g", "shear"))
         else "E"

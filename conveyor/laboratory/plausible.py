@@ -44,29 +44,29 @@ _POSITIVE: Final = {
 def check_possible(table: DataTable, series: Mapping[str, Series]) -> None:
     """Refuse what cannot be in any unit: not finite, not > 0, a phase angle of 90 degrees or more."""
     low, high = MEASURABLE
-    for quantity, found in series.items():
-        values = found.values
-        _refuse(table, found, ~np.isfinite(values), f"is too large once its logarithm is undone; {_DELETE}")
-        logarithm = quantity in {"a_T", "b_T"} and found.meaning.log_base is not None
+    for quantity, column in series.items():
+        values = column.values
+        _refuse(table, column, ~np.isfinite(values), f"is too large once its logarithm is undone; {_DELETE}")
+        logarithm = quantity in {"a_T", "b_T"} and column.meaning.log_base is not None
         if quantity in _POSITIVE and not logarithm:
-            _refuse(table, found, values <= 0.0, "must be > 0" + _POSITIVE[quantity])
+            _refuse(table, column, values <= 0.0, "must be > 0" + _POSITIVE[quantity])
         if quantity in {"frequency", "time"}:
             far = (values < low) | (values > high)
-            _refuse(table, found, far, f"is outside {low:g} to {high:g}; {_DELETE}")
-        if quantity == "phase" and found.unit.name != "?":
+            _refuse(table, column, far, f"is outside {low:g} to {high:g}; {_DELETE}")
+        if quantity == "phase" and column.unit.name != "?":
             what = "is 90 degrees or more: degrees labelled rad? correct the unit in the header"
-            _refuse(table, found, values >= np.pi / 2, what)
+            _refuse(table, column, values >= np.pi / 2, what)
 
 
-def _refuse(table: DataTable, found: Series, bad: NDArray[np.bool_], what: str) -> None:
+def _refuse(table: DataTable, series: Series, bad: NDArray[np.bool_], what: str) -> None:
     if bad.any():
-        column, text, row = _question(table, found, int(np.argmax(bad)), what)
+        column, text, row = _question(table, series, int(np.argmax(bad)), what)
         raise table.refusal(column, text, row)
 
 
-def _question(table: DataTable, found: Series, row: int, text: str) -> Question:
-    value = table.rows[row].cells[found.column.index]
-    return Question(found.column, f"{found.name} = {value} {text}", row)
+def _question(table: DataTable, series: Series, row: int, text: str) -> Question:
+    value = table.rows[row].cells[series.column.index]
+    return Question(series.column, f"{series.name} = {value} {text}", row)
 
 
 def doubts(table: DataTable, series: Mapping[str, Series], moduli: Moduli | None) -> Iterator[Question]:
@@ -82,13 +82,13 @@ def doubts(table: DataTable, series: Mapping[str, Series], moduli: Moduli | None
         yield from _strain_doubts(table, series["strain"])
 
 
-def _modulus_doubts(table: DataTable, found: Series) -> Iterator[Question]:
+def _modulus_doubts(table: DataTable, series: Series) -> Iterator[Question]:
     low, high = STORAGE_RANGE
-    rows = np.flatnonzero((found.values < low) | (found.values > high))
+    rows = np.flatnonzero((series.values < low) | (series.values > high))
     if rows.size:
-        advice = remedy("modulus", "Pa" if found.values[rows[0]] > high else "MPa")
-        what = f"in {found.unit.name}, but a solid has {low:g} to {high:g} Pa; {advice}"
-        yield _question(table, found, rows[0], what)
+        advice = remedy("modulus", "Pa" if series.values[rows[0]] > high else "MPa")
+        what = f"in {series.unit.name}, but a solid has {low:g} to {high:g} Pa; {advice}"
+        yield _question(table, series, rows[0], what)
 
 
 def _loss_doubts(table: DataTable, moduli: Moduli) -> Iterator[Question]:
@@ -105,29 +105,29 @@ def _loss_doubts(table: DataTable, moduli: Moduli) -> Iterator[Question]:
         yield _question(table, moduli.loss_from, row, what)
 
 
-def _temperature_doubts(table: DataTable, found: Series) -> Iterator[Question]:
+def _temperature_doubts(table: DataTable, series: Series) -> Iterator[Question]:
     low, high = TEMPERATURE_RANGE
-    unit, advice = found.unit.name, remedy("temperature", "degC" if found.unit.name == "K" else "K")
-    impossible = found.values <= 0.0
-    outside = (found.values < low) | (found.values > high)
+    unit, advice = series.unit.name, remedy("temperature", "degC" if series.unit.name == "K" else "K")
+    impossible = series.values <= 0.0
+    outside = (series.values < low) | (series.values > high)
     if not outside.any():
-        outside[0] = found.values.min() > KELVIN_AS_CELSIUS
+        outside[0] = series.values.min() > KELVIN_AS_CELSIUS
     if impossible.any():
-        yield _question(table, found, int(np.argmax(impossible)), f"{unit} is below absolute zero; {advice}")
-    elif outside.any() and not found.explicit:
+        yield _question(table, series, int(np.argmax(impossible)), f"{unit} is below absolute zero; {advice}")
+    elif outside.any() and not series.explicit:
         what = (
             f"{unit} is outside {low - 273.15:g} to {high - 273.15:g} degC, or all above"
             f" {KELVIN_AS_CELSIUS - 273.15:g}: kelvin and degC mixed up? {advice}, or {unit} to confirm"
         )
-        yield _question(table, found, int(np.argmax(outside)), what)
+        yield _question(table, series, int(np.argmax(outside)), what)
 
 
-def _strain_doubts(table: DataTable, found: Series) -> Iterator[Question]:
-    rows = np.flatnonzero(found.values > HIGHEST_STRAIN)
+def _strain_doubts(table: DataTable, series: Series) -> Iterator[Question]:
+    rows = np.flatnonzero(series.values > HIGHEST_STRAIN)
     if rows.size:
         percent, advice = (
-            100.0 * found.values[rows[0]],
-            remedy("strain", "-" if found.unit.name == "%" else "%"),
+            100.0 * series.values[rows[0]],
+            remedy("strain", "-" if series.unit.name == "%" else "%"),
         )
-        what = f"in {found.unit.name}, that is {percent:g} %, more than 100 %; {advice}"
-        yield _question(table, found, rows[0], what)
+        what = f"in {series.unit.name}, that is {percent:g} %, more than 100 %; {advice}"
+        yield _question(table, series, rows[0], what)

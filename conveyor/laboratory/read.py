@@ -124,11 +124,11 @@ def read_dma(
         labels = np.array(table.blocks, dtype=np.int64)
         notes.append("each block of the file is a run of its own")
     kind, reason = _kind(table, columns, read, labels, kind)
-    found = arrange(kind, columns, labels)
-    check_trend(table, kind, columns, found)
-    notes += [*derived, f"{kind}: {reason}", *_order_notes(table, kind, found)]
+    arranged = arrange(kind, columns, labels)
+    check_trend(table, kind, columns, arranged)
+    notes += [*derived, f"{kind}: {reason}", *_order_notes(table, kind, arranged)]
     return replace(
-        _assembled(table, kind, columns, found), understood=tuple(notes), source=_source(path, table)
+        _assembled(table, kind, columns, arranged), understood=tuple(notes), source=_source(path, table)
     )
 
 
@@ -246,9 +246,9 @@ def _quantities(
         notes.append(note)
     for quantity in ("a_T", "b_T"):
         if quantity in series:
-            found = series[quantity]
-            linear = found.meaning.log_base is None
-            columns[f"log10_{quantity}"] = np.log10(found.values) if linear else found.values
+            column = series[quantity]
+            linear = column.meaning.log_base is None
+            columns[f"log10_{quantity}"] = np.log10(column.values) if linear else column.values
     if temperature is not None:
         if "temperature" in series:
             what = "the file has its temperatures; leave out temperature (--temperature)"
@@ -345,21 +345,21 @@ def _missing(table: DataTable, present: set[str], what: str) -> InputError:
     )
 
 
-def _order_notes(table: DataTable, kind: str, found: Arrangement) -> list[str]:
+def _order_notes(table: DataTable, kind: str, arrangement: Arrangement) -> list[str]:
     """Sentences on sorting, duplicate runs and the number of sweeps."""
     notes = []
     rows = table.row_numbers
-    moved = np.flatnonzero(np.diff(np.argsort(found.order)) < 0)
+    moved = np.flatnonzero(np.diff(np.argsort(arrangement.order)) < 0)
     if moved.size:
         notes.append(f"rows sorted; the file is not in order from row {rows[moved[0] + 1]} on")
-    if found.duplicates is not None:
-        repeated = rows[found.duplicates > 0]
+    if arrangement.duplicates is not None:
+        repeated = rows[arrangement.duplicates > 0]
         notes.append(
             f"duplicate runs: {repeated.size} row(s) repeat a set point of their sweep, first row {repeated[0]};"
-            f" up to {int(found.duplicates.max()) + 1} runs are kept apart"
+            f" up to {int(arrangement.duplicates.max()) + 1} runs are kept apart"
         )
-    if found.group is not None and kind in {"isotherms", "strain sweep"}:
-        notes.append(f"rows grouped by temperature: {np.unique(found.group).size}")
+    if arrangement.group is not None and kind in {"isotherms", "strain sweep"}:
+        notes.append(f"rows grouped by temperature: {np.unique(arrangement.group).size}")
     return notes
 
 
@@ -367,11 +367,13 @@ def _source(path: str | Path, table: DataTable) -> str:
     return f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path)
 
 
-def _assembled(table: DataTable, kind: str, columns: Mapping[str, FloatArray], found: Arrangement) -> DmaData:
+def _assembled(
+    table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
+) -> DmaData:
     """Sorted and frozen, without the notes."""
 
     def ordered(values: NDArray[T]) -> NDArray[T]:
-        made: NDArray[T] = values[found.order]
+        made: NDArray[T] = values[arrangement.order]
         made.setflags(write=False)
         return made
 
@@ -390,8 +392,8 @@ def _assembled(table: DataTable, kind: str, columns: Mapping[str, FloatArray], f
         modulus=column("term" if series else "modulus"),
         log10_a_T=column("log10_a_T"),
         log10_b_T=column("log10_b_T"),
-        run=None if found.run is None else ordered(found.run),
-        group=None if found.group is None else ordered(found.group),
+        run=None if arrangement.run is None else ordered(arrangement.run),
+        group=None if arrangement.group is None else ordered(arrangement.group),
         row_numbers=ordered(table.row_numbers),
         metadata=MappingProxyType({key: value for key, (value, _) in table.metadata.items()}),
         metadata_rows=MappingProxyType({key: row for key, (_, row) in table.metadata.items()}),

@@ -129,12 +129,12 @@ class DmaData:
         InputError
             If one of them is not there.
         """
-        found = {name: getattr(self, name) for name in names}
-        missing = [name for name, values in found.items() if values is None]
+        by_name = {name: getattr(self, name) for name in names}
+        missing = [name for name, values in by_name.items() if values is None]
         if missing:
             advice = "or give temperature (--temperature)" if missing == ["temperature"] else "with its unit"
             raise InputError(f"{self.source}: {what} need {' and '.join(missing)}; add the column, {advice}")
-        return tuple(found.values())
+        return tuple(by_name.values())
 
     def isotherms(self) -> tuple[IsothermRows, ...]:
         """Frequency sweeps by ascending temperature, one for each temperature and run.
@@ -149,7 +149,7 @@ class DmaData:
             raise InputError(
                 f'{self.source}: a {self.kind}, not isotherms; give kind="isotherms" (--kind) if it holds them'
             )
-        found = []
+        groups = []
         for run, rows in self._sweeps("isotherms", f):
             temperature = t[rows]
             spread = float(np.ptp(temperature))
@@ -159,8 +159,8 @@ class DmaData:
                     f" {spread:.3g} K, not one temperature; a column 'set' can tell isotherms apart"
                 )
             mean, numbers = float(np.mean(temperature)), self.row_numbers[rows]
-            found.append(IsothermRows(mean, spread, f[rows], e1[rows], e2[rows], run, numbers))
-        return tuple(sorted(found, key=lambda isotherm: isotherm.temperature))
+            groups.append(IsothermRows(mean, spread, f[rows], e1[rows], e2[rows], run, numbers))
+        return tuple(sorted(groups, key=lambda isotherm: isotherm.temperature))
 
     def strain_sweeps(self) -> tuple[StrainRows, ...]:
         """Strain sweeps by ascending temperature, one for each temperature, frequency and run.
@@ -173,13 +173,13 @@ class DmaData:
         if self.kind != "strain sweep":
             raise InputError(f"{self.source}: holds a {self.kind}, not a strain sweep; give kind (--kind)")
         strain, e1, e2 = self.columns("strain sweeps", "strain", "storage", "loss")
-        found = []
+        sweeps = []
         for run, rows in self._sweeps("strain sweeps", strain):
             t, f = (
                 None if c is None else float(np.mean(c[rows])) for c in (self.temperature, self.frequency)
             )
-            found.append(StrainRows(t, f, strain[rows], e1[rows], e2[rows], run, self.row_numbers[rows]))
-        return tuple(found)
+            sweeps.append(StrainRows(t, f, strain[rows], e1[rows], e2[rows], run, self.row_numbers[rows]))
+        return tuple(sweeps)
 
     def _sweeps(self, what: str, swept: FloatArray) -> Iterator[tuple[int | None, IntArray]]:
         """Rows of each group and run, by the swept quantity."""

@@ -116,12 +116,12 @@ def softened_each(works: Sequence[WorkedCover], *, inside: tuple[int, int] = INS
     RangeError
         The strain is outside the sweeps.
     """
-    found: list[SoftCover] = []
+    covers: list[SoftCover] = []
     for soft in softened_many(works, inside=inside):
         if not isinstance(soft, tuple):
             raise soft
-        found.append(soft)
-    return found
+        covers.append(soft)
+    return covers
 
 
 def softened_many(
@@ -161,7 +161,7 @@ def softened_many(
 
     tasks = [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
     answers = equivalent_linear_many(tasks, strains_of, rtol=_STRAIN_RTOL)
-    return [_cover(work, found) for work, found in zip(works, answers, strict=True)]
+    return [_cover(work, answer) for work, answer in zip(works, answers, strict=True)]
 
 
 def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:
@@ -170,13 +170,17 @@ def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:
 
 
 def _cover(
-    work: WorkedCover, found: EquivalentLinear | NoSolutionError | RangeError
+    work: WorkedCover, answer: EquivalentLinear | NoSolutionError | RangeError
 ) -> SoftCover | NoSolutionError | RangeError:
-    if isinstance(found, NoSolutionError):
-        return no_answer(work.contact, f"{work.line_load:.4g}", found)
-    if isinstance(found, RangeError):
-        return found
+    if isinstance(answer, NoSolutionError):
+        return no_answer(work.contact, f"{work.line_load:.4g}", answer)
+    if isinstance(answer, RangeError):
+        return answer
     strain = WorkingStrain(
-        work.line_load, found.strain, found.omega / (2.0 * math.pi), found.storage_factor, found.loss_factor
+        work.line_load,
+        answer.strain,
+        answer.omega / (2.0 * math.pi),
+        answer.storage_factor,
+        answer.loss_factor,
     )
-    return found.series, strain
+    return answer.series, strain

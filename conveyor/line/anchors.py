@@ -88,22 +88,22 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
     InputError
         The tests are farther from the theory than tests of rubber are.
     """
-    found = fit_anchor(
+    level = fit_anchor(
         [row.line_load for row in rows],
         [row.temperature for row in rows],
         [row.measured / row.calculated for row in rows],
         uncertainty=max(test.relative_uncertainty for test in compound.tests),
     )
     low, high = PLAUSIBLE
-    for t in found.temperatures.tolist():
-        factor = max(found.factor(found.loads, t).tolist(), key=lambda value: abs(math.log(value)))
+    for t in level.temperatures.tolist():
+        factor = max(level.factor(level.loads, t).tolist(), key=lambda value: abs(math.log(value)))
         if not low <= factor <= high:
             raise InputError(
                 f'tests: those of "{compound.name}" are {factor:.3g} times the theory at {celsius(t):.0f} degC, where '
                 f"published ones lie at 1 to {UNANCHORED:g} times ({low:g} to {high:g} are taken); are roll diameter, "
                 "cover and units those of the tests? To calculate without them: calculation: {anchor: off}"
             )
-    return found
+    return level
 
 
 def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) -> Array:
@@ -124,8 +124,10 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
     swept = compound.swept_series(points.temperature)
     works = [WorkedCover(contact, w, factors, points.temperature, swept) for w in nodes.tolist()]
     covers = [series for series, _ in softened_each(works, inside=COARSE)]
-    found = _resistance([replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes])
-    shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(found)), nodes.size - 1)
+    resistances = _resistance(
+        [replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes]
+    )
+    shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(resistances)), nodes.size - 1)
     return np.asarray(np.exp(shape(np.log(points.line_load))))
 
 
@@ -133,9 +135,9 @@ def _resistance(contacts: list[RollContact], loads: list[Array]) -> list[Array]:
     """Resistance per width of contacts at their loads [N/m], solved side by side."""
     lowest = [float(w.min()) * (1.0 - RTOL) for w in loads]  # a curve is solved between two loads
     curves = indentation_curves(contacts, lowest, [float(w.max()) for w in loads], RTOL)
-    found = []
+    resistances = []
     for curve, w in zip(curves, loads, strict=True):
         if isinstance(curve, NoSolutionError):
             raise NoSolutionError(f"a rolling-resistance test: {curve}")
-        found.append(curve.resistance(w))
-    return found
+        resistances.append(curve.resistance(w))
+    return resistances

@@ -66,14 +66,14 @@ class TensionedCurve(IndentationCurve):
 
     def at(self, line_load: ArrayLike) -> Indentation:
         """As of every curve."""
-        found = [curve.at(line_load) for curve in self.solved]
+        indentations = [curve.at(line_load) for curve in self.solved]
         return Indentation(
-            line_load=found[0].line_load,
-            resistance=self._mixed([one.resistance for one in found]),
-            half_width=self._mixed([one.half_width for one in found]),
-            eccentricity=self._mixed([one.eccentricity for one in found]),
-            penetration=self._mixed([one.penetration for one in found]),
-            peak_pressure=self._mixed([one.peak_pressure for one in found]),
+            line_load=indentations[0].line_load,
+            resistance=self._mixed([one.resistance for one in indentations]),
+            half_width=self._mixed([one.half_width for one in indentations]),
+            eccentricity=self._mixed([one.eccentricity for one in indentations]),
+            penetration=self._mixed([one.penetration for one in indentations]),
+            peak_pressure=self._mixed([one.peak_pressure for one in indentations]),
             error=self.error,
             energy_error=self.energy_error,
         )
@@ -257,11 +257,11 @@ def solve_belts(
     solved = _solved({key: _roomy(known.get(key), span) for key, span in new.items()})
     refused = {key: one for key, one in solved.items() if isinstance(one, NoSolutionError)}
     known.update({key: one for key, one in solved.items() if isinstance(one, TensionedCurves)})
-    found: list[BeltContacts | NoSolutionError] = []
+    contacts_of: list[BeltContacts | NoSolutionError] = []
     for one, pull, own in zip(held, pulls, keys, strict=True):
         why = next((refused[key] for key in own if key in refused), None)
-        found.append(_read(one, pull, [known[key] for key in own]) if why is None else why)
-    return found
+        contacts_of.append(_read(one, pull, [known[key] for key in own]) if why is None else why)
+    return contacts_of
 
 
 _Span: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
@@ -300,11 +300,11 @@ def _contacts(held: Contacts) -> list[RollContact]:
 
 def _solved(spans: Mapping[_Key, _Span]) -> dict[_Key, TensionedCurves | NoSolutionError]:
     """Curves at ever more tensions, those of all contacts side by side, until interpolation meets the tolerance."""
-    found: dict[_Key, TensionedCurves | NoSolutionError] = {}
+    curves_of: dict[_Key, TensionedCurves | NoSolutionError] = {}
     curves: dict[_Key, list[IndentationCurve]] = {key: [] for key in spans}
     for degree in _DEGREES:
         jobs: dict[float, list[tuple[_Key, int, RollContact]]] = {}
-        for key in curves.keys() - found.keys():
+        for key in curves.keys() - curves_of.keys():
             middle, half = (0.5 * np.log(spans[key][1]) @ pair for pair in ((1.0, 1.0), (-1.0, 1.0)))
             for j in range(degree + 1) if degree == _DEGREES[0] else range(1, degree, 2):
                 contact = _at_tension(key[0], float(np.exp(middle + half * points(degree)[j])))
@@ -314,13 +314,13 @@ def _solved(spans: Mapping[_Key, _Span]) -> dict[_Key, TensionedCurves | NoSolut
             answers = indentation_curves([contact for _, _, contact in asked], lowest, highest, 0.5 * rtol)
             for (key, j, _), answer in zip(asked, answers, strict=True):
                 if isinstance(answer, NoSolutionError):
-                    found.setdefault(key, answer)
+                    curves_of.setdefault(key, answer)
                 else:
                     curves[key].insert(j, answer)
-        for key in curves.keys() - found.keys():
+        for key in curves.keys() - curves_of.keys():
             if (enough := _judged(curves[key], spans[key], key[1], last=degree == _DEGREES[-1])) is not None:
-                found[key] = enough
-    return found
+                curves_of[key] = enough
+    return curves_of
 
 
 def _judged(

@@ -95,11 +95,11 @@ class Contacts:
     def rolls(self) -> tuple[tuple[RollResult, ...], ...]:
         """The rolls of one set of every stretch, left to right."""
         stretches = self.line.stretches
-        found: list[dict[int, RollResult]] = [{} for _ in stretches]
+        by_position: list[dict[int, RollResult]] = [{} for _ in stretches]
         for kind, curve, drags in zip(self.line.kinds, self.curves, self.drags, strict=True):
             for (i, place), drag in zip(kind.rolls, drags.tolist(), strict=True):
-                found[i][place] = RollResult(stretches[i].loads[place], curve, drag)
-        return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in found)
+                by_position[i][place] = RollResult(stretches[i].loads[place], curve, drag)
+        return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in by_position)
 
     def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:
         """Load curves that the rolls of a strand are read from."""

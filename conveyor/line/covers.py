@@ -165,8 +165,8 @@ def softened_covers(works: Sequence[StrandAtWork]) -> list[RunningCover | NoSolu
         compound do not reach the strain.
     """
     asked = {i: worked for i, work in enumerate(works) if (worked := work.worked()) is not None}
-    found = dict(zip(asked, softened_many(list(asked.values())), strict=True))
-    return [_running(work.cover, found.get(i)) for i, work in enumerate(works)]
+    soft = dict(zip(asked, softened_many(list(asked.values())), strict=True))
+    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)]
 
 
 def _running(

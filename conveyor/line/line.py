@@ -629,7 +629,7 @@ def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
 
     What else stands there bends the belt or is a snub, and is not driven.
     """
-    found: set[int] = set()
+    driven: set[int] = set()
     for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
         wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
         count = sum(math.ceil(wrap / _MOST_DRIVEN_WRAP) for wrap in wraps)
@@ -638,8 +638,8 @@ def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
             for i, pulley in enumerate(pulleys)
             if (pulley.position, pulley.section) == place and si(pulley.wrap_angle) >= _LEAST_DRIVEN_WRAP
         ]
-        found.update(i for _, _, i in sorted(beside)[:count])
-    return frozenset(found)
+        driven.update(i for _, _, i in sorted(beside)[:count])
+    return frozenset(driven)
 
 
 def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> BendPulley:

@@ -42,8 +42,8 @@ def roll_drags(conveyor: Conveyor, strands: Strands) -> tuple[tuple[float, ...],
     drags: list[tuple[float, ...]] = [()] * len(sets)
     for strand in STRANDS:
         own = [i for i, (other, _) in enumerate(sets) if other == strand]
-        found = _set_drags(conveyor, strand, np.array([sets[i][1] for i in own]))
-        for i, row in zip(own, found.tolist(), strict=True):
+        by_set = _set_drags(conveyor, strand, np.array([sets[i][1] for i in own]))
+        for i, row in zip(own, by_set.tolist(), strict=True):
             drags[i] = tuple(row)
     return tuple(drags[i] for i in which)
 

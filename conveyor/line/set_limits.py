@@ -84,7 +84,7 @@ def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | Non
 
 def _axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
     """Both bearings are taken to bear what the heavier does: on the safe side."""
-    found = []
+    slopes = []
     for place, load in enumerate(stretch.loads):
         life, bearing = roll_life(stretch, place, belt_speed), stretch.idlers.roll_at(place).bearing
         if (
@@ -99,5 +99,5 @@ def _axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
             2.0 * max(life.heavier, 0.0), bearing_centres=si(bearing.support_distance), hub_centres=apart
         )
         slope = shaft_slope(moment, hub_centres=apart, diameter=si(bearing.axle_diameter))
-        found.append(AxleSlope(load.name, slope, si(bearing.allowed_slope)))
-    return max(found, key=lambda axle: axle.slope / axle.allowed, default=None)
+        slopes.append(AxleSlope(load.name, slope, si(bearing.allowed_slope)))
+    return max(slopes, key=lambda axle: axle.slope / axle.allowed, default=None)

@@ -58,9 +58,9 @@ class SetLoads:
             Bulk that lies on the belt [kg/m]: decides the cross-section.
         """
         key = (spacing, inclination, belt_mass, bulk_mass, flow_mass)
-        found = self._found.get(key)
-        if found is None:
-            found = self._found[key] = roll_loads(
+        known = self._found.get(key)
+        if known is None:
+            known = self._found[key] = roll_loads(
                 bulk_line_mass=bulk_mass,
                 belt_line_mass=belt_mass,
                 spacing=spacing,
@@ -74,7 +74,7 @@ class SetLoads:
                 belt_shares=self._belt_shares,
                 outer_shape=self.idlers.wing_load,
             )
-        return found
+        return known
 
     def _shares_of(self, flow_mass: float) -> tuple[float, ...] | None:
         if not self._by_area or flow_mass == 0.0:

@@ -277,14 +277,14 @@ class SizingTask:
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """To choose from, of carry and return sets [m]."""
         rules, wide = self.rules, ", overland" if self.length >= _OVERLAND else ""
-        found = []
+        pairs = []
         for strand, asked, series in (
             ("carry", rules.carry_spacings, sizes().carry_spacings),
             ("return", rules.return_spacings, sizes().return_spacings),
         ):
             widest = in_si(libraries.entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
-            found.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if a <= widest))
-        return found[0], found[1]
+            pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if a <= widest))
+        return pairs[0], pairs[1]
 
     @property
     def _fitted(self) -> Iterator[float]:
@@ -302,7 +302,7 @@ class SizingTask:
         asked = [si(width) for width in rules.widths]
         lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
         least = max([lumps, *self._fitted])
-        found = []
+        shapes = []
         for row in sizes().widths:
             width = WidthSize(si(row.belt), si(row.one), si(row.two), si(row.three))
             if width.belt < least or (asked and not any(map(partial(math.isclose, width.belt), asked))):
@@ -314,8 +314,8 @@ class SizingTask:
                     trough_angle=angle,
                     surcharge_angle=surcharge,
                 )
-                found.append(Trough(width, angle, section.area))
-        return tuple(found)
+                shapes.append(Trough(width, angle, section.area))
+        return tuple(shapes)
 
     def filling(self, trough: Trough, speed: float) -> float | None:
         """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""

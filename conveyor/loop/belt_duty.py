@@ -167,7 +167,7 @@ class BeltDuty:
     transitions: tuple[TransitionCheck, ...] = ()
 
 
-def belt_duty(found: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
+def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
     """Check belt, pulleys, vertical curves and transitions against the tensions of every state.
 
     Parameters
@@ -177,9 +177,9 @@ def belt_duty(found: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
     states : sequence of MotionState, optional
         For curves and transitions; without it those that decide the setting of the take-up.
     """
-    states = states or tuple(found.settled.states.values())
-    belt = found.line.belt
-    steady, largest = found.settled.steady.largest, found.tensions.largest
+    states = states or tuple(balance.settled.states.values())
+    belt = balance.line.belt
+    steady, largest = balance.settled.steady.largest, balance.tensions.largest
 
     def safety(tension: float) -> float | None:
         if belt.strength is None:
@@ -191,28 +191,28 @@ def belt_duty(found: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         largest=largest,
         safety_steady=safety(steady),
         safety=safety(largest),
-        safety_needed=_classic_safety(found.line),
+        safety_needed=_classic_safety(balance.line),
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
-        strength_needed={} if belt.splice_strength is None else _splice(found, belt.splice_strength),
-        pulleys=tuple(_pulleys(found)),
-        drive_diameter=_drive_diameter(found.line),
-        curves=tuple(_curves(found, states)),
-        transitions=tuple(_transition(found.line, zone, states) for zone in found.line.transitions),
+        strength_needed={} if belt.splice_strength is None else _splice(balance, belt.splice_strength),
+        pulleys=tuple(_pulleys(balance)),
+        drive_diameter=_drive_diameter(balance.line),
+        curves=tuple(_curves(balance, states)),
+        transitions=tuple(_transition(balance.line, zone, states) for zone in balance.line.transitions),
     )
 
 
-def _splice(found: Balance, endurance: float) -> dict[str, float]:
+def _splice(balance: Balance, endurance: float) -> dict[str, float]:
     """Strength class that the splice asks for [N/m], by what asks for it; a start may load it `RATED_START` times."""
-    belt, steady = found.line.belt, [found.settled.steady]
-    zones = [_transition(found.line, zone, steady).most for zone in found.line.transitions]
-    curves = [curve.most for curve in _curves(found, steady)]
+    belt, steady = balance.line.belt, [balance.settled.steady]
+    zones = [_transition(balance.line, zone, steady).most for zone in balance.line.transitions]
+    curves = [curve.most for curve in _curves(balance, steady)]
     strips = [most for most in (*zones, *curves) if most is not None]
     loads = {
-        "steady": found.settled.steady.largest / belt.width,
+        "steady": balance.settled.steady.largest / belt.width,
         "strips of transitions and curves, steady": max(strips, default=None),
-        "starting and stopping": found.tensions.largest / belt.width / RATED_START,
+        "starting and stopping": balance.tensions.largest / belt.width / RATED_START,
     }
     return {
         name: needed_strength(
@@ -238,8 +238,8 @@ def _drive_diameter(line: Line) -> float | None:
     return None
 
 
-def _pulleys(found: Balance) -> Iterator[PulleyCheck]:
-    line, allowed = found.line, allowed_tension(found.line)
+def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
+    line, allowed = balance.line, allowed_tension(balance.line)
     drive = _drive_diameter(line)
     if drive is None:
         return
@@ -248,7 +248,7 @@ def _pulleys(found: Balance) -> Iterator[PulleyCheck]:
             continue
         group, used, full = _group(pulley), None, 1.0
         if allowed is not None:
-            used = full = max(0.0, *sides(found, i, found.settled.steady)) / (line.belt.width * allowed)
+            used = full = max(0.0, *sides(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
         if drive <= PULLEY_DIAMETERS[-1]:
@@ -263,8 +263,8 @@ def _group(pulley: BendPulley) -> Group:
     return "C" if snub else "B"
 
 
-def _curves(found: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:
-    line = found.line
+def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:
+    line = balance.line
     sections = {section.name: section for section in line.sections if section.curve is not None}
     for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
@@ -351,7 +351,7 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
             "belt.carcass.strength and rating not given" if rated is None else "belt.carcass.stiffness not given"
         )  # fmt: skip
         return TransitionCheck(zone, lowest, highest, missing=missing)
-    found = transition_stretch(
+    zone_length = transition_stretch(
         width, middle_roll_length=middle, trough_angle=stretch.trough_angle, pulley_height=zone.pulley_height
     )
     allowed = EDGE_OVER_RATED * rated
@@ -363,15 +363,15 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
 
     most = lower = None
     if zone.length is not None:
-        most = highest + stiffness * found.largest / zone.length**2
-        lower = lowest + stiffness * found.least / zone.length**2
+        most = highest + stiffness * zone_length.largest / zone.length**2
+        lower = lowest + stiffness * zone_length.least / zone.length**2
     return TransitionCheck(
         zone,
         lowest,
         highest,
         allowed,
-        least(highest, found.largest, allowed),
-        least(lowest, found.least, 0.0),
+        least(highest, zone_length.largest, allowed),
+        least(lowest, zone_length.least, 0.0),
         most,
         lower,
     )

@@ -76,13 +76,13 @@ def converged(
     change = float(moved[_acting(line)].max()) / largest
     ratio = change / (1.0 if last is None or last.change == 0.0 else last.change)
     bound = change * ratio / (1.0 - ratio) if ratio < 1.0 else change
-    found = Convergence(1 if last is None else last.steps + 1, change, ratio, bound)
-    if found.steps >= MOST_STEPS and not found.settled(line.rtol):
+    state = Convergence(1 if last is None else last.steps + 1, change, ratio, bound)
+    if state.steps >= MOST_STEPS and not state.settled(line.rtol):
         raise NoSolutionError(
             f"tensions and what they do to the rolls do not settle in {MOST_STEPS} steps (last change {change:.2g}): "
             "choose larger radii of curves"
         )
-    return found
+    return state
 
 
 def _acting(line: Line) -> NDArray[np.bool_]:
@@ -110,15 +110,15 @@ def pulls(line: Line, steady: MotionState, places: Array) -> Array:
     """
     middle, rise = 0.5 * (steady.starts + steady.ends), steady.ends - steady.starts
     mass = np.array([stretch.line_mass for stretch in line.loop.stretches])
-    found = middle[:, None] + rise[:, None] * places - (mass * line.speed**2)[:, None]
-    least = int(found.min(axis=1).argmin())
-    if found[least].min() <= 0.0:
+    tensions = middle[:, None] + rise[:, None] * places - (mass * line.speed**2)[:, None]
+    least = int(tensions.min(axis=1).argmin())
+    if tensions[least].min() <= 0.0:
         stretch = line.loop.stretches[least]
         raise NoSolutionError(
             f'no tension is left to hold the belt in section "{stretch.section}", {stretch.strand}: T - m\' v² is '
-            f"{found[least].min():.5g} N; raise the take-up's tension (route.take_up.tension)"
+            f"{tensions[least].min():.5g} N; raise the take-up's tension (route.take_up.tension)"
         )
-    return np.roll(found, line.count, axis=0) / line.belt.width
+    return np.roll(tensions, line.count, axis=0) / line.belt.width
 
 
 def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, float, float]]:
@@ -157,7 +157,7 @@ def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     NoSolutionError
         The belt runs off its rolls.
     """
-    found = {}
+    by_stretch = {}
     for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True):
         if stretch.turn is not None:
             tension = 0.5 * float(start + end)
@@ -166,8 +166,8 @@ def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
             drift = law.drift(pull)
             if math.isinf(drift):
                 raise _runs_off(stretch, stretch.turn.radius, pull, law)
-            found[stretch.section, stretch.strand] = drift
-    return found
+            by_stretch[stretch.section, stretch.strand] = drift
+    return by_stretch
 
 
 def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw) -> NoSolutionError:

@@ -144,11 +144,11 @@ class DriveDuty:
         return disc_rise(self.heat, mass=self.parts.disc)
 
 
-def drive_duty(found: Balance, moving: Motions) -> tuple[DriveDuty, ...]:
+def drive_duty(balance: Balance, moving: Motions) -> tuple[DriveDuty, ...]:
     """Of every drive; of none where the spec asks for no more than force and power."""
-    line = found.line
+    line = balance.line
     backstops = sum(_has_backstop(drive) for drive in line.drives)
-    shared = _shared(found)
+    shared = _shared(balance)
     return tuple(
         DriveDuty(line, drive, drive.parts, moving, max(backstops, 1), None if shared is None else shared[i])
         for i, drive in enumerate(line.drives)
@@ -160,16 +160,16 @@ def _has_backstop(drive: DriveUnit) -> bool:
     return drive.backstop is True or (drive.parts is not None and drive.parts.backstop is not None)
 
 
-def _shared(found: Balance) -> tuple[float, ...] | None:
+def _shared(balance: Balance) -> tuple[float, ...] | None:
     """Forces of several drives that only the belt couples [N]; None where no pulley is smaller than nominal."""
-    line, steady, stiffness = found.line, found.settled.steady, belt_stiffness(found.line.belt)
+    line, steady, stiffness = balance.line, balance.settled.steady, belt_stiffness(balance.line.belt)
     powers = [drive.power for drive in line.drives if drive.power is not None]
     smaller = any(drive.parts is not None and drive.parts.loss is not None for drive in line.drives)
     if len(line.drives) == 1 or not smaller or stiffness is None or len(powers) < len(line.drives):
         return None
     first = steady.drives[0].arriving
     return shared_forces(
-        found.settled.force,
+        balance.settled.force,
         rated=[power * line.efficiency / line.speed for power in powers],
         slips=[MOTOR_SLIP.value if drive.starter is None else drive.starter.slip for drive in line.drives],
         diameters=[_over_nominal(drive) for drive in line.drives],

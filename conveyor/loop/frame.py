@@ -68,7 +68,7 @@ class Frame:
         self.drives: list[list[int]] = [[] for _ in self.spots]
         for i, drive in enumerate(line.drives):
             self.drives[self.at[drive.spot]].append(i)
-        self.station = next(found for found in self.drives if 0 in found)
+        self.station = next(stop for stop in self.drives if 0 in stop)
         self.anchor = None if line.take_up.spot is None else self.at[line.take_up.spot]
         way = line.loop.way
         self.run_shares: list[float] = (np.diff(way[self.boundaries]) / way[-1]).tolist()

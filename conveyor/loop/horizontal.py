@@ -94,7 +94,7 @@ class HorizontalCheck:
         return min(self.states, key=lambda state: (state.outside, state.most))
 
 
-def horizontal_checks(found: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCheck, ...]:
+def horizontal_checks(balance: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCheck, ...]:
     """Every horizontal curve on both strands in every state, carry strand first.
 
     Parameters
@@ -104,7 +104,7 @@ def horizontal_checks(found: Balance, states: Sequence[MotionState]) -> tuple[Ho
     states : sequence of MotionState
         Of it.
     """
-    line, half = found.line, found.line.count
+    line, half = balance.line, balance.line.count
     order = [*range(half, 2 * half), *range(half)]
     return tuple(check for i in order for check in _bend(line, line.loop.stretches[i], i, states))
 

@@ -150,15 +150,15 @@ class PulleyDuty:
         return None if self.bearing_hours is None else SECONDS_PER_HOUR * self.bearing_hours
 
 
-def pulley_duty(found: Balance, states: Sequence[MotionState]) -> tuple[PulleyDuty, ...]:
+def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[PulleyDuty, ...]:
     """Loads of every pulley of the spec in every state; none of assumed ones."""
-    line = found.line
+    line = balance.line
     return tuple(
         PulleyDuty(
             pulley,
             line.belt.width,
             line.speed,
-            tuple(_load(line, pulley, state.name, *sides(found, i, state)) for state in states),
+            tuple(_load(line, pulley, state.name, *sides(balance, i, state)) for state in states),
         )
         for i, pulley in enumerate(line.pulleys)
         if not pulley.assumed
@@ -178,25 +178,27 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
     return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
 
 
-def sides(found: Balance, i: int, state: MotionState) -> tuple[float, float]:
+def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
     """Tensions before and behind the pulley of a number [N].
 
     Driven pulleys at one place are passed in the order listed: each by the drive of its number; where a drive stands on
     several they share its force alike.
     """
-    line, pulley = found.line, found.line.pulleys[i]
+    line, pulley = balance.line, balance.line.pulleys[i]
     if not pulley.driven:
-        before = state.spots[found.frame.at[pulley.spot]]
+        before = state.spots[balance.frame.at[pulley.spot]]
         return before, before
     met = [k for k, other in enumerate(line.pulleys) if other.driven and other.spot == pulley.spot]
-    steps = list(_steps(found, pulley, state, len(met)))
+    steps = list(_steps(balance, pulley, state, len(met)))
     return steps[met.index(i)], steps[met.index(i) + 1]
 
 
-def _steps(found: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
+def _steps(balance: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
     """Tension before the first of the driven pulleys at a place, and behind each."""
     sides = [
-        side for drive, side in zip(found.line.drives, state.drives, strict=True) if drive.spot == pulley.spot
+        side
+        for drive, side in zip(balance.line.drives, state.drives, strict=True)
+        if drive.spot == pulley.spot
     ]
     yield sides[0].arriving
     if len(sides) == count:

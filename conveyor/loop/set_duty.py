@@ -73,18 +73,18 @@ class SetDuty:
         return 2.0 * min(self.stretch.radii) * self.stretch.spacing / self.still_spacing
 
 
-def set_duty(found: Balance) -> tuple[SetDuty, ...]:
+def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
     """Of every stretch whose spec asks for more of its sets than loads and drag, in loop order."""
-    line, steady = found.line, found.settled.steady
+    line, steady = balance.line, balance.settled.steady
     return tuple(
-        _duty(found, stretch, float(start), float(end))
+        _duty(balance, stretch, float(start), float(end))
         for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True)
         if stretch.idlers.judged
     )
 
 
-def _duty(found: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
-    line = found.line
+def _duty(balance: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
+    line = balance.line
     limits = SetLimits.of(stretch, belt_width=line.belt.width, tension=max(start, end), belt_speed=line.speed)
     swings = (_swing(stretch, start, line.speed), _swing(stretch, end, line.speed))
     return SetDuty(stretch, limits, set_life(stretch, line.speed), line.speed, swings)

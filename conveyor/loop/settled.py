@@ -142,11 +142,11 @@ def settle(loop: Loop, setting: float | None = None) -> Settled:
         if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
             break
         sides = loop.at_bends(motions[0], held)
-        found = tuple(
+        newtons = tuple(
             math.fsum(bend.newtons(*side, line.gravity))
             for bend, side in zip(frame_bends, sides, strict=True)
         )
-        history.append(found)
+        history.append(newtons)
         if len(history) == _EXTRAPOLATED:
             history = [_extrapolated(*history)]
     else:
@@ -177,11 +177,11 @@ def settle(loop: Loop, setting: float | None = None) -> Settled:
 
 def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
     """Where three steps lead to (Aitken); the last of them where they do not shrink."""
-    found = []
+    further = []
     for a, b, c in zip(first, second, third, strict=True):
         ratio = (c - b) / (b - a) if b != a else 0.0
-        found.append(c + (c - b) * ratio / (1.0 - ratio) if abs(ratio) < _SHRINKS else c)
-    return tuple(found)
+        further.append(c + (c - b) * ratio / (1.0 - ratio) if abs(ratio) < _SHRINKS else c)
+    return tuple(further)
 
 
 def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
@@ -203,10 +203,10 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
             may_sag=over != 1.0,
         )
 
-    found = [shared(STEADY, drive, 1.0, 1.0)]
+    states = [shared(STEADY, drive, 1.0, 1.0)]
     if drive > 0.0:
         start = run_up(line, drive, mass)
-        found.append(
+        states.append(
             loop.motion(
                 START,
                 start.forces,
@@ -217,13 +217,13 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
             )
         )
     else:
-        found.append(shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor))
+        states.append(shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor))
     certain = line.least_friction
     least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
     if least < 0.0 and certain < 1.0:
-        found += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
+        states += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
     brakes = braked(loop, bends, certain)
-    return tuple(found if brakes is None else [*found, brakes])
+    return tuple(states if brakes is None else [*states, brakes])
 
 
 def braked(loop: Loop, bends: Bends, friction: float) -> Motion | None:

@@ -119,12 +119,14 @@ class Motions:
     @cached_property
     def hardest(self) -> tuple[float, float]:
         """Hardest deceleration (negative) and highest acceleration that occur [m/s²]."""
-        found = [0.0, self.start.acceleration]
-        found += [-s.deceleration for s in (self.coasting, self.coasting_least, self.braked) if s is not None]
-        return min(found), max(found)
+        accelerations = [0.0, self.start.acceleration]
+        accelerations += [
+            -s.deceleration for s in (self.coasting, self.coasting_least, self.braked) if s is not None
+        ]
+        return min(accelerations), max(accelerations)
 
 
-def motions(found: Balance) -> Motions:
+def motions(balance: Balance) -> Motions:
     """Start, coasting, braking and holding of a conveyor under its load.
 
     Parameters
@@ -132,7 +134,7 @@ def motions(found: Balance) -> Motions:
     found : Balance
         Its forces, and the loop of its tensions.
     """
-    settled, line = found.settled, found.line
+    settled, line = balance.settled, balance.line
     loop = settled.loop
     mass, rotating = loop.masses.whole, math.fsum(drive.reduced_mass for drive in line.drives)
     least = settled.least_force
@@ -149,7 +151,7 @@ def motions(found: Balance) -> Motions:
     return Motions(
         moving_mass=mass,
         rotating_mass=rotating,
-        start=_start(found, mass, rotating),
+        start=_start(balance, mass, rotating),
         coasting=_stop(line.speed, settled.force, whole),
         coasting_least=_stop(line.speed, least, whole),
         braked=stopped,
@@ -166,9 +168,9 @@ def motions(found: Balance) -> Motions:
     )
 
 
-def every_state(found: Balance, moving: Motions) -> tuple[MotionState, ...]:
+def every_state(balance: Balance, moving: Motions) -> tuple[MotionState, ...]:
     """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
-    return (*found.settled.states.values(), *moving.states.values())
+    return (*balance.settled.states.values(), *moving.states.values())
 
 
 def _holding(lift: float, friction: float) -> tuple[float, bool]:
@@ -194,9 +196,9 @@ def _braked(
     return whole, brakes * made.distance
 
 
-def _start(found: Balance, mass: float, rotating: float) -> Start:
-    line, steady = found.line, found.settled.force
-    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * found.forces.parts["idler_rotation"]
+def _start(balance: Balance, mass: float, rotating: float) -> Start:
+    line, steady = balance.line, balance.settled.force
+    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * balance.forces.parts["idler_rotation"]
     if steady <= 0.0:
         factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass

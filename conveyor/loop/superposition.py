@@ -127,7 +127,7 @@ class Loadings:
         steady = self.resistance(1.0)[1]
         least = self.resistance(self.line.least_friction)[1]
         candidates = [steady > 0.0, steady < 0.0, least < 0.0, *self.standard]
-        found = {DRIVE_FORCE: candidates[0]}
+        loadings = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
                 begun = candidates[:1] if sought.driving is None else candidates[:2]
@@ -137,8 +137,8 @@ class Loadings:
         for name in figures[candidates[0].tobytes()]:
             best = max(figures, key=lambda key: figures[key][name])
             if name != LEAST_FORCE or figures[best][name] > 0.0:
-                found[name] = tried[best]
-        return found
+                loadings[name] = tried[best]
+        return loadings
 
     def loaded(self, loading: Loading) -> Balance:
         """The loop under one loading: forces of the full belt where it bears bulk, of the empty one elsewhere."""
@@ -385,19 +385,19 @@ class Loadings:
         here, together = self._values(sought, loading, self._unchanged)[0], True
         changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
         while True:
-            found = self._values(sought, loading, changes)
+            values = self._values(sought, loading, changes)
             if together:
-                gains = found[: self.count] > here
+                gains = values[: self.count] > here
                 tried = loading ^ gains
                 value = self._values(sought, tried, self._unchanged)[0]
                 together = bool(value > here)
                 if together:
                     loading, here = tried, value
                 continue
-            best = int(np.argmax(found))
-            if not found[best] > here:
+            best = int(np.argmax(values))
+            if not values[best] > here:
                 return loading
-            loading, here = loading ^ changes[best], found[best]
+            loading, here = loading ^ changes[best], values[best]
 
     def _signed(self, sought: _Sought, loading: Loading) -> Loading:
         """A loading whose steady drive force has the sign the figure holds for, at the least loss a newton."""
@@ -514,15 +514,15 @@ def _events(full: Balance, empty: Balance) -> _Events:
     )  # fmt: skip
 
 
-def _along(found: Balance) -> list[tuple[float, float, float] | None]:
+def _along(balance: Balance) -> list[tuple[float, float, float] | None]:
     """Force, its certain part and mass of every stretch in loop order."""
-    count = found.line.count
+    count = balance.line.count
     force, certain = np.zeros(2 * count), np.zeros(2 * count)
-    for each in found.along:
+    for each in balance.along:
         force += each.newtons
         if each.certain:
             certain += each.newtons
-    both = (np.roll(force, count), np.roll(certain, count), found.line.loop.mass)
+    both = (np.roll(force, count), np.roll(certain, count), balance.line.loop.mass)
     return list(zip(*(column.tolist() for column in both), strict=True))
 
 
@@ -549,8 +549,8 @@ def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
 def _by_length(full: Balance, empty: Balance, total: float) -> Iterator[_Row]:
     """Secondary resistance in proportion to the main one, by section."""
     laden, bare = (
-        np.array([force.newtons for force in found.along if force.kind == "main"]).sum(axis=0)
-        for found in (full, empty)
+        np.array([force.newtons for force in balance.along if force.kind == "main"]).sum(axis=0)
+        for balance in (full, empty)
     )
     share = total / float(laden.sum())
     yield (share * float(bare.sum()), 0.0, 0.0, 0.0, 0.0, 0.0, -1)

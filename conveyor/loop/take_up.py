@@ -80,10 +80,10 @@ def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
     """
     if not loops or loops[0].line.take_up.tension is not None:
         return list(loops)
-    setting = max(found.settled.needed for found in loops)
+    setting = max(loop.settled.needed for loop in loops)
     for _ in range(_STEPS):
-        closed = [found.held(setting) for found in loops]
-        asked = max(found.settled.needed for found in closed)
+        closed = [loop.held(setting) for loop in loops]
+        asked = max(loop.settled.needed for loop in closed)
         if holds(setting, asked):
             return closed
         setting = asked
@@ -109,9 +109,9 @@ def take_up_duty(
     line = loops[0].line
     governing = max(range(len(loops)), key=lambda i: loops[i].settled.needed)
     settled = loops[governing].settled
-    means = [found.settled.steady.mean(found.line.loop.length) for found in loops]
+    means = [loop.settled.steady.mean(loop.line.loop.length) for loop in loops]
     every = [
-        state.mean(found.line.loop.length) for found, of in zip(loops, states, strict=True) for state in of
+        state.mean(loop.line.loop.length) for loop, of in zip(loops, states, strict=True) for state in of
     ]
     known = list(temperatures)
     warmth = max(known) - min(known)
@@ -147,11 +147,11 @@ def take_up_duty(
 
 def _speed(loops: Sequence[Balance], stiffness: float) -> float:
     """Of the carriage in the start that asks for most [m/s]; 0 where nothing is accelerated."""
-    line, found = loops[0].line, [0.0]
+    line, speeds = loops[0].line, [0.0]
     for loop in loops:
         start, lengths = loop.settled.unsteady, loop.line.loop.length
         if start.acceleration != 0.0:
-            found.append(
+            speeds.append(
                 follow_speed(
                     start.mean(lengths) - loop.settled.steady.mean(lengths),
                     time=loop.line.speed / abs(start.acceleration),
@@ -160,7 +160,7 @@ def _speed(loops: Sequence[Balance], stiffness: float) -> float:
                     strands=line.take_up.strands,
                 )
             )
-    return max(found)
+    return max(speeds)
 
 
 def _mass(line: Line, setting: float) -> float:

@@ -179,22 +179,22 @@ class Loop:
 
     def sagging(self, friction: float) -> tuple[float, ...]:
         """Settings that the sag of each run asks for over its shift, in steady running [N]."""
-        found = self._sagging.get(friction)
-        if found is None:
+        known = self._sagging.get(friction)
+        if known is None:
             along = self.along(friction, 0.0)
             needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
-            found = tuple(np.maximum.reduceat(needed, self.frame.boundaries[:-1]).tolist())
-            self._sagging[friction] = found
-        return found
+            known = tuple(np.maximum.reduceat(needed, self.frame.boundaries[:-1]).tolist())
+            self._sagging[friction] = known
+        return known
 
     def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
         """Sum of the single forces at every spot [N]."""
-        found = [0.0] * len(self.frame.stops)
+        newtons = [0.0] * len(self.frame.stops)
         for j, force, certain in self._points:
-            found[j] += force if certain else friction * force
+            newtons[j] += force if certain else friction * force
         for j, force in zip(self._bends, bends, strict=True):
-            found[j] += friction * force
-        return found
+            newtons[j] += friction * force
+        return newtons
 
     def resistance(self, singles: Singles, friction: float = 1.0) -> float:
         """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
@@ -249,13 +249,13 @@ class Loop:
 
     def at_bends(self, steady: Motion, setting: float) -> list[tuple[float, float]]:
         """Tensions on both sides of every pulley in steady running [N], of a driven one those of its drives."""
-        level, found = setting - steady.anchor, []
+        level, pairs = setting - steady.anchor, []
         for j in self._bends:
             sides = [offset for i in self.frame.drives[j] for offset in steady.drives[i][1:]] or [
                 steady.before[j]
             ]
-            found.append((level + max(sides), level + min(sides)))
-        return found
+            pairs.append((level + max(sides), level + min(sides)))
+        return pairs
 
     def _anchor(
         self,

@@ -105,15 +105,15 @@ class Cleaning:
 
 def cleanings(line: Line) -> tuple[Cleaning, ...]:
     """Cleaners in the order in which the belt meets them."""
-    left, found = line.carryback[0], []
+    left, made = line.carryback[0], []
     for scraper in line.scrapers:
         drag = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         lost = None
         if left is not None:
             left = carryback(left, efficiency=scraper.efficiency, count=scraper.count)
             lost = left * scraper.width * line.speed
-        found.append(Cleaning(scraper, drag, left, lost))
-    return tuple(found)
+        made.append(Cleaning(scraper, drag, left, lost))
+    return tuple(made)
 
 
 @dataclass(frozen=True, eq=False)

@@ -132,7 +132,7 @@ def _grid(path: Path, kind: TableKind) -> TextGrid:
 
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
     """The named columns, each known and there once."""
-    found: dict[str, _Head] = {}
+    heads: dict[str, _Head] = {}
     for index, header in enumerate(head.cells):
         column = _Head(index, header, kind)
         if not column.field:
@@ -142,16 +142,16 @@ def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
                     f'{kind.example}; begin the name with "note" to have it left alone', header=header,
                 )  # fmt: skip
             continue
-        if column.name != "note" and column.name in found:
+        if column.name != "note" and column.name in heads:
             raise grid.refusal(head.number, index, "is there twice; remove one of the two", header=header)
-        found.setdefault(column.name, column)
-    there = {column.field for column in found.values()}
+        heads.setdefault(column.name, column)
+    there = {column.field for column in heads.values()}
     missing = [wanted for field, wanted in kind.needed.items() if field not in there]
     if missing:
         raise grid.refusal(
             head.number, 0, f"no column {' and none '.join(missing)}; name it as in {kind.example}"
         )
-    return list(found.values())
+    return list(heads.values())
 
 
 def _cells(row: TextLine, columns: list[_Head]) -> Iterator[tuple[_Head, str]]:

@@ -93,10 +93,10 @@ def cross_sections(conveyor: ConveyorParts) -> tuple[float, float] | None:
 
 def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
-    found, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
-    if found is None or found[0] <= found[1]:
+    sections, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
+    if sections is None or sections[0] <= sections[1]:
         return
-    needed, area = found
+    needed, area = sections
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
     yield Problem(

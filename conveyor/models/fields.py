@@ -71,20 +71,20 @@ def field(conveyor: Conveyor, path: str) -> Any:
     InputError
         The path leads nowhere.
     """
-    found: Any = conveyor
+    value: Any = conveyor
     way = ""
     for part in _parts(path):
-        if found is None:
+        if value is None:
             return None
-        if isinstance(found, tuple):
-            found = found[_item(found, part, way)]
-        elif isinstance(found, Model):
-            ((name, _),) = _named(found, {part: None}, way)
-            found = getattr(found, name)
+        if isinstance(value, tuple):
+            value = value[_item(value, part, way)]
+        elif isinstance(value, Model):
+            ((name, _),) = _named(value, {part: None}, way)
+            value = getattr(value, name)
         else:
             raise InputError(f"{path}: {way} has no parts")
         way = f"{way}.{part}" if way else part
-    return found
+    return value
 
 
 class _Leaf:

@@ -75,14 +75,14 @@ def merged(entry: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
     >>> merged({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}}, {"carcass": {"thickness": "5 mm"}})
     {'mass': '27 kg/m^2', 'carcass': {'kind': 'EP', 'thickness': '5 mm'}}
     """
-    found: dict[str, Any] = dict(entry)
+    fields: dict[str, Any] = dict(entry)
     for name, value in given.items():
-        known = found.get(name)
+        known = fields.get(name)
         if isinstance(value, Mapping) and isinstance(known, Mapping):
-            found[name] = merged(known, value)
+            fields[name] = merged(known, value)
         else:
-            found[name] = value
-    return found
+            fields[name] = value
+    return fields
 
 
 def without(data: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str, Any]:

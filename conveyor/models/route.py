@@ -512,12 +512,12 @@ class Route(Model):
             name = self.sections[0].name if point.section is None else point.section
             fed.setdefault(name, []).append(1.0 if point.share is None else si(point.share))
         landed: list[float] = []
-        found = {}
+        shares = {}
         for section in self.sections:
             landed += fed.get(section.name, [])
             total = math.fsum(landed)
-            found[section.name] = 1.0 if len(landed) == len(points) else total
-        return found
+            shares[section.name] = 1.0 if len(landed) == len(points) else total
+        return shares
 
     @property
     def length(self) -> float:

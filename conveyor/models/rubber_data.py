@@ -180,11 +180,11 @@ class Band(Model):
         from conveyor.rubber import PronySeries
 
         tau, scale = np.array(times), _PASCALS[self.unit]
-        found = []
+        lists = []
         for equilibrium, row in zip(self.equilibrium, self.moduli, strict=True):
             moduli = np.array(row) * scale
-            found.append(PronySeries(si(equilibrium), moduli[moduli > 0.0], tau[moduli > 0.0]))
-        return tuple(found)
+            lists.append(PronySeries(si(equilibrium), moduli[moduli > 0.0], tau[moduli > 0.0]))
+        return tuple(lists)
 
 
 class Prony(Model):

@@ -40,11 +40,13 @@ def _listed(given: Any) -> Any:
     *numbers, unit = given.partition(" ")
     if given.count(":") == 2:
         try:
-            found = spaced(numbers[0])
+            numbers_of = spaced(numbers[0])
         except ValueError:
-            found = []
-        if found:
-            return [f"{value:.12g} {unit}".strip() if unit else float(f"{value:.12g}") for value in found]
+            numbers_of = []
+        if numbers_of:
+            return [
+                f"{value:.12g} {unit}".strip() if unit else float(f"{value:.12g}") for value in numbers_of
+            ]
     raise PydanticCustomError(
         "axis",
         '{message}',
@@ -350,12 +352,12 @@ class SearchPlan(VariedSpec):
 
     def design(self, shares: Sequence[float]) -> dict[str, Value]:
         """A design: of each range the share of the way, of each list the number."""
-        found: dict[str, Value] = {}
+        values: dict[str, Value] = {}
         for (path, span), share in zip(self.ranges.items(), shares, strict=False):
-            found[path] = span.at(round(share * STEPS) / STEPS)
+            values[path] = span.at(round(share * STEPS) / STEPS)
         for listed, number in zip(self.choices, shares[len(self.ranges) :], strict=True):
-            found |= listed[round(number)]
-        return {path: found[path] for path in self.designed}
+            values |= listed[round(number)]
+        return {path: values[path] for path in self.designed}
 
 
 def with_states(plan: Given, base: Conveyor) -> Given:

@@ -242,10 +242,10 @@ def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]
 
 
 def _as_run(conveyor: Conveyor, run: MeasuredRun) -> Conveyor:
-    found = conveyor.replace(material=conveyor.material.replace(flow=run.flow))
+    made = conveyor.replace(material=conveyor.material.replace(flow=run.flow))
     if run.speed is not None:
-        found = found.replace(belt=found.belt.replace(speed=run.speed))
+        made = made.replace(belt=made.belt.replace(speed=run.speed))
     if run.air_temperature is not None:
         ambient = {"temperature": run.air_temperature, "belt_temperature": run.temperature}
-        return found.replace(ambient=found.ambient.replace(**ambient))
-    return found if run.temperature is None else with_temperature(found, run.temperature)
+        return made.replace(ambient=made.ambient.replace(**ambient))
+    return made if run.temperature is None else with_temperature(made, run.temperature)

@@ -160,7 +160,7 @@ def _models_at(model: type[BaseModel], location: Location) -> list[type[BaseMode
             continue
         fields = [field for owner in here if (field := _field(owner, part)) is not None]
         if fields:
-            here = [found for field in fields for found in _models_in(field.annotation)]
+            here = [one for field in fields for one in _models_in(field.annotation)]
         else:
             here = [owner for owner in here if part in _tags_of(owner)]
     return here

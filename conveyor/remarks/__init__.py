@@ -66,19 +66,19 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def method(found: CalculatedConveyor) -> tuple[str, ...]:
+def method(result: CalculatedConveyor) -> tuple[str, ...]:
     """How the figures of an analysis are calculated, for readers who have the report alone."""
-    tested = any(level is not None for level in (cover.level for cover in found.contacts.covers.values()))
+    tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
     scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
     return (
         "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "
         "Lubricants 7 (2019), with its errata), solved for every distinct roll with the relaxation spectrum of the "
-        f"rubber at belt speed and temperature{scaled}; numerical error at most {found.error_estimate:.0e}.",
+        f"rubber at belt speed and temperature{scaled}; numerical error at most {result.error_estimate:.0e}.",
         "Other resistances: DIN 22101 / ISO 5048, item by item; the source stands beside every force.",
         "Tensions: all forces are summed round the loop in steady running, starting and stopping; the take-up is set "
         "for the grip of the drives (Eytelwein) and the sag between idlers, in every load and state together.",
         "Load states: all sections loaded or empty in the combination that is worst for each figure; minimum friction "
-        f"is {percent(found.conveyor.drive.certain_friction)} of the calculated one where that is less favourable.",
+        f"is {percent(result.conveyor.drive.certain_friction)} of the calculated one where that is less favourable.",
         "Checks: calculated against required, of all loads the least margin; the source of a limit stands beside it.",
     )
 
@@ -110,21 +110,21 @@ def _energy(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def warnings(found: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said, ...]:
+def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said, ...]:
     """Where an assumption is strained, a default stands in, a criterion is not met, or a figure needs a second look."""
-    conveyor = found.conveyor
+    conveyor = result.conveyor
     return tuple(
         dict.fromkeys(
             (
                 *_rubber(conveyor),
-                *_strain(found),
-                *_level(found),
-                *_contact(found),
-                *roll_warnings(found),
-                *_left_out(found),
-                *_trippers(found.line),
+                *_strain(result),
+                *_level(result),
+                *_contact(result),
+                *roll_warnings(result),
+                *_left_out(result),
+                *_trippers(result.line),
                 *_calibration(conveyor),
-                *_drive(found),
+                *_drive(result),
                 *(
                     _of_case(check, check.why)
                     for check in checked
@@ -154,13 +154,13 @@ def _rubber(conveyor: Conveyor) -> Iterator[Said]:
             yield said(f'compound "{name}": unknown: {quoted("; ".join(compound.missing))}')
 
 
-def _strain(found: CalculatedConveyor) -> Iterator[Said]:
+def _strain(result: CalculatedConveyor) -> Iterator[Said]:
     """At which strain the moduli were taken, where the compound knows what strain does to it."""
-    for strand, compound in compounds_by_strand(found.conveyor).items():
+    for strand, compound in compounds_by_strand(result.conveyor).items():
         known, name = compound.strain_dependence, quoted(compound.name)
         if known is None:
             continue
-        worked = found.contacts.covers[strand].strain
+        worked = result.contacts.covers[strand].strain
         factors = compound.amplitude_factors()
         if worked is not None and factors is not None:
             note = f" ({quoted(known.reference_note)})" if known.reference_note else ""
@@ -169,24 +169,24 @@ def _strain(found: CalculatedConveyor) -> Iterator[Said]:
                 f"{worked.frequency:.3g} Hz: E' x {worked.storage_factor:.3g}, E'' x {worked.loss_factor:.3g} of "
                 f"the master curve at {text(known.reference_strain)}{note}"
             )
-            if not factors.known_at(found.temperature):
+            if not factors.known_at(result.temperature):
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
-                held = (factors.nearest(found.temperature), "temperature")
+                held = (factors.nearest(result.temperature), "temperature")
                 yield said(
                     f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: the factors at {{}} '
                     "are used",
                     *reached,
-                    (found.temperature, "temperature"),
+                    (result.temperature, "temperature"),
                     held,
                 )
-        elif not found.line.softened:
+        elif not result.line.softened:
             yield said(f'compound "{name}": calculation.strain is off, its strain sweeps are not used')
 
 
-def _level(found: CalculatedConveyor) -> Iterator[Said]:
+def _level(result: CalculatedConveyor) -> Iterator[Said]:
     """Whether rolling-resistance tests set the level of the indentation, and how far it is known."""
-    contacts, calculation = found.contacts, found.conveyor.calculation
-    for strand, compound in compounds_by_strand(found.conveyor).items():
+    contacts, calculation = result.contacts, result.conveyor.calculation
+    for strand, compound in compounds_by_strand(result.conveyor).items():
         level, name = contacts.covers[strand].level, quoted(compound.name)
         if level is not None:
             half = contacts.level_band(strand)
@@ -207,15 +207,16 @@ def _level(found: CalculatedConveyor) -> Iterator[Said]:
                 f'compound "{name}": level not tested: published tests of low-resistance covers lie 2 to 2.5 times '
                 "above tyre-type small-strain data; give the compound rolling-resistance tests"
             )
-    if 0.0 < found.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
+    if 0.0 < result.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
         yield said(
-            f"friction factor {found.balance.friction_factor:.4f} is below {LEAST_PUBLISHED_FRICTION:g}, the best ever "
-            "measured on a conveyor (Henderson PC2, Alspaugh 2004): look for resistances that are missing or too low"
+            f"friction factor {result.balance.friction_factor:.4f} is below {LEAST_PUBLISHED_FRICTION:g}, the "
+            "best ever measured on a conveyor (Henderson PC2, Alspaugh 2004): look for resistances that are missing or "
+            "too low"
         )
 
 
-def _contact(found: CalculatedConveyor) -> Iterator[Said]:
-    conveyor, contacts = found.conveyor, found.contacts
+def _contact(result: CalculatedConveyor) -> Iterator[Said]:
+    conveyor, contacts = result.conveyor, result.contacts
     support = conveyor.calculation.support
     if isinstance(contacts, BeltContacts):
         for give in contacts.gives:
@@ -241,8 +242,8 @@ def _contact(found: CalculatedConveyor) -> Iterator[Said]:
         )
 
 
-def _left_out(found: CalculatedConveyor) -> Iterator[Said]:
-    line = found.line
+def _left_out(result: CalculatedConveyor) -> Iterator[Said]:
+    line = result.line
     if line.secondary == "itemised":
         if not line.pulleys:
             yield said("route.pulleys not given: wraps and pulley bearings not included")
@@ -293,8 +294,8 @@ def _calibration(conveyor: Conveyor) -> Iterator[Said]:
     )
 
 
-def _drive(found: CalculatedConveyor) -> Iterator[Said]:
-    drive, balance = found.conveyor.drive, found.balance
+def _drive(result: CalculatedConveyor) -> Iterator[Said]:
+    drive, balance = result.conveyor.drive, result.balance
     if balance.settled.least_force < 0.0:
         given = "least_friction" in drive.model_fields_set
         source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
@@ -304,7 +305,7 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
             (balance.settled.least_force, "force"),
             (balance.forces.total, "force"),
         )
-    line = found.line
+    line = result.line
     if line.start_factor is None:
         usual = f"{START_FACTOR.low:g} to {START_FACTOR.high:g} are usual"
         if not line.torque_curve or balance.settled.force <= 0.0:
@@ -328,5 +329,5 @@ def _drive(found: CalculatedConveyor) -> Iterator[Said]:
                 f"assumed, {DRIVE_INERTIA.value:g} s of its rated power ({DRIVE_INERTIA.source}; general knowledge)",
                 (each.reduced_mass, "mass"),
             )
-    if balance.power.mains < 0.0 and earns_nothing(found.conveyor.operation):
+    if balance.power.mains < 0.0 and earns_nothing(result.conveyor.operation):
         yield said("operation.feed_in_price not given: energy that is fed back earns nothing")

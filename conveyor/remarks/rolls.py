@@ -81,9 +81,9 @@ def _drag(conveyor: Conveyor) -> str:
         strand: sorted({_law_in_words(roll, in_service=in_service) for _, roll in _rolls(idlers)})
         for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
     }
-    if all(found == ["constant"] for found in laws.values()):
+    if all(law == ["constant"] for law in laws.values()):
         return "Roll drag does not depend on speed, load or temperature."
-    words = [f"{strand} {' and '.join(found)}" for strand, found in laws.items()]
+    words = [f"{strand} {' and '.join(law)}" for strand, law in laws.items()]
     if laws["carry"] == laws["return"]:
         words = [" and ".join(laws["carry"])]
     return f"Roll drag: {', '.join(words)}."
@@ -104,8 +104,8 @@ def _law_in_words(roll: Roll, *, in_service: bool) -> str:
 
 def _rolls(idlers: IdlerSet) -> list[tuple[str, Roll]]:
     """Rolls of a set by their field."""
-    found = [("roll", idlers.roll)]
-    return found if idlers.middle_roll is None else [*found, ("middle_roll", idlers.middle_roll)]
+    rolls = [("roll", idlers.roll)]
+    return rolls if idlers.middle_roll is None else [*rolls, ("middle_roll", idlers.middle_roll)]
 
 
 def _listed(conveyor: Conveyor) -> Iterator[tuple[str, Listed]]:
@@ -124,16 +124,16 @@ def _entries(conveyor: Conveyor) -> Iterator[str]:
             yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
 
 
-def roll_warnings(found: CalculatedConveyor) -> tuple[Said, ...]:
+def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
     """Where a default stands in or a law is strained."""
-    conveyor = found.conveyor
+    conveyor = result.conveyor
     return (
         *_mass_warnings(conveyor),
-        *_drag_warnings(found),
+        *_drag_warnings(result),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
         *_cover_warnings(conveyor),
-        *_set_warnings(found),
+        *_set_warnings(result),
         *_other_warnings(conveyor),
     )
 
@@ -148,8 +148,8 @@ def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
             )
 
 
-def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
-    conveyor = found.conveyor
+def _drag_warnings(result: CalculatedConveyor) -> Iterator[Said]:
+    conveyor = result.conveyor
     air = conveyor.air_temperature
     in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
@@ -158,7 +158,7 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air)
             elif law is None and roll.drag is None and idlers.drag is None and in_service:
-                drags = _drags_of(found, strand, idlers, roll)
+                drags = _drags_of(result, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
                 ends = list({figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values())
                 yield said(
@@ -177,10 +177,10 @@ def _drag_warnings(found: CalculatedConveyor) -> Iterator[Said]:
                 )
 
 
-def _drags_of(found: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
+def _drags_of(result: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
     """Drags of a roll in all sets of a strand [N]."""
     places = [place for place in range(idlers.rolls) if idlers.roll_at(place) is roll]
-    pairs = zip(found.line.stretches, found.line.roll_drags, strict=True)
+    pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
     return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
 
 
@@ -255,10 +255,10 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
             )
 
 
-def _set_warnings(found: CalculatedConveyor) -> Iterator[Said]:
-    widest, idlers_of = widest_spacings(), found.conveyor.idlers
+def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
+    widest, idlers_of = widest_spacings(), result.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
-        stretches = [stretch for stretch in found.line.stretches if stretch.strand == strand]
+        stretches = [stretch for stretch in result.line.stretches if stretch.strand == strand]
         if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.skew for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield said(

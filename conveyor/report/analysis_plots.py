@@ -38,19 +38,19 @@ _PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at 
 _TORNADO = 12  # inputs drawn, those that matter most
 
 
-def resistance_breakdown(found: Balance, *, system: System = "SI") -> Figure:
+def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     """Every kind of resistance [kN, lbf], the classical estimates beside their sums; numbers at the bars."""
     force = unit("force", system, large=True)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
-        (f"ISO 5048 / DIN 22101, f = {found.classical.friction_factor:g}", found.classical)
+        (f"ISO 5048 / DIN 22101, f = {balance.classical.friction_factor:g}", balance.classical)
     ]
-    if found.cema is not None:
-        estimates.append(("CEMA classic, given Ky", found.cema))
-    parts = [name for name in found.forces.parts if name not in _SUMS]
+    if balance.cema is not None:
+        estimates.append(("CEMA classic, given Ky", balance.cema))
+    parts = [name for name in balance.forces.parts if name not in _SUMS]
     names = [*parts, *_SUMS]
     width = _BAR / (1 + len(estimates))
-    sums_here = found.forces
+    sums_here = balance.forces
     forces = force(
         [*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)]
     )
@@ -93,8 +93,8 @@ def _worded(name: str) -> str:
 def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:
     """Roll of the highest line load on a strand."""
     pairs = zip(contacts.line.stretches, contacts.rolls, strict=True)
-    found = [roll for stretch, rolls in pairs if stretch.strand == strand for roll in rolls]
-    return max(found, key=lambda roll: roll.load.peak_line_load)
+    of_strand = [roll for stretch, rolls in pairs if stretch.strand == strand for roll in rolls]
+    return max(of_strand, key=lambda roll: roll.load.peak_line_load)
 
 
 def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure:
@@ -185,8 +185,8 @@ def case_power_against_temperature(
     InputError
         No case was answered, or none at that speed.
     """
-    chosen, found = _at(study, "speed", speed, "m/s")
-    figure = _power_lines(found, "temperature", system)
+    chosen, results = _at(study, "speed", speed, "m/s")
+    figure = _power_lines(results, "temperature", system)
     titled(figure, f"{study.conveyor.name}, {unit('speed', system).brief(chosen)}", _shaded(study))
     return figure
 
@@ -201,8 +201,8 @@ def case_power_against_speed(
     InputError
         No case was answered, or none at that temperature.
     """
-    chosen, found = _at(study, "temperature", temperature, "K")
-    figure = _power_lines(found, "speed", system)
+    chosen, results = _at(study, "temperature", temperature, "K")
+    figure = _power_lines(results, "speed", system)
     at = unit("temperature", system, large=True)
     titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.sign}", _shaded(study))
     return figure
@@ -213,17 +213,17 @@ def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tu
     if not values:
         raise InputError("no load case has an answer: nothing to draw")
     chosen = max(sorted(set(values)), key=values.count) if value is None else value
-    found = [result for result in study.results if getattr(result, name) == chosen]
-    if not found:
+    results = [result for result in study.results if getattr(result, name) == chosen]
+    if not results:
         listed = ", ".join(f"{known:g}" for known in sorted(set(values)))
         raise InputError(f"{name} = {chosen!r} {unit}: no load case has it, there are {listed}")
-    return chosen, found
+    return chosen, results
 
 
-def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
+def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
-    covered = [result for result in found if result.covered]
+    covered = [result for result in cases if result.covered]
     names = [result.case.name for result in covered]
     lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
     for k, case in enumerate(lines or dict.fromkeys(names)):
@@ -239,7 +239,7 @@ def _power_lines(found: list[CaseResult], over: str, system: System) -> Figure:
         )
         low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
-    beyond = [result for result in found if not result.covered]
+    beyond = [result for result in cases if not result.covered]
     if beyond:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
         label = "beyond the rubber data: not for design"

@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 SHEET: Final = "Calibration"
 
 
-def of_calibration(found: CalculatedCalibration, system: System) -> Contents:
+def of_calibration(calibration: CalculatedCalibration, system: System) -> Contents:
     """Every table of a calibration in a unit system."""
-    facts = (("runs", str(len(found.runs))), ("error", error_words(found)))
+    facts = (("runs", str(len(calibration.runs))), ("error", error_words(calibration)))
     parts = (
-        factors(found), runs(found), correlation(found), notes(found),
-        provenance(fingerprint(found.conveyor), SHEET),
+        factors(calibration), runs(calibration), correlation(calibration), notes(calibration),
+        provenance(fingerprint(calibration.conveyor), SHEET),
     )  # fmt: skip
-    about = document(found.conveyor, "Calibration to measured power", system, facts)
+    about = document(calibration.conveyor, "Calibration to measured power", system, facts)
     return Contents(about, tuple(part for part in parts if not part.empty), system)
 
 
-def factors(found: CalculatedCalibration) -> Table:
+def factors(calibration: CalculatedCalibration) -> Table:
     """One row a factor: its band, or why there is none."""
     columns = (
         Column("factor on", "text", attrgetter("name")),
@@ -38,12 +38,14 @@ def factors(found: CalculatedCalibration) -> Table:
         Column("5 %", "factor", attrgetter("low"), key="low"),
         Column("95 %", "factor", attrgetter("high"), key="high"),
     )
-    held = ", ".join(name.replace("_", " ") for name in found.held)
+    held = ", ".join(name.replace("_", " ") for name in calibration.held)
     note = f"held at 1: {held}" if held else ""
-    return Table("factors", SHEET, "Factors with their 90 % interval", columns, found.factors, note=note)
+    return Table(
+        "factors", SHEET, "Factors with their 90 % interval", columns, calibration.factors, note=note
+    )
 
 
-def runs(found: CalculatedCalibration) -> Table:
+def runs(calibration: CalculatedCalibration) -> Table:
     """One row a run: what was measured, what is calculated without factors and with them."""
     columns = (
         Column("run", "count", lambda row: row[0]),
@@ -59,7 +61,7 @@ def runs(found: CalculatedCalibration) -> Table:
         Column("error", "power", attrgetter("error")),
         Column("note", "text", lambda row: row.run.note or None, sparse=True),
     )
-    rows = tuple(enumerate(found.runs, start=1))
+    rows = tuple(enumerate(calibration.runs, start=1))
     numbered = (columns[0], *(_of_run(column) for column in columns[1:]))
     return Table("runs", SHEET, "Runs: measured, calculated without factors and with them", numbered, rows)
 
@@ -69,10 +71,10 @@ def _of_run(column: Column) -> Column:
     return replace(column, get=lambda row: get(row[1]))
 
 
-def correlation(found: CalculatedCalibration) -> Table:
+def correlation(calibration: CalculatedCalibration) -> Table:
     """One row a factor; nothing of one factor alone."""
-    names = [factor.name for factor in found.factors]
-    rows = list(zip(names, found.correlation.tolist(), strict=True)) if len(names) > 1 else []
+    names = [factor.name for factor in calibration.factors]
+    rows = list(zip(names, calibration.correlation.tolist(), strict=True)) if len(names) > 1 else []
     columns = (
         Column("factor on", "text", lambda row: row[0]),
         *(Column(name, "ratio", _entry(k)) for k, name in enumerate(names)),
@@ -84,43 +86,45 @@ def _entry(k: int) -> Callable[[Any], float]:
     return lambda row: float(row[1][k])
 
 
-def notes(found: CalculatedCalibration) -> Table:
+def notes(calibration: CalculatedCalibration) -> Table:
     """What is not told apart, and what the figures rest on."""
     columns = (Column("note", "text", lambda row: row),)
-    return Table("notes", SHEET, "Basis and limitations", columns, lines(found))
+    return Table("notes", SHEET, "Basis and limitations", columns, lines(calibration))
 
 
-def lines(found: CalculatedCalibration) -> tuple[str, ...]:
+def lines(calibration: CalculatedCalibration) -> tuple[str, ...]:
     """What is not told apart, and what the figures rest on, in sentences."""
     return (
-        *found.notes,
-        f"chi square {found.chi_square:.3g} at {found.freedom} degrees of freedom; errors: {error_words(found)}",
+        *calibration.notes,
+        f"chi square {calibration.chi_square:.3g} at {calibration.freedom} degrees of freedom; "
+        f"errors: {error_words(calibration)}",
         "lift, tilt, secondary resistances and the efficiencies of the drive are taken as the spec says: "
         "what they lack is in the factors",
     )
 
 
-def error_words(found: CalculatedCalibration) -> str:
+def error_words(calibration: CalculatedCalibration) -> str:
     """How well a power is known, and where that is from."""
-    if found.error is None:
+    if calibration.error is None:
         return "as the runs state"
-    source = "from the differences" if found.estimated else "as given"
-    return f"{unit('share').written(found.error)} of each power, {source}"
+    source = "from the differences" if calibration.estimated else "as given"
+    return f"{unit('share').written(calibration.error)} of each power, {source}"
 
 
-def plain(found: CalculatedCalibration) -> dict[str, Any]:
+def plain(calibration: CalculatedCalibration) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
-        "calibration": found.calibration.factors | {"source": found.calibration.source},
+        "calibration": calibration.calibration.factors | {"source": calibration.calibration.source},
         "factors": [
-            {"on": list(f.forces), "value": f.value, "low": f.low, "high": f.high} for f in found.factors
+            {"on": list(f.forces), "value": f.value, "low": f.low, "high": f.high}
+            for f in calibration.factors
         ],
-        "held_at_1": list(found.held),
-        "correlation": found.correlation.tolist(),
-        "chi_square": found.chi_square,
-        "degrees_of_freedom": found.freedom,
-        "error": found.error,
-        "error_estimated": found.estimated,
+        "held_at_1": list(calibration.held),
+        "correlation": calibration.correlation.tolist(),
+        "chi_square": calibration.chi_square,
+        "degrees_of_freedom": calibration.freedom,
+        "error": calibration.error,
+        "error_estimated": calibration.estimated,
         "runs": [
             {
                 "at": one.run.at,
@@ -131,8 +135,8 @@ def plain(found: CalculatedCalibration) -> dict[str, Any]:
                 "error_kW": one.error / 1e3,
                 "note": one.run.note,
             }
-            for one in found.runs
+            for one in calibration.runs
         ],
-        "notes": list(found.notes),
-        "spec": found.fragment,
+        "notes": list(calibration.notes),
+        "spec": calibration.fragment,
     }

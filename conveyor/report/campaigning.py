@@ -208,9 +208,9 @@ def of_designs(campaign: Campaign, system: System) -> CampaignTable:
     return CampaignTable("design", varied(campaign.listed), shown, system, campaign.base)
 
 
-def design_rows(found: Explored, designs: Iterable[Design]) -> Iterator[Row]:
+def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
     """Designs as rows of their table."""
-    front = set(found.numbers[found.front].tolist())
+    front = set(study.numbers[study.front].tolist())
     for one in designs:
         values = tuple(one.changes.values())
         figures = [

@@ -297,7 +297,7 @@ def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
     for scene in comparison.covered:
         if scene.speed == speed:
             known[scene.compound][scene.temperature] = scene
-    means = {name: [found[t] for t in common] if found else [] for name, found in known.items()}
+    means = {name: [scenes[t] for t in common] if scenes else [] for name, scenes in known.items()}
     base = means.get(comparison.base, [])
     rows = [_row(comparison, (name, speed), known[name], means[name], base) for name in known]
     return sorted(rows, key=lambda row: (row.motor is None, row.why is not None, row.motor or 0.0))
@@ -306,7 +306,7 @@ def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
 def _row(
     comparison: CalculatedComparison,
     key: tuple[str, float],
-    found: dict[float, ComparedScene],
+    scenes: dict[float, ComparedScene],
     at: list[ComparedScene],
     base: list[ComparedScene],
 ) -> Ranked:
@@ -315,7 +315,7 @@ def _row(
     operation = comparison.conveyor.operation
     year = None if why else _year(comparison, name, speed, at)
     before = None if why else _year(comparison, comparison.base, speed, base)
-    peak = max(found.values(), key=lambda scene: scene.motor) if found else None
+    peak = max(scenes.values(), key=lambda scene: scene.motor) if scenes else None
     return Ranked(
         compound=name,
         speed=speed,

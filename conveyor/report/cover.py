@@ -213,10 +213,10 @@ def _checked(page: Page, row: int) -> int:
     shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
     i = row + 1
     for i, check in enumerate(shown, start=row + 2):
-        found = f"{check.found}, {check.asked}"
+        text = f"{check.found}, {check.asked}"
         put(sheet.cell(i, 1), check.subject)
         sheet.merged_cells.add(f"A{i}:C{i}")
-        put(sheet.cell(i, 4), found)
+        put(sheet.cell(i, 4), text)
         put(sheet.cell(i, 5), written.shown(check.margin), None, written.pattern)
         put(sheet.cell(i, 6), check.case)
         put(sheet.cell(i, 7), check.verdict)
@@ -225,7 +225,7 @@ def _checked(page: Page, row: int) -> int:
                 indent=1, horizontal="left", vertical="top", wrap_text=j != 1, shrink_to_fit=j == 1
             )
         sheet.cell(i, 5).alignment = Alignment(horizontal="right", vertical="top")
-        lines = max(lines_of(found, _WIDTHS["D"] - 1), lines_of(check.case, _WIDTHS["F"] - 1))
+        lines = max(lines_of(text, _WIDTHS["D"] - 1), lines_of(check.case, _WIDTHS["F"] - 1))
         sheet.row_dimensions[i].height = _ROW * lines
         _coloured(sheet, i, VERDICTS[check.verdict])
     if len(shown) < len(checks):

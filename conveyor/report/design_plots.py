@@ -43,12 +43,12 @@ class Shown:
         Of the figures.
     """
 
-    def __init__(self, found: Explored, system: System) -> None:
-        self.found, self.system = found, system
-        figures = [found.figures[name] for name in found.sought]
+    def __init__(self, study: Explored, system: System) -> None:
+        self.found, self.system = study, system
+        figures = [study.figures[name] for name in study.sought]
         self.labels = [figure.label for figure in figures]
         self.units: list[Unit] = [
-            unit(priced(figure.kind, found.base), system, large=True) for figure in figures
+            unit(priced(figure.kind, study.base), system, large=True) for figure in figures
         ]
 
     def sought(self, k: int) -> Any:
@@ -92,17 +92,17 @@ class Shown:
         """The best over all other fields, at every pair of values of the two fields that matter most."""
         from matplotlib import colormaps
 
-        found, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
-        across, up = found.ordered[:2]
+        figures, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
+        across, up = figures.ordered[:2]
         figure, (axis,) = stacked(1, 4.4)
-        x, y, shown = found.values[:, across], found.values[:, up], self.sought(0)
+        x, y, shown = figures.values[:, across], figures.values[:, up], self.sought(0)
         if max(len(np.unique(x)), len(np.unique(y))) <= _CELLS:
-            shaded = self._cells(axis, (x, y), shown, (found.fields[across], found.fields[up]))
+            shaded = self._cells(axis, (x, y), shown, (figures.fields[across], figures.fields[up]))
             shaded.set_cmap(shades)
         else:
             shaded = axis.scatter(x, y, c=shown, cmap=shades, s=14)
-            _named(axis.xaxis, found.fields[across])
-            _named(axis.yaxis, found.fields[up])
+            _named(axis.xaxis, figures.fields[across])
+            _named(axis.yaxis, figures.fields[up])
         axis.grid(visible=False)
         beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
         grouped(figure.colorbar(shaded, cax=beside, label=self.axis(0)).ax.yaxis)
@@ -140,18 +140,18 @@ class Shown:
 
     def front(self) -> Figure:
         """The first two figures that are sought: every design, and those that none beats."""
-        found = self.found
+        figures = self.found
         figure, (axis,) = stacked(1, 4.4)
         x, y = self.sought(1), self.sought(0)
         some = _some(len(x), _MOST)
         for keeps, ink, label in ((True, colour(0), "keeps the limits"), (False, "0.7", "does not")):
-            rows = some[found.keeps[some] == keeps]
+            rows = some[figures.keeps[some] == keeps]
             axis.plot(x[rows], y[rows], ".", color=ink, markersize=5, label=label)
-        on = np.flatnonzero(found.front)
+        on = np.flatnonzero(figures.front)
         on = on[np.argsort(x[on], kind="stable")]
         axis.plot(x[on], y[on], "-o", color=colour(1), markersize=5, linewidth=1.0, label="beaten by none")
         for row in on[:_CALLED]:
-            number = f"{found.numbers[row]}"
+            number = f"{figures.numbers[row]}"
             axis.annotate(number, (x[row], y[row]), textcoords="offset points", xytext=(5, 4), fontsize=8)
         axis.set(xlabel=self.axis(1), ylabel=self.axis(0))
         grouped(axis.xaxis)
@@ -163,28 +163,28 @@ class Shown:
         """A line a design across its fields and what is sought, shaded by what is sought first, the best on top."""
         from matplotlib import colormaps
 
-        found = self.found
+        figures = self.found
         figure, (axis,) = stacked(1, 4.6)
-        heads = [_head(field) for field in found.fields] + [self.axis(k) for k in range(len(self.units))]
-        columns = [*found.values.T, *(self.sought(k) for k in range(len(self.units)))]
+        heads = [_head(field) for field in figures.fields] + [self.axis(k) for k in range(len(self.units))]
+        columns = [*figures.values.T, *(self.sought(k) for k in range(len(self.units)))]
         ends = [(float(column.min()), float(column.max())) for column in columns]
         level = [
             (column - low) / ((high - low) or 1.0) for column, (low, high) in zip(columns, ends, strict=True)
         ]
-        order = np.argsort(found.costs[:, 0], kind="stable")[::-1]
+        order = np.argsort(figures.costs[:, 0], kind="stable")[::-1]
         share = np.linspace(0.0, 1.0, len(order))
         for k in _some(len(order), _LINES):
             row = order[k]
-            shade = colormaps[_SHADES](1.0 - share[k]) if found.keeps[row] else "0.85"
+            shade = colormaps[_SHADES](1.0 - share[k]) if figures.keeps[row] else "0.85"
             axis.plot([one[row] for one in level], color=shade, linewidth=0.8, alpha=0.7)
         axis.set_xticks(range(len(heads)), [_broken(head) for head in heads], fontsize=8, parse_math=False)
         axis.set_yticks([])
         for k, (low, high) in enumerate(ends):
             axis.axvline(k, color="0.3", linewidth=0.8)
-            field = found.fields[k] if k < len(found.fields) else None
+            field = figures.fields[k] if k < len(figures.fields) else None
             named = range(len(field.words)) if field is not None and field.words else (low, high)
             for value in named:
-                words = self._number(k - len(found.fields), value) if field is None else _word(field, value)
+                words = self._number(k - len(figures.fields), value) if field is None else _word(field, value)
                 place = (value - low) / ((high - low) or 1.0)
                 axis.annotate(
                     words, (k, place), textcoords="offset points", xytext=(4, 2), fontsize=8, parse_math=False

@@ -41,31 +41,31 @@ _CAPTIONS: Final = {
 _MOST: Final = 50  # rows of the front on the page
 
 
-def of_study(found: Explored, system: System) -> Contents:
+def of_study(study: Explored, system: System) -> Contents:
     """Tables and figures of a study's designs in a unit system."""
-    name = next(iter(found.sought))
+    name = next(iter(study.sought))
     parts = (
-        best(found),
-        on_the_front(found),
-        effects(found),
-        refused(found),
-        provenance(fingerprint(found.base), "Notes"),
+        best(study),
+        on_the_front(study),
+        effects(study),
+        refused(study),
+        provenance(fingerprint(study.base), "Notes"),
     )
     facts = (
-        ("study", found.plan.name),
-        ("designs", f"{found.count:,}, {int(found.keeps.sum()):,} of them keep the limits"),
-        ("states of each", f"{max(len(found.plan.rows), 1):,}"),
-        ("sought", f"the {found.sought[name]} {found.figures[name].label}"),
+        ("study", study.plan.name),
+        ("designs", f"{study.count:,}, {int(study.keeps.sum()):,} of them keep the limits"),
+        ("states of each", f"{max(len(study.plan.rows), 1):,}"),
+        ("sought", f"the {study.sought[name]} {study.figures[name].label}"),
         (
             "limits",
-            "; ".join(_limit(found.figures[name].label, one) for name, one in found.plan.limits.items())
+            "; ".join(_limit(study.figures[name].label, one) for name, one in study.plan.limits.items())
             or "none",
         ),
     )
-    about = document(found.base, "Study of designs", system, facts)
+    about = document(study.base, "Study of designs", system, facts)
     drawn: tuple[Drawing, ...] = ()
-    if len(found.values):
-        every = Shown(found, system).every
+    if len(study.values):
+        every = Shown(study, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
     return Contents(about, tuple(part for part in parts if not part.empty), system, drawn)
 
@@ -75,19 +75,19 @@ def _limit(label: str, limit: Limit) -> str:
     return f"{label} " + " and ".join(f"{words} {end}" for end, words in ends if end is not None)
 
 
-def best(found: Explored) -> Table:
+def best(study: Explored) -> Table:
     """The designs that come first, one row each."""
     columns = (
         Column("design", "count", attrgetter("number")),
-        *(Column(field.label, "text", _change(field.path), key=field.path) for field in found.fields),
+        *(Column(field.label, "text", _change(field.path), key=field.path) for field in study.fields),
         *(
-            Column(figure.label, priced(figure.kind, found.base), _figure(name), key=name)
-            for name, figure in found.figures.items()
+            Column(figure.label, priced(figure.kind, study.base), _figure(name), key=name)
+            for name, figure in study.figures.items()
         ),
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
     )
-    heading = f"The best {len(found.best)}"
-    return Table("best", "Best", heading, columns, found.best, (OnPage("best", heading),))
+    heading = f"The best {len(study.best)}"
+    return Table("best", "Best", heading, columns, study.best, (OnPage("best", heading),))
 
 
 def _change(path: str) -> Callable[[Design], str]:
@@ -98,48 +98,48 @@ def _figure(name: str) -> Callable[[Design], float | None]:
     return lambda row: row.figures[name]
 
 
-def on_the_front(found: Explored) -> Table:
+def on_the_front(study: Explored) -> Table:
     """Pareto-optimal designs, one row each; no rows where just one figure is sought."""
-    several = len(found.sought) > 1
-    rows = [int(i) for i in found.front.nonzero()[0]] if several else []
-    rows.sort(key=lambda i: float(found.costs[i, 0]))
+    several = len(study.sought) > 1
+    rows = [int(i) for i in study.front.nonzero()[0]] if several else []
+    rows.sort(key=lambda i: float(study.costs[i, 0]))
     columns = (
-        Column("design", "count", lambda i: int(found.numbers[i])),
+        Column("design", "count", lambda i: int(study.numbers[i])),
         *(
-            Column(field.label, "text", _value(found, k), key=field.path)
-            for k, field in enumerate(found.fields)
+            Column(field.label, "text", _value(study, k), key=field.path)
+            for k, field in enumerate(study.fields)
         ),
         *(
             Column(
-                found.figures[name].label,
-                priced(found.figures[name].kind, found.base),
-                _sought(found, k),
+                study.figures[name].label,
+                priced(study.figures[name].kind, study.base),
+                _sought(study, k),
                 key=name,
             )
-            for k, name in enumerate(found.sought)
+            for k, name in enumerate(study.sought)
         ),
     )
     heading = "Pareto-optimal designs" + (f", the first {_MOST}" if len(rows) > _MOST else "")
     return Table("front", "Front", heading, columns, tuple(rows[:_MOST]), (OnPage("front", heading),))
 
 
-def _value(found: Explored, k: int) -> Callable[[int], str]:
-    return lambda i: found.fields[k].said(float(found.values[i, k]))
+def _value(study: Explored, k: int) -> Callable[[int], str]:
+    return lambda i: study.fields[k].said(float(study.values[i, k]))
 
 
-def _sought(found: Explored, k: int) -> Callable[[int], float]:
-    return lambda i: float(found.found[i, k])
+def _sought(study: Explored, k: int) -> Callable[[int], float]:
+    return lambda i: float(study.found[i, k])
 
 
-def effects(found: Explored) -> Table:
+def effects(study: Explored) -> Table:
     """Effect of each field to what is sought first, one row a field and value."""
     rows = (
-        [(found.fields[k].path, effect) for k in found.ordered for effect in found.effects(k)]
-        if found.count
+        [(study.fields[k].path, effect) for k in study.ordered for effect in study.effects(k)]
+        if study.count
         else []
     )
-    figure = found.figures[next(iter(found.sought))]
-    kind = priced(figure.kind, found.base)
+    figure = study.figures[next(iter(study.sought))]
+    kind = priced(figure.kind, study.base)
     columns = (
         Column("field", "text", itemgetter(0)),
         Column("value", "text", lambda row: row[1].value),
@@ -157,29 +157,29 @@ def _effect(get: str) -> Callable[[Any], float]:
     return lambda row: float(getattr(row[1], get))
 
 
-def refused(found: Explored) -> Table:
+def refused(study: Explored) -> Table:
     """Why designs have no answer, and how many."""
     columns = (Column("designs", "count", itemgetter(1)), Column("no answer because", "text", itemgetter(0)))
     heading = "Designs without an answer"
     return Table(
-        "refused", "Refused", heading, columns, tuple(found.refused.items()), (OnPage("refused", heading),)
+        "refused", "Refused", heading, columns, tuple(study.refused.items()), (OnPage("refused", heading),)
     )
 
 
-def drawings(found: Explored, system: System) -> Iterator[tuple[str, Any]]:
+def drawings(study: Explored, system: System) -> Iterator[tuple[str, Any]]:
     """Figures of a study by name; none where no design has an answer."""
-    if len(found.values):
-        for name, draw in Shown(found, system).every.items():
+    if len(study.values):
+        for name, draw in Shown(study, system).every.items():
             yield name, draw()
 
 
-def plain(found: Explored) -> dict[str, Any]:
+def plain(study: Explored) -> dict[str, Any]:
     """Plain numbers for JSON; SI, the unit in the key."""
-    table = replace(best(found), page=())
-    front = found.numbers[found.front].tolist()
+    table = replace(best(study), page=())
+    front = study.numbers[study.front].tolist()
     return {
-        "designs": found.count,
-        "keep_the_limits": int(found.keeps.sum()),
+        "designs": study.count,
+        "keep_the_limits": int(study.keeps.sum()),
         "best": table.records(),
         "front": front,
     }

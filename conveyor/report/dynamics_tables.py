@@ -35,35 +35,35 @@ _SAMPLES = 200  # rows of histories of a scenario
 _SCENARIO = Column("scenario", "text", itemgetter(0), json="scenario")
 
 
-def of_dynamics(found: CalculatedDynamics, system: System) -> Contents:
+def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Every table of the scenarios of a conveyor in a unit system."""
-    every = checks_of(found)
+    every = checks_of(dynamics)
     parts = (
-        *tables(found), checked(deciding(every), system), _remarks(found, every, system),
-        provenance(fingerprint(found.conveyor)),
+        *tables(dynamics), checked(deciding(every), system), _remarks(dynamics, every, system),
+        provenance(fingerprint(dynamics.conveyor)),
     )  # fmt: skip
-    names = ", ".join(one.name for one in found.followed)
-    about = document(found.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(drawings(found, system)))
+    names = ", ".join(one.name for one in dynamics.followed)
+    about = document(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
+    return Contents(about, parts, system, tuple(drawings(dynamics, system)))
 
 
-def further(found: CalculatedDynamics, system: System) -> Further:
+def further(dynamics: CalculatedDynamics, system: System) -> Further:
     """What a conveyor's own report takes over."""
     return Further(
-        checks_of(found),
-        tuple(tables(found)),
-        tuple(drawings(found, system)),
-        found.assumptions,
-        of_scenarios(found),
+        checks_of(dynamics),
+        tuple(tables(dynamics)),
+        tuple(drawings(dynamics, system)),
+        dynamics.assumptions,
+        of_scenarios(dynamics),
     )
 
 
-def tables(found: CalculatedDynamics) -> Iterator[Table]:
+def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
     """What happened, in their order."""
     for made in (
         scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
     ):  # fmt: skip
-        table = made(found)
+        table = made(dynamics)
         if not table.empty:
             yield table
 
@@ -81,7 +81,7 @@ _PEAKS: Final = (
 )
 
 
-def scenarios(found: CalculatedDynamics) -> Table:
+def scenarios(dynamics: CalculatedDynamics) -> Table:
     """One row a scenario."""
 
     def peak(one: Followed, *, high: bool) -> tuple[float, str]:
@@ -109,7 +109,9 @@ def scenarios(found: CalculatedDynamics) -> Table:
         Column("step", "time", lambda r: r.record.step, None, json="step_s"),
     )  # fmt: skip
     caption = "Starts and stops; distance is that of the belt at the first drive"
-    return Table("scenarios", "Scenarios", caption, columns, found.followed, (OnPage("dynamics", caption),))
+    return Table(
+        "scenarios", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
+    )
 
 
 class SizeRow(NamedTuple):
@@ -136,7 +138,7 @@ class SizeRow(NamedTuple):
         return self.label
 
 
-def sizes(found: CalculatedDynamics) -> Table:
+def sizes(dynamics: CalculatedDynamics) -> Table:
     """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
     columns = (
         Column("sought", NAMED, attrgetter("label"), json="sought"),
@@ -147,14 +149,14 @@ def sizes(found: CalculatedDynamics) -> Table:
         Column("governing check", "text", attrgetter("size.governs"), json="governs"),
         Column("what fails with less", "text", attrgetter("size.why"), json="fails_with_less"),
     )
-    rows = [SizeRow(size) for size in found.sized]
+    rows = [SizeRow(size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
     return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
 
 
-def scenario_drives(found: CalculatedDynamics) -> Table:
+def scenario_drives(dynamics: CalculatedDynamics) -> Table:
     """One row a scenario and drive, with the take-up."""
-    rows = [(one.name, one, d) for one in found.followed for d in range(len(one.ride.drives))]
+    rows = [(one.name, one, d) for one in dynamics.followed for d in range(len(one.ride.drives))]
 
     def drive(name: str, of: Any) -> Any:
         return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
@@ -198,9 +200,9 @@ def scenario_drives(found: CalculatedDynamics) -> Table:
     )
 
 
-def scenario_pulleys(found: CalculatedDynamics) -> Table:
+def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
     """One row a scenario and pulley: highest and lowest tension beside it, and when; safety of the belt there."""
-    belt = found.given.line.belt
+    belt = dynamics.given.line.belt
 
     def safety(row: Any) -> float | None:
         if belt.strength is None:
@@ -209,7 +211,7 @@ def scenario_pulleys(found: CalculatedDynamics) -> Table:
 
     rows = [
         (one.name, peak)
-        for one in found.followed
+        for one in dynamics.followed
         for i in range(len(one.line.pulleys))
         for peak in (at_pulley(one, i),)
     ]
@@ -221,9 +223,9 @@ def scenario_pulleys(found: CalculatedDynamics) -> Table:
     )
 
 
-def splice_tensions(found: CalculatedDynamics) -> Table:
+def splice_tensions(dynamics: CalculatedDynamics) -> Table:
     """One row a scenario: the range of tension that a splice goes through once round the loop, wherever it is."""
-    belt = found.given.line.belt
+    belt = dynamics.given.line.belt
 
     def needed(one: Followed) -> float | None:
         if belt.splice_strength is None:
@@ -241,13 +243,13 @@ def splice_tensions(found: CalculatedDynamics) -> Table:
     )  # fmt: skip
     caption = "What every splice bears as it goes round; strength by its endurance (DIN 22101:2002)"
     return Table(
-        "scenario_splices", "Scenarios", caption, columns, found.followed, (OnPage("dynamics", caption),)
+        "scenario_splices", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
     )
 
 
-def scenario_tensions(found: CalculatedDynamics) -> Table:
+def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     """One row a scenario and stretch: highest and lowest tension and when."""
-    rows = [(one.name, peak) for one in found.followed for peak in peaks(one)]
+    rows = [(one.name, peak) for one in dynamics.followed for peak in peaks(one)]
     columns = (
         _SCENARIO,
         Column("section", "text", _row("section"), json="section"),
@@ -262,11 +264,11 @@ def scenario_tensions(found: CalculatedDynamics) -> Table:
     )
 
 
-def histories(found: CalculatedDynamics) -> Table:
+def histories(dynamics: CalculatedDynamics) -> Table:
     """Speeds and tensions over time, some hundred rows a scenario."""
     rows = [
         (one.name, one, int(i), d)
-        for one in found.followed
+        for one in dynamics.followed
         for d in range(len(one.ride.drives))
         for i in np.unique(np.linspace(0, one.times.size - 1, _SAMPLES).astype(int))
     ]
@@ -292,22 +294,22 @@ def histories(found: CalculatedDynamics) -> Table:
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
 
 
-def _remarks(found: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
+def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
     """What fails, and what the figures rest on."""
     warned = [
         f"{check.case.text(system)}: {check.why.text(system)}"
         for check in every
         if check.failed and check.why is not None and check.case is not None
     ]
-    said = {"warning": warned, "assumption": found.assumptions}
+    said = {"warning": warned, "assumption": dynamics.assumptions}
     rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
     columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
     return Table("remarks", "Checks and notes", "Remarks", columns, rows)
 
 
-def drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
+def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Five figures a scenario, the first of which moves."""
-    for one in found.followed:
+    for one in dynamics.followed:
         for draw, words in (
             (
                 dynamics_plots.profile,
@@ -322,23 +324,23 @@ def drawings(found: CalculatedDynamics, system: System) -> Iterator[Drawing]:
             yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "through-time")
 
 
-def of_scenarios(found: CalculatedDynamics) -> dict[str, Any]:
+def of_scenarios(dynamics: CalculatedDynamics) -> dict[str, Any]:
     """Plain numbers of every scenario; units in the keys."""
     return {
         table.key.removeprefix("scenario_"): table.plain()
-        for table in tables(found)
+        for table in tables(dynamics)
         if table.key != "histories"
     }
 
 
-def plain(found: CalculatedDynamics) -> dict[str, Any]:
+def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
     """Plain numbers for JSON, as `result_schema` describes them."""
-    every = checks_of(found)
+    every = checks_of(dynamics)
     governing = deciding(every)
     return {
         "schema_version": SCHEMA_VERSION,
-        "conveyor": found.conveyor.name,
-        **of_scenarios(found),
+        "conveyor": dynamics.conveyor.name,
+        **of_scenarios(dynamics),
         "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
-        "assumptions": list(found.assumptions),
+        "assumptions": list(dynamics.assumptions),
     }

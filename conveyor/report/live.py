@@ -40,7 +40,7 @@ def with_values(workbook: bytes, values: Values) -> bytes:
 def _valued(sheet: bytes, cell: str, value: float | str) -> bytes:
     pattern = rf'(<c r="{cell}"[^>]*)(><f>[^<]*</f>)<v\s*/?>(?:</v>)?'.encode()
     kind, shown = (' t="str"', value) if isinstance(value, str) else ("", repr(value))
-    found, count = re.subn(pattern, rf"\g<1>{kind}\g<2><v>{shown}</v>".encode(), sheet)
+    written, count = re.subn(pattern, rf"\g<1>{kind}\g<2><v>{shown}</v>".encode(), sheet)
     if count != 1:
         raise ValueError(f"{cell}: no formula without a value")
-    return found
+    return written

@@ -48,8 +48,8 @@ def places(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
     drives = [_from_tail(drive.spot.boundary, n) for drive in line.drives]
     spot = line.take_up.spot
     held = drives[:1] if spot is None else [_from_tail(spot.boundary, n)]
-    found = {"feeding": feeding, "drive": drives, "take-up": held}
-    return {what: tuple(dict.fromkeys(at)) for what, at in found.items() if at}
+    marks = {"feeding": feeding, "drive": drives, "take-up": held}
+    return {what: tuple(dict.fromkeys(at)) for what, at in marks.items() if at}
 
 
 def _from_tail(boundary: int, sections: int) -> int:
@@ -140,8 +140,8 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     for i, bend in enumerate(bends):
         room = float(size(bend.turn.room))
         axis.barh(i, 2.0 * room, left=-room, height=0.9, color="0.88", zorder=1)
-        for k, (name, found) in enumerate(loads):
-            outside, inside = found[i].farthest_out.outside, found[i].farthest_in.inside
+        for k, (name, turns) in enumerate(loads):
+            outside, inside = turns[i].farthest_out.outside, turns[i].farthest_in.inside
             y, ends = i - 0.4 + (k + 0.5) * thick, (outside, inside)
             low, high = (
                 math.copysign(_BEYOND * room, end) if math.isinf(end) else float(size(end)) for end in ends
@@ -162,11 +162,11 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     return figure
 
 
-def tension_diagram(found: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
+def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
     """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
     figure, (axis,) = stacked(1, _HEIGHT)
-    settled = found.settled
-    shape = found.line.loop
+    settled = balance.settled
+    shape = balance.line.loop
     force, length = unit("force", system, large=True), unit("length", system, large=True)
     way = length(np.repeat(shape.way, 2)[1:-1])
     states = settled.states | ({} if moving is None else moving.states)
@@ -174,7 +174,7 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
-        axis.plot(x, force(y), color=colour(k), label=f"{state.name}{fault(found.line, state)}")
+        axis.plot(x, force(y), color=colour(k), label=f"{state.name}{fault(balance.line, state)}")
         if state.slack:
             low = force(np.minimum(y, 0.0))
             axis.fill_between(x, low, 0.0, color=_FAILS, alpha=0.35, linewidth=0, zorder=0)
@@ -197,10 +197,10 @@ def tension_diagram(found: Balance, moving: Motions | None = None, *, system: Sy
     return figure
 
 
-def flap_diagram(found: CalculatedConveyor, *, system: System = "SI") -> Figure:
+def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
     """Natural frequencies of the belt between the sets round the loop, steady running, beside the rolls' rotation."""
     figure, (axis,) = stacked(1, _HEIGHT)
-    length, frequency, shape = unit("length", system, large=True), unit("swing", system), found.line.loop
+    length, frequency, shape = unit("length", system, large=True), unit("swing", system), result.line.loop
     places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}
     lines: dict[str, tuple[str, str, list[float], list[float]]] = {}
 
@@ -209,7 +209,7 @@ def flap_diagram(found: CalculatedConveyor, *, system: System = "SI") -> Figure:
         ways += [*x, math.nan]  # a gap
         values += [*y, math.nan]
 
-    for duty in found.set_duty:
+    for duty in result.set_duty:
         x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand])).tolist()
         strand, margin = duty.stretch.strand, duty.limits.flap_margin or 0.0
         ink = colour(STRANDS.index(strand))

@@ -194,10 +194,10 @@ def power_against_temperature(
     """
     velocity = unit("speed", system, large=True)
     chosen = drawn_speed(comparison) if speed is None else speed
-    found = [scene for scene in comparison.scenes if scene.speed == chosen]
-    if not found:
+    scenes = [scene for scene in comparison.scenes if scene.speed == chosen]
+    if not scenes:
         raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.sign}: nothing to draw")
-    figure = _power(comparison, found, "temperature", system)
+    figure = _power(comparison, scenes, "temperature", system)
     titled(figure, f"{comparison.conveyor.name}, {unit('speed', system).brief(chosen)}")
     return figure
 
@@ -218,15 +218,15 @@ def power_against_speed(
     chosen = drawn_temperature(comparison) if temperature is None else temperature
     if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
-    found = [scene for scene in comparison.scenes if scene.temperature == chosen]
-    if not found:
+    scenes = [scene for scene in comparison.scenes if scene.temperature == chosen]
+    if not scenes:
         raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.sign}: nothing to draw")
-    figure = _power(comparison, found, "speed", system)
+    figure = _power(comparison, scenes, "speed", system)
     titled(figure, f"{comparison.conveyor.name}, {warmth(chosen):g} {warmth.sign}")
     return figure
 
 
-def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system: System) -> Figure:
+def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
     """Lines of scenes over temperature or speed."""
     figure, (axis,) = stacked(1, 4.0)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
@@ -234,7 +234,7 @@ def _power(comparison: Scenes, found: Sequence[ComparedScene], over: str, system
     dotted = False
     for k, compound in enumerate(comparison.compounds):
         mine = sorted(
-            (scene for scene in found if scene.compound == compound.name),
+            (scene for scene in scenes if scene.compound == compound.name),
             key=lambda scene: float(getattr(scene, over)),
         )
         outside = [(compound.name, scene.temperature) in beyond for scene in mine]

@@ -25,27 +25,27 @@ def idlers(design: SizedDesign) -> float:
     return float(design.costs.yearly["rolls"] + design.costs.yearly["idler frames"])
 
 
-def shares(found: CalculatedSizing, *, system: System = "SI") -> Figure:
+def shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     """What a year costs by part, a bar a design."""
-    money = unit(f"{MONEY}{found.duty.prices.currency}", system, large=True)
-    figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(found.designs))
-    ranks = np.arange(1, len(found.designs) + 1)
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(sizing.designs))
+    ranks = np.arange(1, len(sizing.designs) + 1)
     start = np.zeros(len(ranks))
-    for k, name in enumerate(found.best.costs.yearly):
-        cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in found.designs]))
+    for k, name in enumerate(sizing.best.costs.yearly):
+        cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in sizing.designs]))
         axis.barh(ranks, cost, left=start, color=colour(k), label=name)
         start = start + cost
     axis.set(yticks=ranks, ylabel="rank", xlabel=money.beside("cost of a year"))
     axis.invert_yaxis()
     grouped(axis.xaxis)
     keyed(axis)
-    titled(figure, found.duty.name)
+    titled(figure, sizing.duty.name)
     return figure
 
 
-def sweeps(found: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Figure:
+def sweeps(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Figure:
     """Energy against idlers, belt and the rest, one choice varied around the best design."""
-    money = unit(f"{MONEY}{found.duty.prices.currency}", system, large=True)
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, axes = stacked(len(varied), _TALL * len(varied))
     for axis, sweep in zip(axes, varied, strict=True):
         kind = unit(sweep.kind, system)
@@ -69,5 +69,5 @@ def sweeps(found: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system:
         axis.set(xlabel=kind.beside(sweep.name), ylabel=money.beside("a year"), ylim=(0.0, None))
         grouped(axis.yaxis)
     keyed(axes[-1])
-    titled(figure, f"{found.duty.name}: around the best design")
+    titled(figure, f"{sizing.duty.name}: around the best design")
     return figure

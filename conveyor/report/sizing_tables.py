@@ -37,27 +37,27 @@ _WHY: Final = (
 )
 
 
-def of_sizing(found: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
+def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
     """Every table of a sizing in a unit system; with `vary` also what varies around the best design."""
-    sweeps = around(found.task, found.best) if vary else ()
-    best = found.best
+    sweeps = around(sizing.task, sizing.best) if vary else ()
+    best = sizing.best
     parts = (
-        designs(found), costs(found), *([swept(found, sweeps)] if sweeps else []), spacing(found),
-        checked(checks(best.found), system), _remarks(found), provenance(fingerprint(best.conveyor)),
+        designs(sizing), costs(sizing), *([swept(sizing, sweeps)] if sweeps else []), spacing(sizing),
+        checked(checks(best.found), system), _remarks(sizing), provenance(fingerprint(best.conveyor)),
     )  # fmt: skip
-    about = document(best.conveyor, "Sizing", system, (("candidates", f"{found.candidates}"),))
+    about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
-                     partial(sizing_plots.shares, found, system=system), "costs")]  # fmt: skip
+                     partial(sizing_plots.shares, sizing, system=system), "costs")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
         drawn.append(
-            Drawing("around", words, partial(sizing_plots.sweeps, found, sweeps, system=system), "around")
+            Drawing("around", words, partial(sizing_plots.sweeps, sizing, sweeps, system=system), "around")
         )
     return Contents(about, tuple(part for part in parts if not part.empty), system, tuple(drawn))
 
 
-def _money(found: CalculatedSizing) -> str:
-    return f"{MONEY}{found.duty.prices.currency}"
+def _money(sizing: CalculatedSizing) -> str:
+    return f"{MONEY}{sizing.duty.prices.currency}"
 
 
 def _of(get: str) -> Callable[[Any], Any]:
@@ -65,9 +65,9 @@ def _of(get: str) -> Callable[[Any], Any]:
     return lambda row: attrgetter(get)(row[1])
 
 
-def designs(found: CalculatedSizing) -> Table:
+def designs(sizing: CalculatedSizing) -> Table:
     """One row a design, the cheapest in a year first."""
-    money, saved = _money(found), found.best.year
+    money, saved = _money(sizing), sizing.best.year
 
     def col(label: str, kind: str, get: Callable[[Any], Any], json: str) -> Column:
         return Column(label, kind, get, json=json)
@@ -95,12 +95,12 @@ def designs(found: CalculatedSizing) -> Table:
         col("energy a year", money, lambda row: float(row[1].costs.yearly["energy"]), "energy_per_year"),
         col("cost a year", money, _of("year"), "cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
-        Column("why", "text", lambda row: _why(found, row[0] - 1), json="why"),
+        Column("why", "text", lambda row: _why(sizing, row[0] - 1), json="why"),
     )  # fmt: skip
     caption = (
         "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
     )
-    rows = tuple(enumerate(found.designs, start=1))
+    rows = tuple(enumerate(sizing.designs, start=1))
     return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
 
 
@@ -113,24 +113,24 @@ def _widest(design: SizedDesign) -> float:
     return max(design.choice.graduated or (design.choice.carry,))
 
 
-def _why(found: CalculatedSizing, rank: int) -> str:
+def _why(sizing: CalculatedSizing, rank: int) -> str:
     """What it costs more for than the best, and less."""
     if rank == 0:
-        shares = {name: value / found.best.year for name, value in found.best.costs.yearly.items()}
+        shares = {name: value / sizing.best.year for name, value in sizing.best.costs.yearly.items()}
         most = sorted(shares, key=lambda name: -float(shares[name]))[:3]
         return "cheapest: " + ", ".join(f"{name} {percent(float(shares[name]))}" for name in most)
-    best, own = found.best.costs.yearly, found.designs[rank].costs.yearly
+    best, own = sizing.best.costs.yearly, sizing.designs[rank].costs.yearly
     change = {name: float(own[name] - best[name]) for name in own}
     order = sorted(change, key=lambda name: -abs(change[name]))[:2]
     return ", ".join(f"{name} {change[name]:+,.0f}" for name in order if round(change[name]) != 0) + " a year"
 
 
-def costs(found: CalculatedSizing) -> Table:
+def costs(sizing: CalculatedSizing) -> Table:
     """Capital and yearly cost of every design by part."""
-    money = _money(found)
+    money = _money(sizing)
     rows = [
         (rank, name, design.costs.capital.get(name), float(value))
-        for rank, design in enumerate(found.designs, start=1)
+        for rank, design in enumerate(sizing.designs, start=1)
         for name, value in design.costs.yearly.items()
     ]
     columns = (
@@ -144,9 +144,9 @@ def costs(found: CalculatedSizing) -> Table:
     return Table("costs", "Costs", caption, columns, rows, (OnPage("costs", caption, printed=False),), note)
 
 
-def swept(found: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
+def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     """One row a value around the best design."""
-    money = _money(found)
+    money = _money(sizing)
     rows = [
         (
             sweep,
@@ -184,11 +184,11 @@ def swept(found: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     return Table("around", "Around the best", caption, columns, rows, (OnPage("around", caption),))
 
 
-def spacing(found: CalculatedSizing) -> Table:
+def spacing(sizing: CalculatedSizing) -> Table:
     """Distances of the carry sets of every section, of the designs that have them graduated."""
     rows = [
         (rank, section.name, section.length, apart)
-        for rank, design in enumerate(found.designs, start=1)
+        for rank, design in enumerate(sizing.designs, start=1)
         for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
     ]
     columns = (
@@ -201,17 +201,17 @@ def spacing(found: CalculatedSizing) -> Table:
     return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),))
 
 
-def _remarks(found: CalculatedSizing) -> Table:
-    best = found.best
-    told = _WHY.format(calculated=found.calculated, possible=f"{found.possible:,}")
+def _remarks(sizing: CalculatedSizing) -> Table:
+    best = sizing.best
+    told = _WHY.format(calculated=sizing.calculated, possible=f"{sizing.possible:,}")
     lines = [
         f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
-        f"the estimate's cost of a year was off by at most {percent(found.estimate_error, 1)} where it was calculated",
-        f"{found.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
+        f"the estimate's cost of a year was off by at most {percent(sizing.estimate_error, 1)} where it was calculated",
+        f"{sizing.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
         "prices, series and rules without a source are general knowledge, orders of magnitude: give your own in the "
         "duty (prices, rules)",
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
-        *(f"{count} calculated candidates are no designs: {why}" for why, count in found.refused.items()),
+        *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
         *assumptions(best.conveyor),
     ]
     rows = tuple(Remark(("assumption", line)) for line in lines)
@@ -219,17 +219,17 @@ def _remarks(found: CalculatedSizing) -> Table:
     return Table("remarks", "Checks and notes", "Remarks", columns, rows, (OnPage("remarks", "Remarks"),))
 
 
-def plain(contents: Contents, found: CalculatedSizing) -> dict[str, Any]:
+def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys, money in `currency`."""
     return {
         "schema_version": SCHEMA_VERSION,
-        "duty": found.duty.name,
-        "currency": found.duty.prices.currency,
-        "candidates": found.candidates,
-        "possible": found.possible,
-        "calculated": found.calculated,
-        "estimate_error": found.estimate_error,
-        "refused": dict(found.refused),
+        "duty": sizing.duty.name,
+        "currency": sizing.duty.prices.currency,
+        "candidates": sizing.candidates,
+        "possible": sizing.possible,
+        "calculated": sizing.calculated,
+        "estimate_error": sizing.estimate_error,
+        "refused": dict(sizing.refused),
         **{key: contents[key].plain() for key in _TABLES if key in contents},
         "assumptions": list(contents.lines("assumption")),
     }

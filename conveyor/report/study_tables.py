@@ -177,7 +177,7 @@ def _governing(result: CaseResult) -> str:
     return settled.condition_name(settled.governed_by)
 
 
-def governing(study: CalculatedCases, found: Sequence[Governing]) -> Table:
+def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     """One row a figure: its value and the load case or load state that decides it."""
     low, high = study.friction_band
     columns = (
@@ -186,7 +186,7 @@ def governing(study: CalculatedCases, found: Sequence[Governing]) -> Table:
         Column("value", OF_ROW, lambda row: row.value.value),
         *(replace(column, get=_of_result(column.get)) for column in _AT),
     )
-    rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in found)
+    rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
     note = f"friction factor {low:g}-{high:g}, least favourable"
     if left_out:
@@ -361,15 +361,15 @@ def convergence_of_draws(study: CalculatedRanges) -> Table:
 
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers for JSON, only of what there is; units in the keys."""
-    found: dict[str, Any] = {}
+    parts: dict[str, Any] = {}
     if studies.states is not None:
         named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
-        found["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
-        found["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
+        parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
+        parts["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
     study = studies.cases
     if study is not None:
-        found["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
-        found["load_cases"] = {
+        parts["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
+        parts["load_cases"] = {
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),
             "cases": cases(study).records(),
@@ -378,20 +378,20 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "refused": refused(study).records(),
         }
     if studies.duty is not None:
-        found["duty"] = {
+        parts["duty"] = {
             "conveyor": studies.duty.conveyor.name,
             "year": year(studies.duty).series("").to_dict(),
             "emission_source": studies.duty.emission_source,
             "duty": duty(studies.duty).records(),
         }
     if studies.uncertainty is not None:
-        found["uncertainty"] = {
+        parts["uncertainty"] = {
             "conveyor": studies.uncertainty.conveyor.name,
             "band": band(studies.uncertainty).records(),
             "tornado": sensitivity(studies.uncertainty).records(),
             "notes": list(studies.uncertainty.notes),
         }
-    return found
+    return parts
 
 
 def _plain_state(state: LoadState) -> dict[str, Any]:

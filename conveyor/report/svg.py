@@ -163,7 +163,7 @@ def _drawn(figure: Figure) -> bytes:
 def _cleaned(drawn: str, name: str, label: str) -> str:
     root = ET.fromstring(drawn.encode())  # noqa: S314 drawn here
     used = {_link(node) for node in root.iter()} | {
-        found for node in root.iter() for value in node.attrib.values() for found in _REFERENCE.findall(value)
+        mark for node in root.iter() for value in node.attrib.values() for mark in _REFERENCE.findall(value)
     }
     _without(root)
     for node in root.iter():
@@ -212,14 +212,14 @@ def _flatten(node: ET.Element) -> None:
 
 
 def _shortened(key: str, value: str, name: str) -> str:
-    value = _REFERENCE.sub(lambda found: f"url(#{name}-{found[1]})", value)
+    value = _REFERENCE.sub(lambda match: f"url(#{name}-{match[1]})", value)
     if key == "style":
-        return _FONT.sub(lambda found: f"{found[1]}sans-serif" if found[1] else "", value).strip(" ;")
+        return _FONT.sub(lambda match: f"{match[1]}sans-serif" if match[1] else "", value).strip(" ;")
     if key == "d":
-        points = _NUMBER.sub(lambda found: f"{float(found[0]):.1f}".removesuffix(".0"), value)
+        points = _NUMBER.sub(lambda match: f"{float(match[0]):.1f}".removesuffix(".0"), value)
         return _COMMAND.sub(r"\1", points).strip()
     if key in {"x", "y", "transform"}:
-        return _NUMBER.sub(lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."), value)
+        return _NUMBER.sub(lambda match: f"{float(match[0]):.2f}".rstrip("0").rstrip("."), value)
     return value
 
 

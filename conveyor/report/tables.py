@@ -95,11 +95,11 @@ def of_analysis(
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system = analysis.conveyor.report.units
     every = _every_check(analysis, studies, further)
-    found = deciding(every)
+    governing = deciding(every)
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
     asks = take_up_of(analysis, studies)
-    governs, verdict = governing_figures(analysis, studies, found, asks, left_open)
+    governs, verdict = governing_figures(analysis, studies, governing, asks, left_open)
     parts = (
         identity(analysis.conveyor, system),
         replace(governs, note=verdict),
@@ -145,8 +145,8 @@ def of_analysis(
         *compounds(analysis, system),
         *(() if further is None else further.parts),
         *case_checks(every, system),
-        checked(found, system),
-        remarks(analysis, found, system, () if further is None else further.assumptions),
+        checked(governing, system),
+        remarks(analysis, governing, system, () if further is None else further.assumptions),
         provenance(fingerprint(analysis.conveyor)),
     )
     kept = tuple(part for part in parts if not part.empty)
@@ -208,8 +208,8 @@ def identity(conveyor: Conveyor, system: System) -> Table:
 
 def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     """Figures of the whole conveyor; the range of power where defaults leave one open."""
-    conveyor, found = a.conveyor, a.balance
-    forces, power, tensions_at, classic = found.forces, found.power, found.tensions, found.classical
+    conveyor, balance = a.conveyor, a.balance
+    forces, power, tensions_at, classic = balance.forces, balance.power, balance.tensions, balance.classical
     low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
     even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
@@ -237,7 +237,7 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
             for name, newtons in forces.parts.items()
         ),
         Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
-        Figure("equivalent DIN f", "friction", found.friction_factor, "tile large notebook", "friction_factor",
+        Figure("equivalent DIN f", "friction", balance.friction_factor, "tile large notebook", "friction_factor",
                key="equivalent_f"),
         Figure("tight side tension", "force", tensions_at.tight, "tile notebook", us="T1"),
         Figure("slack side tension", "force", tensions_at.slack, "notebook", us="T2"),
@@ -250,7 +250,7 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("cost per year", money, cost),
         Figure("classical f", "friction", classic.friction_factor),
         Figure("classical effective tension", "force", classic.total, us="Te"),
-        Figure("classical motor power", "power", found.frame.motor(classic.total)),
+        Figure("classical motor power", "power", balance.frame.motor(classic.total)),
         Figure("maximum error estimate of the contacts", "error", error, "", "error_estimate",
                key="contact_error_estimate"),
         Figure("maximum energy error of the contacts", "error", energy_error, key="contact_energy_error"),
@@ -278,15 +278,15 @@ def defaults(left_open: PowerRange, system: System) -> Table:
                  _left_open(left_open, system) if left_open.effects else "")  # fmt: skip
 
 
-def _left_open(found: PowerRange, system: System) -> str:
+def _left_open(power: PowerRange, system: System) -> str:
     """The power with its range, and what to replace first."""
-    low, high = (figure(end, "power", system) for end in (found.low, found.high))
-    first, motor = found.effects[0], figure(found.motor, "power", system)
+    low, high = (figure(end, "power", system) for end in (power.low, power.high))
+    first, motor = power.effects[0], figure(power.motor, "power", system)
     said = (
         f"Motor power {motor}, 90 % interval {low.rpartition(' ')[0]} to {high} by defaults and the level of the "
         f"rubber. Replace first: {first.name} (give {first.give})."
     )
-    return " ".join((said, *(f"Not included: {note}." for note in found.notes)))
+    return " ".join((said, *(f"Not included: {note}." for note in power.notes)))
 
 
 def inputs(conveyor: Conveyor) -> Table:
@@ -393,17 +393,17 @@ def breakdown(a: CalculatedConveyor) -> Table:
 
 def classical(a: CalculatedConveyor) -> Table:
     """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
-    found, forces = a.balance, a.balance.forces
-    estimates = [("classical, given f", found.classical), ("CEMA classic, given Ky", found.cema)]
+    balance, forces = a.balance, a.balance.forces
+    estimates = [("classical, given f", balance.classical), ("CEMA classic, given Ky", balance.cema)]
     others = [(name, made) for name, made in estimates if made is not None]
 
     def row(label: str, kind: str, name: str, here: float) -> Figure:
         return Figure(label, kind, (here, *(getattr(made, name) for _, made in others)), key=name)
 
-    powers = (found.power.motor, *(_estimated_motor(found, made) for _, made in others))
+    powers = (balance.power.motor, *(_estimated_motor(balance, made) for _, made in others))
 
     rows = (
-        row("f", "friction", "friction_factor", found.friction_factor),
+        row("f", "friction", "friction_factor", balance.friction_factor),
         row("main", "force", "main", forces.main),
         row("secondary", "force", "secondary", forces.secondary),
         row("special", "force", "special", forces.special),
@@ -418,8 +418,8 @@ def classical(a: CalculatedConveyor) -> Table:
     )
     heading = "Comparison with ISO 5048 / DIN 22101, given f"
     note = (
-        f"secondary resistances of the classical estimate: {found.classical.secondary_by}; "
-        f"governing at the drive: {found.tensions.governed_by}"
+        f"secondary resistances of the classical estimate: {balance.classical.secondary_by}; "
+        f"governing at the drive: {balance.tensions.governed_by}"
     )
     page = (OnPage("resistances", heading),)
     return Table("classical", "Resistances", heading, columns, rows, page, note)
@@ -445,10 +445,10 @@ def cema(a: CalculatedConveyor) -> Table:
     return Table("cema", "Resistances", heading, columns, rows, page, note, foot="Te", named=2)
 
 
-def _estimated_motor(found: Balance, made: Classical) -> float:
+def _estimated_motor(balance: Balance, made: Classical) -> float:
     """Motor power of an estimate [W]; CEMA's holds the bearings of the drive pulleys too."""
     beside = made.drive_pulleys if isinstance(made, CemaEstimate) else 0.0
-    return found.frame.motor(made.total + beside)
+    return balance.frame.motor(made.total + beside)
 
 
 def _nth(i: int) -> Getter:
@@ -512,8 +512,8 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
 def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
     system, alike = a.conveyor.report.units, dict[tuple[Strand, float], _AlikeSets]()
-    for label, found in _loads(a, studies) if a.set_duty else ():
-        for duty in found.set_duty:
+    for label, result in _loads(a, studies) if a.set_duty else ():
+        for duty in result.set_duty:
             key = (duty.stretch.strand, duty.stretch.spacing)
             alike.setdefault(key, _AlikeSets()).add(label.text(system), duty)
     columns = (
@@ -638,12 +638,12 @@ def _height_at(boundaries_of: tuple[int, ...]) -> Getter:
 
 def boundaries(line: Line) -> list[tuple[float, float]]:
     """Horizontal distance and height over the tail of every boundary of sections [m]."""
-    found = [(0.0, 0.0)]
+    points = [(0.0, 0.0)]
     for section in line.sections:
-        across, up = found[-1]
+        across, up = points[-1]
         level = math.sqrt(section.length**2 - section.rise**2)
-        found.append((across + level, up + section.rise))
-    return found
+        points.append((across + level, up + section.rise))
+    return points
 
 
 def section_ends(a: CalculatedConveyor) -> Table:
@@ -856,15 +856,15 @@ def brakes(a: CalculatedConveyor) -> Table:
 
 def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
-    loads = [found.drive_duty for _, found in _loads(a, studies)] if a.drive_duty else []
+    loads = [result.drive_duty for _, result in _loads(a, studies)] if a.drive_duty else []
     rows = [(own, [every[i] for every in loads]) for i, own in enumerate(a.drive_duty)]
 
     def worst(of: Callable[[Iterable[Any]], Any], get: Getter) -> Getter:
-        def found(row: Any) -> float | None:
+        def result(row: Any) -> float | None:
             values = [value for duty in row[1] if isinstance(value := get(duty), float)]
             return of(values) if values else None
 
-        return found
+        return result
 
     motor = a.balance.frame.motor
     columns = (
@@ -956,18 +956,18 @@ def _loads(
 def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
     system = a.conveyor.report.units
-    every = [(label, duty) for label, found in _loads(a, studies) for duty in found.pulley_duty]
+    every = [(label, duty) for label, result in _loads(a, studies) for duty in result.pulley_duty]
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
         rows.append((own, *max(of, key=lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
 
     def extreme(of: Callable[[Iterable[float]], float], get: Getter) -> Getter:
-        def found(row: Any) -> float | None:
+        def result(row: Any) -> float | None:
             values = [value for duty in row[3] if (value := get(duty)) is not None]
             return of(values) if values else None
 
-        return found
+        return result
 
     columns = (
         Column("pulley", "text", lambda row: row[0].pulley.name),
@@ -1002,8 +1002,8 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
     system = a.conveyor.report.units
     rows = tuple(
         (duty.pulley.name, label.text(system), load)
-        for label, found in _loads(a, studies)
-        for duty in found.pulley_duty
+        for label, result in _loads(a, studies)
+        for duty in result.pulley_duty
         for load in duty.loads
     )
     columns = (
@@ -1095,8 +1095,8 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     system = a.conveyor.report.units
     rows = tuple(
         (bend, label.text(system), state)
-        for label, found in (_loads(a, studies) if a.horizontal else ())
-        for bend in found.horizontal
+        for label, result in (_loads(a, studies) if a.horizontal else ())
+        for bend in result.horizontal
         for state in bend.states
     )
     columns = (
@@ -1146,12 +1146,12 @@ def transitions(a: CalculatedConveyor) -> Table:
 
 def convergence(a: CalculatedConveyor) -> Table:
     """Convergence of tensions and roll loads on the curves; empty without curves."""
-    found = a.convergence
-    rows = () if found is None else (
-        Figure("steps", "count", float(found.steps)),
-        Figure("last change over largest tension", "error", found.change),
-        Figure("ratio of changes", "ratio", found.ratio),
-        Figure("bound over largest tension", "error", found.bound),
+    state = a.convergence
+    rows = () if state is None else (
+        Figure("steps", "count", float(state.steps)),
+        Figure("last change over largest tension", "error", state.change),
+        Figure("ratio of changes", "ratio", state.ratio),
+        Figure("bound over largest tension", "error", state.bound),
     )  # fmt: skip
     heading = "Convergence of tensions and roll loads"
     page = (OnPage("belt", f"{heading} on the curves", printed=False),)
@@ -1231,9 +1231,9 @@ def indentation(a: CalculatedConveyor) -> Table:
     rows: list[tuple[Any, ...]] = []
     for curve, (label, level) in seen.items():
         loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
-        found = curve.at(loads)
-        resistance = found.resistance if level is None else level.factor(loads) * found.resistance
-        columns = (loads, resistance, found.half_width, found.peak_pressure)
+        solved = curve.at(loads)
+        resistance = solved.resistance if level is None else level.factor(loads) * solved.resistance
+        columns = (loads, resistance, solved.half_width, solved.peak_pressure)
         rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
     declared = (
         Column("contact", "text", itemgetter(0)),
@@ -1395,10 +1395,10 @@ class CheckRow(NamedTuple):
     @classmethod
     def of(cls, check: Check, system: System, *, leads: bool = False) -> CheckRow:
         """Write a check in a system of units."""
-        name, found, asked = (said.text(system) for said in (check.name, check.found, check.asked))
+        name, calculated, asked = (said.text(system) for said in (check.name, check.found, check.asked))
         case = AS_GIVEN if check.case is None else check.case.text(system)
         margin = None if check.verdict == "not checked" else check.margin
-        return cls(name, found, asked, margin, case, check.verdict, leads)
+        return cls(name, calculated, asked, margin, case, check.verdict, leads)
 
 
 _CHECK: Final = (
@@ -1411,10 +1411,10 @@ _OF_CASE: Final = Column("case", "text", attrgetter("case"))
 _VERDICT: Final = Column("verdict", "verdict", attrgetter("verdict"))
 
 
-def checked(found: tuple[Check, ...], system: System) -> Table:
+def checked(checks: tuple[Check, ...], system: System) -> Table:
     """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail."""
-    first = leading(found)
-    rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in found)
+    first = leading(checks)
+    rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in checks)
     caption = "Calculated against required; of all calculated cases the least margin"
     note = "margin: reserve over the limit; least of all calculated cases"
     of_case = (_OF_CASE,) if any(row.case != AS_GIVEN for row in rows) else ()
@@ -1448,7 +1448,7 @@ class Remark(tuple[str, str]):
 
 
 def remarks(
-    a: CalculatedConveyor, found: tuple[Check, ...], system: System, further: tuple[str, ...] = ()
+    a: CalculatedConveyor, checks: tuple[Check, ...], system: System, further: tuple[str, ...] = ()
 ) -> Table:
     """Warnings, method, assumptions, and the notes of the spec."""
     columns = (
@@ -1456,7 +1456,7 @@ def remarks(
         Column("text", "text", attrgetter("text")),
     )
     notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
-    warned = [line.text(system) for line in warnings(a, found)]
+    warned = [line.text(system) for line in warnings(a, checks)]
     said = {
         "warning": warned, "method": method(a), "assumption": (*assumptions(a.conveyor), *further),
         "note of the spec": notes,
@@ -1517,8 +1517,8 @@ def drawings(
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
             lambda: loop_plots.drift(
                 [
-                    (label.text(system).removeprefix("load state "), found.horizontal)
-                    for label, found in _loads(a, studies)
+                    (label.text(system).removeprefix("load state "), result.horizontal)
+                    for label, result in _loads(a, studies)
                 ],
                 system=system,
             ),
@@ -1555,22 +1555,22 @@ def plain(
     a: CalculatedConveyor, studies: CalculatedStudies | None = None, further: Further | None = None
 ) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key, as `result_schema` describes them."""
-    found = a.balance
-    settled, every = found.settled, _every_check(a, studies, further)
+    balance = a.balance
+    settled, every = balance.settled, _every_check(a, studies, further)
     governing = deciding(every)
     left_open = power_range(a)
     data: dict[str, Any] = {
         "schema_version": SCHEMA_VERSION,
         "name": a.conveyor.name,
         **dict.fromkeys(("flow_t_per_h", "length_m", "lift_m", "friction_factor", "error_estimate")),
-        "forces_N": dict.fromkeys(found.forces.parts),
+        "forces_N": dict.fromkeys(balance.forces.parts),
         "power_kW": dict.fromkeys(("belt", "motor", "mains")),
-        "tensions_N": asdict(found.tensions),
+        "tensions_N": asdict(balance.tensions),
         "drives": [
             {
                 "drive": side.name,
                 "force_N": side.force,
-                "motor_kW": found.frame.motor(side.force) / 1e3,
+                "motor_kW": balance.frame.motor(side.force) / 1e3,
                 "arriving_N": side.arriving,
                 "leaving_N": side.leaving,
             }
@@ -1578,12 +1578,15 @@ def plain(
         ],
         "take_up": plain_take_up(*take_up_of(a, studies)),
         "energy": _energy(a, None if studies is None else studies.duty),
-        "classical": {**_estimate(found, found.classical), "secondary_by": found.classical.secondary_by},
+        "classical": {
+            **_estimate(balance, balance.classical),
+            "secondary_by": balance.classical.secondary_by,
+        },
         "cema": None
-        if found.cema is None
+        if balance.cema is None
         else {
-            **_estimate(found, found.cema),
-            "items_N": {symbol: newtons for symbol, _, newtons in found.cema.items},
+            **_estimate(balance, balance.cema),
+            "items_N": {symbol: newtons for symbol, _, newtons in balance.cema.items},
         },
         "defaults": {
             "motor_kW": {"low": None, "high": None},
@@ -1644,8 +1647,8 @@ def _finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def _estimate(found: Balance, made: Classical) -> dict[str, float]:
-    motor = _estimated_motor(found, made)
+def _estimate(balance: Balance, made: Classical) -> dict[str, float]:
+    motor = _estimated_motor(balance, made)
     return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": motor / 1e3}
 
 

@@ -99,40 +99,40 @@ def cleaners(a: CalculatedConveyor) -> Table:
 
 def discharge(a: CalculatedConveyor) -> Table:
     """Where the bulk leaves the head pulley, and how it arrives below."""
-    found = a.trajectory
+    stream = a.trajectory
     rows: tuple[Figure, ...] = ()
-    if found is not None:
-        end, height = found.fall, found.bulk.height
+    if stream is not None:
+        end, height = stream.fall, stream.bulk.height
         rows = (
-            Figure("diameter of the pulley", "size", found.head.diameter),
-            Figure("slope of the belt", "angle", found.head.slope),
+            Figure("diameter of the pulley", "size", stream.head.diameter),
+            Figure("slope of the belt", "angle", stream.head.slope),
             Figure("height of the bulk", "size", height),
-            Figure("height of its centre", "size", found.bulk.centroid),
-            Figure("V²/(g r) of the centre", "ratio", found.ratio, key="speed_ratio"),
-            Figure("leaves beyond the top", "angle", found.angle, key="angle"),
-            Figure("speed there", "speed", found.speed, key="speed"),
-            Figure("slips beyond the top (Booth)", "angle", found.slip.slip_angle, key="slip_angle"),
-            Figure("leaves beyond the top (Booth)", "angle", found.slip.angle, key="booth_angle"),
-            Figure("speed there (Booth)", "speed", found.slip.speed, key="booth_speed"),
-            Figure("depth below the axis", "spacing", found.head.drop, key="drop"),
+            Figure("height of its centre", "size", stream.bulk.centroid),
+            Figure("V²/(g r) of the centre", "ratio", stream.ratio, key="speed_ratio"),
+            Figure("leaves beyond the top", "angle", stream.angle, key="angle"),
+            Figure("speed there", "speed", stream.speed, key="speed"),
+            Figure("slips beyond the top (Booth)", "angle", stream.slip.slip_angle, key="slip_angle"),
+            Figure("leaves beyond the top (Booth)", "angle", stream.slip.angle, key="booth_angle"),
+            Figure("speed there (Booth)", "speed", stream.slip.speed, key="booth_speed"),
+            Figure("depth below the axis", "spacing", stream.head.drop, key="drop"),
             Figure("time of the fall", "duration", float(end.time[-1]), key="time"),
             Figure("forward of the axis", "spacing", float(end.across[-1]), key="across"),
-            Figure("forward of the axis (Booth, lower edge)", "spacing", float(found.lower.across[-1]),
+            Figure("forward of the axis (Booth, lower edge)", "spacing", float(stream.lower.across[-1]),
                    key="booth_across"),
             Figure("speed on arrival", "speed", float(end.speed[-1]), key="arrival_speed"),
             Figure("forward speed on arrival", "speed", float(end.speed[-1] * math.cos(end.steepness[-1])),
                    key="forward_speed"),
             Figure("down from the level on arrival", "angle", float(end.steepness[-1]), key="arrival_angle"),
         )  # fmt: skip
-    note = "" if found is None else _way(found)
+    note = "" if stream is None else _way(stream)
     heading = "Discharge over the head pulley"
     return figures(
         "discharge", SHEET, heading, rows, page=(OnPage(_PAGE, heading),), note=note, prefix="discharge_"
     )
 
 
-def _way(found: Trajectory) -> str:
-    leaves = "is carried round part of the pulley" if found.wraps else "leaves as the belt meets the pulley"
+def _way(stream: Trajectory) -> str:
+    leaves = "is carried round part of the pulley" if stream.wraps else "leaves as the belt meets the pulley"
     return (
         f"The bulk {leaves}. Centre after CEMA, edges at right angles to it; Booth: lower edge, with slip on the belt. "
         "No air."
@@ -141,12 +141,12 @@ def _way(found: Trajectory) -> str:
 
 def trajectory(a: CalculatedConveyor) -> Table:
     """Points of the stream from the axis of the pulley, every 1/20 s and the last at the depth asked for."""
-    found = a.trajectory
+    stream = a.trajectory
     rows: tuple[tuple[Any, ...], ...] = ()
-    if found is not None:
-        centre = found.fall
-        lower, upper = _edges(found)
-        paths = [(centre.across, centre.up), lower, upper, (found.lower.across, found.lower.up)]
+    if stream is not None:
+        centre = stream.fall
+        lower, upper = _edges(stream)
+        paths = [(centre.across, centre.up), lower, upper, (stream.lower.across, stream.lower.up)]
         points = [[*zip(*(axis.tolist() for axis in path), strict=True)] for path in paths]
         of_centre = zip(centre.time.tolist(), centre.speed.tolist(), strict=True)
         rows = tuple(zip_longest(of_centre, *points))
@@ -170,18 +170,18 @@ def trajectory(a: CalculatedConveyor) -> Table:
     )
 
 
-def _edges(found: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+def _edges(stream: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """Lower and upper edge of the stream after CEMA [m]."""
-    bulk = found.bulk
-    return found.fall.beside(-bulk.centroid), found.fall.beside(bulk.height - bulk.centroid)
+    bulk = stream.bulk
+    return stream.fall.beside(-bulk.centroid), stream.fall.beside(bulk.height - bulk.centroid)
 
 
 def pulley_outline(a: CalculatedConveyor) -> Table:
     """The belt round the head pulley and before it, for the picture."""
-    found = a.trajectory
+    stream = a.trajectory
     rows: tuple[tuple[float, ...], ...] = ()
-    if found is not None:
-        rows = tuple(zip(*(axis.tolist() for axis in _outline(found)), strict=True))
+    if stream is not None:
+        rows = tuple(zip(*(axis.tolist() for axis in _outline(stream)), strict=True))
     columns = (
         Column("belt, forward", "spacing", lambda row: row[0]),
         Column("belt, up", "spacing", lambda row: row[1]),
@@ -189,9 +189,9 @@ def pulley_outline(a: CalculatedConveyor) -> Table:
     return Table("pulley_outline", SHEET, "Belt round the head pulley", columns, rows, printed=False)
 
 
-def _outline(found: Trajectory) -> tuple[Any, Any]:
+def _outline(stream: Trajectory) -> tuple[Any, Any]:
     """The belt, two radii before the pulley, once round it and back [m]."""
-    radius, slope = found.belt_radius, found.head.slope
+    radius, slope = stream.belt_radius, stream.head.slope
     turn = np.linspace(-slope, 2.0 * math.pi - slope, _CIRCLE_POINTS)
     x, y = radius * np.sin(turn), radius * np.cos(turn)
     before = (x[0] - 2.0 * radius * math.cos(slope), y[0] - 2.0 * radius * math.sin(slope))
@@ -208,20 +208,20 @@ def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
 
 def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
     """The stream over the head pulley, to scale."""
-    found = a.trajectory
-    if found is None:
+    flight = a.trajectory
+    if flight is None:
         raise ValueError("no discharge to draw")
     sheet, (axis,) = stacked(1, 5.6)
     length = unit("spacing", system)
-    lower, upper = _edges(found)
-    axis.plot(*(length(each) for each in _outline(found)), color="0.35", linewidth=2, label="belt")
+    lower, upper = _edges(flight)
+    axis.plot(*(length(each) for each in _outline(flight)), color="0.35", linewidth=2, label="belt")
     axis.plot(0.0, 0.0, "+", color="0.35")
     stream = [np.concatenate([one, other[::-1]]) for one, other in zip(lower, upper, strict=True)]
     axis.fill(length(stream[0]), length(stream[1]), color=colour(0), alpha=0.15, linewidth=0)
-    axis.plot(length(found.fall.across), length(found.fall.up), color=colour(0), label="centre")
+    axis.plot(length(flight.fall.across), length(flight.fall.up), color=colour(0), label="centre")
     for path, name in ((lower, "edges"), (upper, "edges")):
         axis.plot(length(path[0]), length(path[1]), color=colour(0), linewidth=0.8, label=name)
-    booth = found.lower
+    booth = flight.lower
     axis.plot(
         length(booth.across), length(booth.up), color=colour(1), linestyle="--", label="lower edge (Booth)"
     )

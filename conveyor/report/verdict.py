@@ -58,9 +58,9 @@ def _loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator
         )
 
 
-def _asked(found: CalculatedConveyor) -> float:
+def _asked(result: CalculatedConveyor) -> float:
     """Motor power at the less favourable end of the friction [W]; negative where it brakes."""
-    return max(map(found.balance.frame.motor, found.drive_forces), key=abs)
+    return max(map(result.balance.frame.motor, result.drive_forces), key=abs)
 
 
 def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
@@ -68,12 +68,12 @@ def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None
     return max((_asked(load.found) for load in _loads(a, studies)), key=abs)
 
 
-def _place(found: CalculatedConveyor, state: MotionState, tension: float) -> str:
+def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
     """Where round the loop a tension of a state is."""
     for drive in state.drives:
         if tension in {drive.arriving, drive.leaving}:
             return drive.name
-    for stretch, start, end in zip(found.line.loop.stretches, state.starts, state.ends, strict=True):
+    for stretch, start, end in zip(result.line.loop.stretches, state.starts, state.ends, strict=True):
         if tension in {float(start), float(end)}:
             return f"{stretch.section}, {stretch.strand}, {'start' if tension == float(start) else 'end'}"
     return "head"

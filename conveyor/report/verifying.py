@@ -31,29 +31,29 @@ _TO_FILL_IN: Final = (
 )  # fmt: skip
 
 
-def of_verification(found: CalculatedVerification, system: System) -> Contents:
+def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
     """Every table of a verification sheet in a unit system."""
-    names = ", ".join(compound.name for compound in found.compounds)
+    names = ", ".join(compound.name for compound in sheet.compounds)
     facts = (
         ("compounds", names),
         ("calculated by", f"conveyor {version('conveyor')}"),
-        ("conveyor of the idler set", "none" if found.conveyor is None else found.conveyor.name),
+        ("conveyor of the idler set", "none" if sheet.conveyor is None else sheet.conveyor.name),
     )
     title = f"Rolling resistance of {names}"
-    report = Report() if found.conveyor is None else found.conveyor.report
+    report = Report() if sheet.conveyor is None else sheet.conveyor.report
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
-    parts = (what(found), to_fill_in(), per_width(found, system), per_set(found))
+    parts = (what(sheet), to_fill_in(), per_width(sheet, system), per_set(sheet))
     return Contents(about, tuple(part for part in parts if not part.empty), system)
 
 
-def what(found: CalculatedVerification) -> Table:
+def what(sheet: CalculatedVerification) -> Table:
     """What the figures are and rest on, a line each."""
     columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    rows = tuple(Remark(("assumption", line)) for line in lines(found))
+    rows = tuple(Remark(("assumption", line)) for line in lines(sheet))
     return Table("remarks", ABOUT, "What these figures are", columns, rows)
 
 
-def lines(found: CalculatedVerification) -> Iterator[str]:
+def lines(sheet: CalculatedVerification) -> Iterator[str]:
     """What the figures are and rest on."""
     yield (
         "Indentation rolling resistance of the cover alone, of one rigid roll in steady running: force per width "
@@ -63,15 +63,15 @@ def lines(found: CalculatedVerification) -> Iterator[str]:
         "Contact is plane strain, frictionless, of a cover bonded to a carcass that does not give (confined); "
         "the line load is even over the width."
     )
-    for compound in found.compounds:
-        yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=found.softened)}.'
+    for compound in sheet.compounds:
+        yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=sheet.softened)}.'
     yield (
         "Figures follow from the compound's small-sample dynamic moduli. Those of a compound that holds tests of "
         "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above them."
     )
-    if found.conveyor is not None:
+    if sheet.conveyor is not None:
         yield (
-            f'The idler set is the most loaded carry set of "{found.conveyor.name}" at its flow and speed: the sum '
+            f'The idler set is the most loaded carry set of "{sheet.conveyor.name}" at its flow and speed: the sum '
             "of its rolls, each under its own distribution of load, moduli as its calculation.strain says."
         )
     yield (
@@ -99,11 +99,11 @@ def to_fill_in() -> Table:
     return Table("to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, page)
 
 
-def per_width(found: CalculatedVerification, system: System) -> Table:
+def per_width(sheet: CalculatedVerification, system: System) -> Table:
     """One row a compound, cover, roll, speed and temperature; two columns a line load, ours and theirs."""
     strength = unit("strength", system)
     pairs: list[Column] = []
-    for k, load in enumerate(found.line_loads):
+    for k, load in enumerate(sheet.line_loads):
         said = f"{strength.shown(load):.4g} {strength.sign}"
         pairs += [
             Column(f"at {said}, ours", "line force", _resistance(k), key=f"ours_{k + 1}"),
@@ -120,14 +120,14 @@ def per_width(found: CalculatedVerification, system: System) -> Table:
     )
     heading = "Indentation resistance per width under line loads"
     page = (OnPage("per-width", heading),)
-    return Table("per_width", PER_WIDTH, heading, columns, found.rows, page, named=5)
+    return Table("per_width", PER_WIDTH, heading, columns, sheet.rows, page, named=5)
 
 
 def _resistance(k: int) -> Callable[[Any], Any]:
     return lambda row: row.resistances[k]
 
 
-def per_set(found: CalculatedVerification) -> Table:
+def per_set(sheet: CalculatedVerification) -> Table:
     """One row a compound and temperature."""
     columns = (
         Column("compound", "text", attrgetter("compound")),
@@ -140,15 +140,15 @@ def per_set(found: CalculatedVerification) -> Table:
     )
     heading = "Indentation resistance of the most loaded carry set"
     page = (OnPage("per-set", heading),)
-    return Table("per_set", PER_SET, heading, columns, found.sets, page, named=3)
+    return Table("per_set", PER_SET, heading, columns, sheet.sets, page, named=3)
 
 
-def plain(found: CalculatedVerification) -> dict[str, Any]:
+def plain(sheet: CalculatedVerification) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
-        "compounds": [compound.name for compound in found.compounds],
-        "softened": found.softened,
-        "line_loads_N_per_m": list(found.line_loads),
+        "compounds": [compound.name for compound in sheet.compounds],
+        "softened": sheet.softened,
+        "line_loads_N_per_m": list(sheet.line_loads),
         "rows": [
             {
                 "compound": row.compound,
@@ -159,7 +159,7 @@ def plain(found: CalculatedVerification) -> dict[str, Any]:
                 "resistance_N_per_m": list(row.resistances),
                 "reason": row.reason,
             }
-            for row in found.rows
+            for row in sheet.rows
         ],
         "sets": [
             {
@@ -170,7 +170,7 @@ def plain(found: CalculatedVerification) -> dict[str, Any]:
                 "resistance_N": row.resistance,
                 "reason": row.reason,
             }
-            for row in found.sets
+            for row in sheet.sets
         ],
-        "what": list(lines(found)),
+        "what": list(lines(sheet)),
     }

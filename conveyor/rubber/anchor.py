@@ -120,19 +120,19 @@ def fit_anchor(
     if sloped:
         columns.append(np.log(w / middle))
     matrix = np.stack(columns, axis=1)
-    found, _, rank, _ = np.linalg.lstsq(matrix, y, rcond=None)
+    solution, _, rank, _ = np.linalg.lstsq(matrix, y, rcond=None)
     if (
         rank < matrix.shape[1]
     ):  # every temperature has one load of its own: no slope can be told from the levels
         matrix, sloped = matrix[:, :-1], False
-        found = np.linalg.lstsq(matrix, y, rcond=None)[0]
+        solution = np.linalg.lstsq(matrix, y, rcond=None)[0]
     freedom = y.size - matrix.shape[1]
-    residual = math.sqrt(float(np.sum((y - matrix @ found) ** 2)) / freedom) if freedom > 0 else 0.0
+    residual = math.sqrt(float(np.sum((y - matrix @ solution) ** 2)) / freedom) if freedom > 0 else 0.0
     count = int(levels.max()) + 1
     return Anchor(
         temperatures=np.array([float(np.mean(at[levels == k])) for k in range(count)]),
-        levels=found[:count],
-        slope=float(found[count]) if sloped else 0.0,
+        levels=solution[:count],
+        slope=float(solution[count]) if sloped else 0.0,
         load=middle,
         loads=(low, high),
         half_width=math.hypot(NINE_TENTHS * residual, uncertainty),

@@ -239,7 +239,7 @@ def bootstrap(
     size = rows.frequency.size
     spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
     generator = np.random.default_rng(seed)
-    found: list[FloatArray] = []
+    fits: list[FloatArray] = []
     kept: list[_Shifted] = []
     draws = None
     if superposition is not None:
@@ -260,17 +260,17 @@ def bootstrap(
         bends = spread * generator.standard_normal(len(problem.bends))
         moduli = problem.solve(target, fit.regularisation, bends)
         if moduli[0] > 0.0:
-            found.append(moduli)
+            fits.append(moduli)
             kept += [] if shift is None else [shift]
-        if len(found) == replicas:
+        if len(fits) == replicas:
             break
     else:
         raise NoSolutionError(
-            f"only {len(found)} of {DRAWS_PER_REPLICA * replicas} draws are a solid whose shifts fall with temperature:"
+            f"only {len(fits)} of {DRAWS_PER_REPLICA * replicas} draws are a solid whose shifts fall with temperature:"
             " the data hardly reach the rubbery plateau, or hardly tell the shifts; measure lower frequencies, or hold"
             " equilibrium="
         )
-    spectra = np.array(found)
+    spectra = np.array(fits)
     equilibrium, moduli = spectra[:, 0], spectra[:, 1:]
     if superposition is None:
         return ReplicaBand(times, equilibrium, moduli)
@@ -291,10 +291,10 @@ class _Shifted:
     law: ShiftLaw | None
 
 
-def _temperatures(found: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
+def _temperatures(superposition: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
     """Of every fitted row [K]."""
     at = (
-        found.temperatures[found.isotherm]
+        superposition.temperatures[superposition.isotherm]
         if temperature is None
         else np.asarray(temperature, dtype=np.float64)
     )
@@ -304,19 +304,19 @@ def _temperatures(found: Superposition, temperature: ArrayLike | None, size: int
 
 
 def _drawn(
-    found: Superposition,
+    superposition: Superposition,
     at: FloatArray,
     maker: Callable[[FloatArray], ShiftLaw] | None,
     generator: np.random.Generator,
 ) -> Iterator[_Shifted | None]:
     """Shifts without end that the isotherms allow as well; None for those that no law follows or that rise."""
-    known = found.temperatures
-    laid = found.shifts
+    known = superposition.temperatures
+    laid = superposition.shifts
     if maker is not None:
         laid = np.array([maker(laid[0]).log10_a_T(known), laid[1]])
-    missed = (found.shifts - laid)[0]
+    missed = (superposition.shifts - laid)[0]
     while True:
-        for drawn in reversed(found.drawn(generator)):
+        for drawn in reversed(superposition.drawn(generator)):
             law, shifts = None, drawn
             if maker is not None:
                 try:

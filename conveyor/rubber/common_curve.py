@@ -124,13 +124,13 @@ class Smoother:
 
         splines, strength = self.splines, 10.0**stiffness
         factor = cholesky_banded(self.normal + strength * self.penalty, lower=True)
-        found = cho_solve_banded((factor, True), self.right)
-        residual = self.y - splines.matrix @ found
-        bends = np.diff(found, ORDER)
+        coefficients = cho_solve_banded((factor, True), self.right)
+        residual = self.y - splines.matrix @ coefficients
+        bends = np.diff(coefficients, ORDER)
         cost = float(self.weight @ residual**2 + strength * bends @ bends)
         determinant = 2.0 * float(np.sum(np.log(factor[0])))
-        occam = determinant - (found.size - ORDER) * LN10 * stiffness
-        return Curve(factor, residual, splines.slope @ found, cost, occam)
+        occam = determinant - (coefficients.size - ORDER) * LN10 * stiffness
+        return Curve(factor, residual, splines.slope @ coefficients, cost, occam)
 
     def likelihood(self, stiffness: float) -> float:
         """-2 log of the restricted likelihood at a stiffness, up to a constant [-]."""

@@ -175,10 +175,10 @@ def equivalent_linear(
     (0.0181, 0.6)
     """
     task = StrainTask(series, factors, temperature, swept)
-    (found,) = equivalent_linear_many([task], lambda _, asked: [strain_of(one) for one in asked], rtol=rtol)
-    if isinstance(found, EquivalentLinear):
-        return found
-    raise found
+    (answer,) = equivalent_linear_many([task], lambda _, asked: [strain_of(one) for one in asked], rtol=rtol)
+    if isinstance(answer, EquivalentLinear):
+        return answer
+    raise answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,7 +215,7 @@ def equivalent_linear_many(
         In their order the answers, or why there is none.
     """
     positive("rtol", rtol, "-")
-    found: dict[int, EquivalentLinear | NoSolutionError | RangeError] = {}
+    answers: dict[int, EquivalentLinear | NoSolutionError | RangeError] = {}
     going = {i: _iteration(task, rtol) for i, task in enumerate(tasks)}
     asked = {i: next(steps) for i, steps in going.items()}
     while asked:
@@ -226,12 +226,12 @@ def equivalent_linear_many(
                     raise worked
                 asked[i] = going[i].send(worked)
             except StopIteration as done:
-                found[i] = done.value
+                answers[i] = done.value
             except (NoSolutionError, RangeError) as error:
-                found[i] = error
-            if i in found:
+                answers[i] = error
+            if i in answers:
                 del asked[i]
-    return [found[i] for i in range(len(tasks))]
+    return [answers[i] for i in range(len(tasks))]
 
 
 def _iteration(task: StrainTask, rtol: float) -> Generator[PronySeries, Worked, EquivalentLinear]:

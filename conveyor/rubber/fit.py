@@ -123,10 +123,10 @@ class PronyFit:
             *(
                 (
                     f"{name}, error",
-                    f"rms {100.0 * found.rms:.1f} %, worst {100.0 * found.worst:+.1f} % at "
-                    f"{found.worst_frequency:.3g} Hz",
+                    f"rms {100.0 * error.rms:.1f} %, worst {100.0 * error.worst:+.1f} % at "
+                    f"{error.worst_frequency:.3g} Hz",
                 )
-                for name, found in (("E'", self.storage), ("E''", self.loss), ("tan δ", self.tan_delta))
+                for name, error in (("E'", self.storage), ("E''", self.loss), ("tan δ", self.tan_delta))
             ),
             ("any positive spectrum leaves", f"{100.0 * self.consistency_floor:.1f} %"),
         ]

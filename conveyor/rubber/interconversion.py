@@ -73,10 +73,10 @@ def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, F
     order = np.argsort(-t, kind="stable")
     rows = _Relaxation.of(t[order], e[order])
     tau, strength, _ = choose(rows, None)
-    found = Penalised(rows, tau, None).solve(rows.target, strength)
+    solution = Penalised(rows, tau, None).solve(rows.target, strength)
     inside = high - low - 2.0 * MARGIN
     omega = np.logspace(MARGIN - high, -low - MARGIN, round(ROWS_PER_DECADE * inside) + 1)
-    storage, loss = np.split(kernel(omega, tau) @ found, 2)
+    storage, loss = np.split(kernel(omega, tau) @ solution, 2)
     return omega / (2.0 * np.pi), storage, loss
 
 

@@ -208,8 +208,8 @@ def _one_sided(rows: Rows, tau: FloatArray, ignored: slice) -> tuple[FloatArray,
     blind = replace(rows, scale=scale)
     problem = Penalised(blind, tau, None)
     n = rows.frequency.size
-    found = [problem.judged(blind.target, strength) for strength in STRENGTHS]
-    judged = [one for one in found if n - one.freedom - 2.0 > 0.0] or found[-1:]
+    candidates = [problem.judged(blind.target, strength) for strength in STRENGTHS]
+    judged = [one for one in candidates if n - one.freedom - 2.0 > 0.0] or candidates[-1:]
     rms = [one.residual * float(np.sqrt(2.0)) for one in judged]  # half of the rows have no weight
     if len(judged) > 1:
         best = int(np.argmin([aicc(n, one.freedom, r) for one, r in zip(judged, rms, strict=True)]))

@@ -158,7 +158,7 @@ def _searched(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) ->
     middle = 0.5 * (math.log(strain[0]) + math.log(strain[-1]))
     best, least = np.zeros(2), math.inf
     for exponent in _KRAUS_STARTS:
-        found = least_squares(missed, [middle, math.log(exponent)], xtol=1e-12, ftol=1e-12, gtol=1e-12)
-        if float(found.cost) < least:
-            best, least = np.asarray(found.x, dtype=np.float64), float(found.cost)
+        solution = least_squares(missed, [middle, math.log(exponent)], xtol=1e-12, ftol=1e-12, gtol=1e-12)
+        if float(solution.cost) < least:
+            best, least = np.asarray(solution.x, dtype=np.float64), float(solution.cost)
     return best

@@ -33,10 +33,10 @@ def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
     from scipy.optimize import nnls
 
     try:
-        found = np.asarray(nnls(matrix, target)[0])
+        solution = np.asarray(nnls(matrix, target)[0])
     except (RuntimeError, np.linalg.LinAlgError):
         return active_set(matrix, target)
-    return found if slope(matrix, target, found) <= SLACK * ROUNDING else active_set(matrix, target)
+    return solution if slope(matrix, target, solution) <= SLACK * ROUNDING else active_set(matrix, target)
 
 
 def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:

@@ -100,13 +100,13 @@ def fit_wlf(
         raise NoSolutionError(
             "the shifts do not follow a WLF law (its pole leaves the searched range): use a table"
         )
-    found = minimize_scalar(
+    least = minimize_scalar(
         cost, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10}
     )
-    c1, _ = slope(float(found.x))
+    c1, _ = slope(float(least.x))
     if c1 <= 0.0:
         raise NoSolutionError("the shifts rise with temperature: no WLF law; reversed sign, or log of 1/a_T?")
-    return _judge(WLF(c1, floor + float(np.exp(found.x)), float(reference)), t, y)
+    return _judge(WLF(c1, floor + float(np.exp(least.x)), float(reference)), t, y)
 
 
 def fit_arrhenius(

@@ -138,8 +138,8 @@ def compare_shift_laws(
     ['WLF', 'table', 'Arrhenius']
     """
     shifts = _checked(temperatures, log10_a_T, reference, error)
-    found = [_judged(shifts, name) for name in ("WLF", "Arrhenius", "table")]
-    return tuple(sorted(found, key=lambda one: one.left_out))
+    judged = [_judged(shifts, name) for name in ("WLF", "Arrhenius", "table")]
+    return tuple(sorted(judged, key=lambda one: one.left_out))
 
 
 def _checked(

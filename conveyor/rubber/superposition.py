@@ -209,9 +209,9 @@ class Superposition:
 
         values, vectors = np.linalg.eigh(self.joint_covariance)
         error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
-        found = self.shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
-        level = PchipInterpolator(self.temperatures, found, axis=2)(self.reference)
-        return np.asarray(found - level[..., None])
+        drawn_shifts = self.shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
+        level = PchipInterpolator(self.temperatures, drawn_shifts, axis=2)(self.reference)
+        return np.asarray(drawn_shifts - level[..., None])
 
 
 def superpose(
@@ -301,12 +301,12 @@ def superpose(
     if resonances:
         sheets = [_without(sheet, [one.frequency for one in resonances]) for sheet in sheets]
         placed = _placed(sheets, moduli, vertical=vertical)
-    found = replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
-    return found if vertical else _doubted(found, sheets, moduli, placed)
+    superposed = replace(_result(sheets, t_ref, moduli, placed), resonances=resonances)
+    return superposed if vertical else _doubted(superposed, sheets, moduli, placed)
 
 
 def _doubted(
-    found: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed
+    superposition: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed
 ) -> Superposition:
     """With the vertical shift in the uncertainty where the isotherms ask for one: as an error of that size."""
     steps = -np.diff(placed.shift)
@@ -315,23 +315,23 @@ def _doubted(
             np.concatenate([steps, np.zeros_like(steps)]), placed.residual
         )
         if score < _chi2_limit(steps.size):
-            return found
-        other = _result(sheets, found.reference, moduli, _placed(sheets, moduli, vertical=True))
+            return superposition
+        other = _result(sheets, superposition.reference, moduli, _placed(sheets, moduli, vertical=True))
     except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
-        return found
-    n = found.temperatures.size
-    apart = (other.shifts - found.shifts).ravel()
-    chance = 2.0 / np.sqrt(found.frequency.size)
+        return superposition
+    n = superposition.temperatures.size
+    apart = (other.shifts - superposition.shifts).ravel()
+    chance = 2.0 / np.sqrt(superposition.frequency.size)
     if (
         np.ptp(other.log10_b_T) < LEAST_VERTICAL
         or np.max(np.abs(np.diff(apart[:n])))
         > LONGEST_STEP  # the slopes hardly tell one shift from the other
-        or other.correlation > max(chance, 0.5 * found.correlation)  # it does not make them one curve
+        or other.correlation > max(chance, 0.5 * superposition.correlation)  # it does not make them one curve
     ):
-        return found
-    covariance = found.joint_covariance + np.outer(apart, apart)
+        return superposition
+    covariance = superposition.joint_covariance + np.outer(apart, apart)
     return replace(
-        found,
+        superposition,
         joint_covariance=covariance,
         log10_a_T_error=_root(covariance[:n, :n]),
         log10_b_T_error=_root(covariance[n:, n:]),
@@ -355,15 +355,15 @@ def _resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Plac
     """Frequencies that the common curves do not trust in more than half of the isotherms that hold them."""
     x = np.concatenate([sheet.x for sheet in sheets])
     stray = np.min([trust(one) for one in placed.residual], axis=0) < STRAY
-    found = []
+    resonances = []
     for at in np.unique(x[stray]):
         same = np.abs(x - at) < SAME_FREQUENCY
         if np.count_nonzero(same) < LEAST_ISOTHERMS or np.mean(stray[same]) <= 0.5:
             continue
         off = dict(zip(moduli, np.expm1(np.median(placed.residual[:, same & stray], axis=1)), strict=True))
         count = int(np.count_nonzero(stray[same]))
-        found.append(Resonance(float(10.0**at), count, float(off.get(0, 0.0)), float(off.get(1, 0.0))))
-    return tuple(found)
+        resonances.append(Resonance(float(10.0**at), count, float(off.get(0, 0.0)), float(off.get(1, 0.0))))
+    return tuple(resonances)
 
 
 def _kept(x: FloatArray, frequencies: list[float]) -> NDArray[np.bool_]:

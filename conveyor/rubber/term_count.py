@@ -137,8 +137,8 @@ class Penalised:
         """`solve`, of the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
         bend = np.zeros(len(matrix) - right.size) if bend is None else bend[: len(matrix) - right.size]
-        found = non_negative(matrix, np.concatenate([right, bend]))
-        full = found if self.held is None else np.concatenate([[self.held / self.unit[0]], found])
+        solution = non_negative(matrix, np.concatenate([right, bend]))
+        full = solution if self.held is None else np.concatenate([[self.held / self.unit[0]], solution])
         return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
 
     def leverage(self, moduli: FloatArray, strength: float) -> FloatArray:
@@ -220,25 +220,25 @@ def choose(
     among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
     (fluids) count only if all others have essentially no support: a cover is a solid.
     """
-    found: list[_Offer] = []
+    offers: list[_Offer] = []
     for density in DENSITIES:
         tau = even_times(rows.omega, density, REACH)
         problem = Penalised(rows, tau, held)
         for strength in strengths if density < BARE_DENSITY else strengths[:1]:
-            found += _offer(rows, problem, density, strength)
-    if found and found[-1][0].regularisation == 0.0:
-        found += _closer(rows, held, found[-1])
-    if not found:
+            offers += _offer(rows, problem, density, strength)
+    if offers and offers[-1][0].regularisation == 0.0:
+        offers += _closer(rows, held, offers[-1])
+    if not offers:
         raise InputError(
             f"{rows.frequency.size} rows are too few to choose the number of terms: measure more frequencies,"
             " or give terms_per_decade= or times="
         )
-    best = min(one[0].score for one in found)
-    solid = [one for one in found if one[2][0] > 0.0 and one[0].score <= best + NO_SUPPORT]
-    least = min(one[0].score for one in solid or found)
-    supported = [one for one in solid or found if one[0].score <= least + SUPPORT]
+    best = min(one[0].score for one in offers)
+    solid = [one for one in offers if one[2][0] > 0.0 and one[0].score <= best + NO_SUPPORT]
+    least = min(one[0].score for one in solid or offers)
+    supported = [one for one in solid or offers if one[0].score <= least + SUPPORT]
     chosen = min(supported, key=lambda one: (one[0].terms, one[0].freedom))
-    others = sorted((c[0] for c in found if c is not chosen), key=lambda line: line.score)
+    others = sorted((c[0] for c in offers if c is not chosen), key=lambda line: line.score)
     return chosen[1], chosen[0].regularisation, (chosen[0], *others)
 
 
@@ -259,7 +259,7 @@ def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> l
 
 def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
     """Candidates of halved spacing about the lines of a spectrum of few, as long as each is better."""
-    found: list[_Offer] = []
+    offers: list[_Offer] = []
     for _ in range(HALVINGS):
         line, tau, moduli = last
         if 2 * line.terms > tau.size:
@@ -273,5 +273,5 @@ def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
         if not closer or closer[0][0].score > line.score - SUPPORT:
             break
         last = closer[0]
-        found.append(last)
-    return found
+        offers.append(last)
+    return offers

@@ -55,14 +55,14 @@ def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
     axes = list(_axes(task, base, design.chosen.bottom))
     varied = list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
     begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
-    found = dict(zip(varied, settled(task, begin, []), strict=True))
+    answers = dict(zip(varied, settled(task, begin, []), strict=True))
     return tuple(
         VariedChoice(
             name,
             kind,
             tuple(value for value, _ in points),
             tuple(
-                "keeps no rule of filling, speed or rolls" if choice is None else found[choice]
+                "keeps no rule of filling, speed or rolls" if choice is None else answers[choice]
                 for _, choice in points
             ),
             at,

@@ -172,28 +172,28 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     anchors: Anchors = []
     first = _first(task, choices, estimate, probes, anchors)
     levels = _levels(choices, estimate, probes, first, levels)
-    found: dict[int, SizedDesign | str] = {}
+    sized: dict[int, SizedDesign | str] = {}
     for _ in range(_SCREENINGS):
         estimate = screen(task, choices, levels)
-        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in found]
+        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in sized]
         if progress is not None:
-            progress(len(found), len(found) + len(new))
-        found |= zip(new, _designs(task, choices, estimate, new, anchors), strict=True)
-        made = {i: one for i, one in found.items() if isinstance(one, SizedDesign)}
+            progress(len(sized), len(sized) + len(new))
+        sized |= zip(new, _designs(task, choices, estimate, new, anchors), strict=True)
+        made = {i: one for i, one in sized.items() if isinstance(one, SizedDesign)}
         levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
-    if not found:
+    if not sized:
         raise NoSolutionError(_TOO_MUCH)
-    reasons = Counter(one for one in found.values() if isinstance(one, str))
+    reasons = Counter(one for one in sized.values() if isinstance(one, str))
     final = _final(task, made.values(), best, anchors, reasons)
     if not final:
         told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
-        raise NoSolutionError(f"no candidate of {len(found)} calculated keeps every check: {told}")
+        raise NoSolutionError(f"no candidate of {len(sized)} calculated keeps every check: {told}")
     return CalculatedSizing(
         duty,
         tuple(final[:best]),
         candidates,
         int(np.isfinite(estimate.year).sum()),
-        len(found),
+        len(sized),
         reasons,
         max(abs(one.estimate / one.year - 1.0) for one in [*made.values(), *final]),
     )
@@ -232,17 +232,17 @@ def _shortlist(
 ) -> list[int]:
     """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
     taken: Counter[object] = Counter()
-    found: list[int] = []
+    chosen: list[int] = []
     for i in np.argsort(estimate.year, kind="stable").tolist():
-        if not math.isfinite(estimate.year[i]) or len(found) == most:
+        if not math.isfinite(estimate.year[i]) or len(chosen) == most:
             break
         choice = choices[i]
         key: object = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
         limit = ALIKE if not covers else max(1, most // len(task.duty.covers))
         if taken[key] < limit:
             taken[key] += 1
-            found.append(i)
-    return found
+            chosen.append(i)
+    return chosen
 
 
 def _first(
@@ -258,11 +258,11 @@ def _first(
 
 def _levels(
     choices: Candidates, estimate: Screened, chosen: Sequence[int],
-    found: Iterable[CalculatedConveyor | None], levels: Levels,
+    results: Iterable[CalculatedConveyor | None], levels: Levels,
 ) -> Levels:  # fmt: skip
     """Levels at which the estimate meets calculations in the middle."""
     over: dict[object, list[float]] = {}
-    for i, one in zip(chosen, found, strict=True):
+    for i, one in zip(chosen, results, strict=True):
         if one is None:
             continue
         main = {force.key: force for force in one.balance.along}
@@ -328,7 +328,7 @@ def settled(
         The same candidates as designs for the full belt: what is calculated of them is not calculated again.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
-    found: dict[int, SizedDesign | str] = {}
+    designs: dict[int, SizedDesign | str] = {}
     sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
     for _ in range(_SIZINGS):
         specs: dict[int, Conveyor] = {}
@@ -336,7 +336,7 @@ def settled(
             try:
                 specs[i] = task.spec(begin[i][0], chosen, task.duty.name)
             except InputError as error:
-                found[i] = str(error)
+                designs[i] = str(error)
         coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
         held = {i: made[i].coldest for i in coldest if made and now[i] == made[i].chosen}
         new = _calculated({i: spec for i, spec in coldest.items() if i not in held}, anchors)
@@ -348,7 +348,7 @@ def settled(
                 loads = tuple(_loads(answer)) if every_load else (answer,)
                 wanted = _chosen(task, begin[i][0], now[i], loads)
             except (NoSolutionError, RangeError, InputError) as error:
-                found[i] = str(error)
+                designs[i] = str(error)
                 continue
             if replace(wanted, settling=now[i].settling) == now[i]:
                 sized[i] = now[i], specs[i], loads
@@ -362,12 +362,12 @@ def settled(
     warm = {**held, **_calculated(left, anchors)}
     for i, (chosen, _, loads) in sized.items():
         answer = warm.get(i, loads[0])
-        found[i] = (
+        designs[i] = (
             _design(task, begin[i], chosen, answer, loads)
             if isinstance(answer, CalculatedConveyor)
             else str(answer)
         )
-    return [found.get(i, "belt class and motors do not settle") for i in range(len(begin))]
+    return [designs.get(i, "belt class and motors do not settle") for i in range(len(begin))]
 
 
 def _calculated(specs: Mapping[int, Conveyor], anchors: Anchors) -> dict[int, CalculatedConveyor | NoAnswer]:
@@ -463,17 +463,17 @@ def _design(
     task: SizingTask,
     begin: tuple[Choice, Chosen, float],
     chosen: Chosen,
-    found: CalculatedConveyor,
+    result: CalculatedConveyor,
     loads: Sequence[CalculatedConveyor],
 ) -> SizedDesign | str:
     """The design, or what fails in it."""
-    failed = next(_failed(task, (found, *loads)), None)
+    failed = next(_failed(task, (result, *loads)), None)
     if failed is not None:
         return failed
     choice, _, estimate = begin
-    life = _roll_life(found)
+    life = _roll_life(result)
     return SizedDesign(
-        choice, chosen, found, loads[0], _costs(task, choice, chosen, found, life), estimate, life
+        choice, chosen, result, loads[0], _costs(task, choice, chosen, result, life), estimate, life
     )
 
 
@@ -497,14 +497,14 @@ def _roll_life(one: CalculatedConveyor) -> float:
 
 
 def _costs(
-    task: SizingTask, choice: Choice, chosen: Chosen, found: CalculatedConveyor, life: float
+    task: SizingTask, choice: Choice, chosen: Chosen, result: CalculatedConveyor, life: float
 ) -> Costs:  # fmt: skip
     """Of a calculated design."""
     width, (count, length, _) = choice.trough.width, choice.trough.width.return_rolls
     spacings = choice.graduated or (choice.carry,) * len(task.sections)
     carry = math.fsum(along / apart for (along, _), apart in zip(task.sections, spacings, strict=True))
     back, first = task.length / choice.back, choice.cover == 0
-    year = found.year
+    year = result.year
     parts = Parts(
         width=width.belt,
         length=task.length,
@@ -518,8 +518,8 @@ def _costs(
         roll_life=life,
         drives=float(len(chosen.motors)),
         power=math.fsum(chosen.motors),
-        pulley_mass=math.fsum(pulley.mass for pulley in found.line.pulleys),
-        take_up=found.balance.settled.setting,
+        pulley_mass=math.fsum(pulley.mass for pulley in result.line.pulleys),
+        take_up=result.balance.settled.setting,
     )
     cost = 0.0 if year is None or year.cost is None else year.cost
     return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
@@ -556,7 +556,7 @@ def graduated_spacing(task: SizingTask, design: SizedDesign) -> tuple[float, ...
     )
     yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
     worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
-    found = []
+    spacings = []
     for i, (length, _) in enumerate(task.sections):
         stretch = line.stretches[i]
         now, forces = stretch.spacing, design.found.stretches[i].forces
@@ -573,8 +573,8 @@ def graduated_spacing(task: SizingTask, design: SizedDesign) -> tuple[float, ...
             friction = forces["indentation"] * math.cbrt(wider) + forces["idler_rotation"] / wider
             return worth * friction / length + yearly / a
 
-        found.append(min(bears, key=per_metre))
-    return tuple(found)
+        spacings.append(min(bears, key=per_metre))
+    return tuple(spacings)
 
 
 def _lowest(one: CalculatedConveyor, section: int) -> float:

@@ -234,8 +234,8 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         rows = np.flatnonzero(around.carcass != carcass)  # of the others nothing changes any more
         carcass = around.carcass.copy()
         again = _around(every.only(rows), levels, series, carcass[rows], rest[rows])
-        for figure, found in zip(around, again, strict=True):
-            figure[rows] = found
+        for figure, value in zip(around, again, strict=True):
+            figure[rows] = value
     (top, bottom), carcass, force = around.covers.T, around.carcass, around.force
     power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
     life = _roll_life(every, around.middle)

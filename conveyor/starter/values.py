@@ -46,8 +46,8 @@ def values(kind: Kind, units: System = "SI", *, optional: bool = False) -> dict[
     >>> values("in-plant", "US")["belt"]["width"]
     '42 in'
     """
-    found: dict[str, Any] = _plain(read(f"{kind}.yaml"), units, optional=optional)
-    return found
+    given: dict[str, Any] = _plain(read(f"{kind}.yaml"), units, optional=optional)
+    return given
 
 
 def _plain(value: Any, units: System, *, optional: bool) -> Any:

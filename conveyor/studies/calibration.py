@@ -201,28 +201,28 @@ def calibrate(
     _check_direction(runs, before, "as calculated")
     free, notes = _free(scene, factors)
     for _ in range(_MOST):
-        chosen, found = _chosen(scene, free, wanted=factors is not None)
-        if not scene.curved or scene.solved_with(found.calibration):
+        chosen, solved = _chosen(scene, free, wanted=factors is not None)
+        if not scene.curved or scene.solved_with(solved.calibration):
             break
-        scene = _Scene.of(plain, runs, found.calibration, error, solve)
+        scene = _Scene.of(plain, runs, solved.calibration, error, solve)
     else:
         raise NoSolutionError("the factors and the loads on vertical curves do not settle: fit fewer factors")
-    _check_direction(runs, found.power, "with the factors")
+    _check_direction(runs, solved.power, "with the factors")
     source = f"{len(runs)} measured run{'s'[: len(runs) > 1]}, conveyor calibrate {version('conveyor')}"
-    made = found.calibration.replace(source=source)
+    made = solved.calibration.replace(source=source)
     calibrated = conveyor.replace(calculation=conveyor.calculation.replace(calibration=made))
-    relations = [*notes, *_not_told(runs, chosen), *found.notes]
-    figures = (each.tolist() for each in (scene.measured, before, found.power, found.sigma))
+    relations = [*notes, *_not_told(runs, chosen), *solved.notes]
+    figures = (each.tolist() for each in (scene.measured, before, solved.power, solved.sigma))
     columns = zip(runs, *figures, strict=True)
     return CalculatedCalibration(
         conveyor=calibrated,
-        factors=found.factors,
+        factors=solved.factors,
         held=tuple(name for name in CALIBRATED if not any(name in group for group in chosen)),
-        correlation=found.correlation,
+        correlation=solved.correlation,
         runs=tuple(CalibratedRun(*column) for column in columns),
-        chi_square=found.chi_square,
-        freedom=found.freedom,
-        error=found.error,
+        chi_square=solved.chi_square,
+        freedom=solved.freedom,
+        error=solved.error,
         estimated=scene.estimated,
         notes=tuple(relations),
     )
@@ -295,19 +295,19 @@ class _Scene:
         made = conveyor.replace(calculation=conveyor.calculation.replace(calibration=under))
         states = dict(zip((run.state for run in runs), with_runs(made, runs), strict=True))
         answers = dict(zip(states, solve(list(map(Variant, states.values()))), strict=True))
-        found = []
+        rows = []
         for number, run in enumerate(runs, start=1):
             answer = answers[run.state]
             if not isinstance(answer, CalculatedConveyor):
                 raise type(answer)(f"run {number}: {answer}")
-            found.append(answer)
+            rows.append(answer)
         measured = np.array([run.watts for run in runs])
         own = [run.deviation_watts for run in runs]
         stated = None
         if any(value is not None for value in own):
             shares = (error or 0.0) * abs(measured)
             stated = np.array([value or share for value, share in zip(own, shares.tolist(), strict=True)])
-        return cls(tuple(found), tuple(run.at for run in runs), measured, stated, error, under)
+        return cls(tuple(rows), tuple(run.at for run in runs), measured, stated, error, under)
 
     @property
     def curved(self) -> bool:
@@ -525,7 +525,7 @@ def _of_joined(
     With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
     A_k J_i δ_i.
     """
-    found = np.zeros((len(grouping), len(grouping)))
+    joined = np.zeros((len(grouping), len(grouping)))
     for k, (group, value) in enumerate(zip(grouping, values, strict=True)):
         if len(group) > 1:
             apart = tuple((name,) for name in group)
@@ -534,8 +534,8 @@ def _of_joined(
             slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
             moved = solved @ slopes
             moved[k] = 0.0
-            found += UNLIKE**2 * moved @ moved.T
-    return found
+            joined += UNLIKE**2 * moved @ moved.T
+    return joined
 
 
 def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:

@@ -133,10 +133,10 @@ class Campaign:
 
     def key(self, point: Changes) -> bytes:
         """Hash of all that the answer of a point follows from."""
-        found = self._common.copy()
+        digest = self._common.copy()
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
-        found.update(json.dumps([point, rubber], sort_keys=True).encode())
-        return found.digest()[:16]
+        digest.update(json.dumps([point, rubber], sort_keys=True).encode())
+        return digest.digest()[:16]
 
 
 def _hash(data: object) -> hashlib._Hash:
@@ -178,10 +178,10 @@ class Answers:
 
     def __getitem__(self, key: bytes) -> Answer:
         (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
-        found: Answer = json.loads(text)
-        return found
+        answer: Answer = json.loads(text)
+        return answer
 
-    def add(self, found: Iterable[tuple[bytes, Answer]]) -> None:
+    def add(self, answers: Iterable[tuple[bytes, Answer]]) -> None:
         """Keep answers, all of them on the disk when this returns.
 
         Raises
@@ -189,7 +189,7 @@ class Answers:
         ConveyorError
             They cannot be written: the disk is full, or another run of the study writes.
         """
-        lines = [(key, json.dumps(answer)) for key, answer in found]
+        lines = [(key, json.dumps(answer)) for key, answer in answers]
         try:
             with self._file:
                 self._file.execute("BEGIN IMMEDIATE")
@@ -261,10 +261,10 @@ def run(
             if not asked:
                 return
             for future in wait(asked, return_when=FIRST_COMPLETED).done:
-                batch, found = asked.pop(future), future.result()
-                known.add(zip(batch.new, found, strict=True))
+                batch, fresh = asked.pop(future), future.result()
+                known.add(zip(batch.new, fresh, strict=True))
                 done += len(batch.new)
-                without += sum(isinstance(answer, str) for answer in found)
+                without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
                     answered(batch.before, batch.every)
     except (BrokenExecutor, CancelledError):
@@ -327,6 +327,6 @@ def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
 
 def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
     """A design whose points have answers, over its states."""
-    found = [known[campaign.key(point)] for point in campaign.plan.points_of(design)]
-    made = reduced(campaign.plan, campaign.figures, campaign.outputs, found)
+    answers = [known[campaign.key(point)] for point in campaign.plan.points_of(design)]
+    made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers)
     return Design(number, design, *made)

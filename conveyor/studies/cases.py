@@ -178,7 +178,7 @@ class CalculatedCases:
         NoSolutionError
             Nothing has an answer.
         """
-        return take_up_of([found for _, found in self._loads])
+        return take_up_of([load for _, load in self._loads])
 
     @property
     def take_up_governed_by(self) -> Said:
@@ -286,11 +286,11 @@ def analyse_cases(
     variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
     as_given, *answers = calculate_many(variants, rtol, progress, one_take_up=True)
     results = []
-    for (case, setting, _), found in zip(made, answers, strict=True):
-        if isinstance(found, CalculatedConveyor):
-            results.append(CaseResult(case, replace(found, friction_band=band)))
+    for (case, setting, _), result in zip(made, answers, strict=True):
+        if isinstance(result, CalculatedConveyor):
+            results.append(CaseResult(case, replace(result, friction_band=band)))
         else:
-            refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(found)))
+            refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(result)))
     own = as_given if isinstance(as_given, CalculatedConveyor) else None
     return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
 
@@ -332,11 +332,11 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     """The case that decides each figure, the first of equals; nothing for no results."""
     if not results:
         return ()
-    found = []
+    rows = []
     for key, (figure, kind, largest, value) in _FIGURES.items():
         chosen = max(results, key=value) if largest else min(results, key=value)
-        found.append(Governing(key, figure, value(chosen), kind, chosen))
-    return tuple(found)
+        rows.append(Governing(key, figure, value(chosen), kind, chosen))
+    return tuple(rows)
 
 
 def _unanswered(study: CalculatedCases) -> Iterator[Check]:
@@ -372,8 +372,8 @@ def recommended_motors(
             f"reserve = {reserve}: at least 1 is needed" if loads else "no case has an answer to design by"
         )
     asked = [
-        (max(map(found.balance.frame.motor, reversed(found.drive_forces)), key=abs), label, found)
-        for label, found in loads
+        (max(map(result.balance.frame.motor, reversed(result.drive_forces)), key=abs), label, result)
+        for label, result in loads
     ]
     power, label, decisive = max(asked, key=lambda load: abs(load[0]))
     case = label.text(decisive.conveyor.report.units)

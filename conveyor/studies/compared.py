@@ -150,21 +150,21 @@ def of_compound(
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
     answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
-    found: list[CalculatedConveyor] = []
+    solved: list[CalculatedConveyor] = []
     refused = []
     for setting in settings:
         answer = next(answers) if isinstance(setting.conveyor, Conveyor) else setting.conveyor
         if isinstance(answer, CalculatedConveyor):
-            found.append(answer)
+            solved.append(answer)
         else:
             refused.append(Refusal(compound.name, setting.temperature, setting.speed, str(answer)))
     by_temperature: dict[float, list[CalculatedConveyor]] = {}
-    for one in found:
+    for one in solved:
         by_temperature.setdefault(one.temperature, []).append(one)
     bands = {at: _band(compound, at, ones, strands) for at, ones in by_temperature.items()}
     coverage = (_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
     return CompoundStudy(
-        tuple(_scene(compound.name, one, strands, bands[one.temperature]) for one in found),
+        tuple(_scene(compound.name, one, strands, bands[one.temperature]) for one in solved),
         tuple(refused),
         tuple(one for one in coverage if one is not None),
     )
@@ -208,9 +208,9 @@ def _scene(
     )
 
 
-def _heaviest(found: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
+def _heaviest(result: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
     """The roll that loses most, of the strands whose cover is compared."""
-    pairs = zip(found.line.stretches, found.contacts.rolls, strict=True)
+    pairs = zip(result.line.stretches, result.contacts.rolls, strict=True)
     rolls = [roll for stretch, several in pairs if stretch.strand in strands for roll in several]
     return max(rolls, key=lambda roll: roll.resistance) if rolls else None
 
@@ -218,7 +218,7 @@ def _heaviest(found: CalculatedConveyor, strands: frozenset[Strand]) -> RollResu
 def _band(
     compound: RubberCompound,
     temperature: float,
-    found: Sequence[CalculatedConveyor],
+    results: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
 ) -> tuple[float, float] | None:
     """Factors on the indentation between which nine tenths lie: of its tests, else of the replicas of its fit.
@@ -227,7 +227,7 @@ def _band(
     Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber. Fit and replicas
     are both taken at the strain of the master curve: softening changes all alike.
     """
-    middle = found[len(found) // 2]
+    middle = results[len(results) // 2]
     roll = _heaviest(middle, strands)
     half = max((middle.contacts.level_band(strand) for strand in strands), default=0.0)
     if half > 0.0:
@@ -261,11 +261,14 @@ def ends(values: ArrayLike) -> tuple[float, float]:
 def _coverage(
     compound: RubberCompound,
     temperature: float,
-    found: Sequence[CalculatedConveyor],
+    results: Sequence[CalculatedConveyor],
     strands: Iterable[Strand],
 ) -> Coverage | None:
     """What the rolls excite from the slowest speed to the fastest; None without loss."""
-    slowest, fastest = min(found, key=lambda one: one.line.speed), max(found, key=lambda one: one.line.speed)
+    slowest, fastest = (
+        min(results, key=lambda one: one.line.speed),
+        max(results, key=lambda one: one.line.speed),
+    )
     lows = [band[0] for strand in strands if (band := slowest.contacts.excited_band(strand)) is not None]
     highs = [band[1] for strand in strands if (band := fastest.contacts.excited_band(strand)) is not None]
     if not lows or not highs:

@@ -180,7 +180,7 @@ def _years(
     conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: CoverChoice, rtol: float
 ) -> dict[str, CalculatedYear]:
     """The year of a duty with each compound; none of one that a bar of it has no answer for, or no data."""
-    found: dict[str, CalculatedYear] = {}
+    years: dict[str, CalculatedYear] = {}
     if conveyor.duty:
         for compound in compounds:
             changed = with_compound(conveyor, compound, cover)
@@ -192,8 +192,8 @@ def _years(
             bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
             asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
             if all(one.covered for one in asked):
-                found[compound.name] = year
-    return found
+                years[compound.name] = year
+    return years
 
 
 def _compounds(
@@ -230,10 +230,10 @@ def _check_speed(given: Quantity) -> None:
 
 
 def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
-    found = [quantity(item, kind) for item in given]
+    quantities = [quantity(item, kind) for item in given]
     if kind == "speed":
-        for item in found:
+        for item in quantities:
             _check_speed(item)
-    if not found:
+    if not quantities:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
-    return distinct(found)
+    return distinct(quantities)

@@ -62,9 +62,9 @@ class Assumed:
     share: Share
     band: Callable[[CalculatedConveyor], tuple[float, float]] | None = None
 
-    def ends(self, found: CalculatedConveyor) -> tuple[float, float]:
+    def ends(self, result: CalculatedConveyor) -> tuple[float, float]:
         """Both ends of the band on a conveyor [-]."""
-        return (self.low, self.high) if self.band is None else self.band(found)
+        return (self.low, self.high) if self.band is None else self.band(result)
 
 
 def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed:
@@ -74,7 +74,7 @@ def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed
 
 def along(key: str, share: Callable[[CalculatedConveyor], Shares]) -> Share:
     """Share of a force along the belt that rests on a default, of every stretch where they differ."""
-    return lambda found, force: share(found) if force.key == key else 0.0
+    return lambda result, force: share(result) if force.key == key else 0.0
 
 
 def usual(*keys: str) -> Share:
@@ -82,39 +82,39 @@ def usual(*keys: str) -> Share:
     return lambda _found, force: float(force.assumed and force.key in keys)
 
 
-def _drag(found: CalculatedConveyor) -> Shares:
-    pairs = zip(found.line.stretches, found.line.roll_drags, strict=True)
-    return np.array([assumed_share(found.conveyor, stretch.idlers, drags) for stretch, drags in pairs])
+def _drag(result: CalculatedConveyor) -> Shares:
+    pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
+    return np.array([assumed_share(result.conveyor, stretch.idlers, drags) for stretch, drags in pairs])
 
 
-def _flexure(found: CalculatedConveyor) -> Shares:
-    calculation = found.conveyor.calculation
+def _flexure(result: CalculatedConveyor) -> Shares:
+    calculation = result.conveyor.calculation
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
-def _unanchored(found: CalculatedConveyor, force: Force) -> Shares:
+def _unanchored(result: CalculatedConveyor, force: Force) -> Shares:
     """Indentation of the strands whose rubber no test has set the level of."""
     if force.key != "indentation":
         return 0.0
-    covers = found.contacts.covers
-    return np.array([float(covers[stretch.strand].level is None) for stretch in found.line.stretches])
+    covers = result.contacts.covers
+    return np.array([float(covers[stretch.strand].level is None) for stretch in result.line.stretches])
 
 
-def _tested(found: CalculatedConveyor, force: Force) -> Shares:
+def _tested(result: CalculatedConveyor, force: Force) -> Shares:
     """Indentation of the strands whose rubber has tests."""
-    return 0.0 if force.key != "indentation" else 1.0 - np.asarray(_unanchored(found, force))
+    return 0.0 if force.key != "indentation" else 1.0 - np.asarray(_unanchored(result, force))
 
 
-def _tests_band(found: CalculatedConveyor) -> tuple[float, float]:
+def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
     """The wider band of the levels of both strands."""
-    half = max(found.contacts.level_band(strand) for strand in STRANDS)
+    half = max(result.contacts.level_band(strand) for strand in STRANDS)
     return math.exp(-half), math.exp(half)
 
 
-def _pressed(found: CalculatedConveyor, force: Force) -> float:
+def _pressed(result: CalculatedConveyor, force: Force) -> float:
     """Whether a cleaner is given without its pressure."""
-    names = [each.name for each in found.balance.singles if each.key == "cleaner"]
-    cleaner = dict(zip(names, found.conveyor.route.cleaners, strict=False)).get(force.name)
+    names = [each.name for each in result.balance.singles if each.key == "cleaner"]
+    cleaner = dict(zip(names, result.conveyor.route.cleaners, strict=False)).get(force.name)
     return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
 
 
@@ -180,7 +180,7 @@ class PowerRange:
     notes: tuple[str, ...] = ()
 
 
-def power_range(found: CalculatedConveyor) -> PowerRange:
+def power_range(result: CalculatedConveyor) -> PowerRange:
     """Range of the motor power from the defaults in use.
 
     Parameters
@@ -198,14 +198,14 @@ def power_range(found: CalculatedConveyor) -> PowerRange:
     On vertical curves the rolls keep their loads. A default at an end of whose band the loop has no answer is left out
     and noted.
     """
-    motor = found.balance.power.motor
+    motor = result.balance.power.motor
     effects, notes = [], []
     for assumed in DEFAULTS:
-        if not any(_rests(assumed, found, force) for force in found.balance.every):
+        if not any(_rests(assumed, result, force) for force in result.balance.every):
             continue
         try:
-            ends = assumed.ends(found)
-            low, high = (_motor(found, assumed, factor) for factor in ends)
+            ends = assumed.ends(result)
+            low, high = (_motor(result, assumed, factor) for factor in ends)
         except NoSolutionError as error:
             notes.append(f"{assumed.what} at an end of its band: {error}")
             continue
@@ -219,17 +219,17 @@ def power_range(found: CalculatedConveyor) -> PowerRange:
     return PowerRange(motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes))
 
 
-def _rests(assumed: Assumed, found: CalculatedConveyor, force: Force) -> bool:
+def _rests(assumed: Assumed, result: CalculatedConveyor, force: Force) -> bool:
     """Whether a force rests on a default."""
-    return bool(np.any(np.asarray(assumed.share(found, force)) * np.asarray(force.newtons)))
+    return bool(np.any(np.asarray(assumed.share(result, force)) * np.asarray(force.newtons)))
 
 
-def _motor(found: CalculatedConveyor, assumed: Assumed, factor: float) -> float:
+def _motor(result: CalculatedConveyor, assumed: Assumed, factor: float) -> float:
     """Motor power with the forces of a default scaled, the loop closed again [W]."""
 
     def scaled(force: Force) -> Force:
-        return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(found, force)))
+        return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(result, force)))
 
-    along = tuple(map(scaled, found.balance.along))
-    frame = found.balance.frame.scaled(scaled)
-    return balance(frame, along, found.balance.unit_main).power.motor
+    along = tuple(map(scaled, result.balance.along))
+    frame = result.balance.frame.scaled(scaled)
+    return balance(frame, along, result.balance.unit_main).power.motor

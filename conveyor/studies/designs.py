@@ -78,13 +78,13 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
     weights = np.ones(max(len(plan.rows), 1)) if hours is None else np.array(hours)
     if float(weights.sum()) * 3600.0 > YEAR and hours is not None:
         raise InputError(f"states: {weights.sum():g} h together; a year has at most {YEAR / 3600.0:g} h")
-    found = {
+    figures = {
         name: _figure(name, plan, base.operation, weights)
         for name in dict.fromkeys((*named, *plan.best, *plan.limits))
     }
     for name, limit in plan.limits.items():
-        limit.ends(name, found[name].kind)
-    return found
+        limit.ends(name, figures[name].kind)
+    return figures
 
 
 def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: Array) -> DesignFigure:
@@ -189,14 +189,14 @@ def reduced(
             return {}, f"state {i}: {answer}" if len(answers) > 1 else answer, ()
         known.append(answer)
     columns = dict(zip(outputs, zip(*known, strict=True), strict=True))
-    found: dict[str, float | None] = {}
+    values: dict[str, float | None] = {}
     for name, figure in figures.items():
         needed = [columns[key] for key in figure.needs]
         missing = any(value is None for column in needed for value in column)
-        found[name] = None if missing else figure.get([np.array(column, dtype=float) for column in needed])
+        values[name] = None if missing else figure.get([np.array(column, dtype=float) for column in needed])
     limits = plan.limits.items()
-    broken = (name for name, one in limits if violation(one, name, figures[name].kind, found[name]) > 0.0)
-    return found, None, tuple(broken)
+    broken = (name for name, one in limits if violation(one, name, figures[name].kind, values[name]) > 0.0)
+    return values, None, tuple(broken)
 
 
 def violation(limit: Limit, name: str, kind: str, value: float | None) -> float:

@@ -142,10 +142,10 @@ def analyse_duty(
     variants = [_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
     rows = []
     answers = calculate_many([Variant(variant) for variant in variants], rtol, progress)
-    for i, (entry, found) in enumerate(zip(entries, answers, strict=True)):
-        if not isinstance(found, CalculatedConveyor):
-            raise NoSolutionError(f"operation.duty[{i}] ({entry}): {found}")
-        rows.append(_row(entry, found))
+    for i, (entry, result) in enumerate(zip(entries, answers, strict=True)):
+        if not isinstance(result, CalculatedConveyor):
+            raise NoSolutionError(f"operation.duty[{i}] ({entry}): {result}")
+        rows.append(_row(entry, result))
     year = duty_sums([row.step for row in rows])
     price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
     return CalculatedYear(
@@ -178,16 +178,16 @@ def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
         raise InputError(f"operation.duty[{place}] ({entry}): {error}") from None
 
 
-def _row(entry: DutyEntry, found: CalculatedConveyor) -> DutyRow:
-    power = found.balance.power
+def _row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
+    power = result.balance.power
     return DutyRow(
         hours=entry.seconds / 3600.0,
         share=entry.load,
-        temperature=found.temperature,
-        speed=found.line.speed,
-        flow=found.line.flow,
-        effective=found.balance.forces.total,
+        temperature=result.temperature,
+        speed=result.line.speed,
+        flow=result.line.flow,
+        effective=result.balance.forces.total,
         shaft=power.motor,
         mains=power.mains,
-        excited={strand: found.contacts.excited_band(strand) for strand in STRANDS},
+        excited={strand: result.contacts.excited_band(strand) for strand in STRANDS},
     )

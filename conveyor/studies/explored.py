@@ -137,7 +137,7 @@ class Explored:
 
     def effects(self, field: int) -> tuple[MainEffect, ...]:
         """What a field does to what is sought first: over all other fields, value by value or in parts of its range."""
-        at, found = self.values[:, field], self.found[:, 0]
+        at, values_of = self.values[:, field], self.found[:, 0]
         different = np.unique(at)
         varied = self.fields[field]
         if len(different) <= BINS or varied.words:
@@ -151,9 +151,9 @@ class Explored:
                 value,
                 varied.said(value),
                 len(rows),
-                float(found[rows].mean()),
-                float(found[rows].min()),
-                float(found[rows].max()),
+                float(values_of[rows].mean()),
+                float(values_of[rows].min()),
+                float(values_of[rows].max()),
             )
             for value, rows in groups
             if len(rows)
@@ -199,7 +199,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     fields = varied(plan)
     sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
-    values, found, keeps, numbers = [], [], [], []
+    values, reached, keeps, numbers = [], [], [], []
     refused: Counter[str] = Counter()
     best: list[tuple[tuple[bool, float, int], Design]] = []
     count = 0
@@ -211,12 +211,12 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
             continue
         told = [value for value in known if value is not None]
         values.append([field.number(design.changes[field.path]) for field in fields])
-        found.append(told)
+        reached.append(told)
         keeps.append(design.keeps)
         numbers.append(design.number)
         rank = (design.keeps, -float(told[0] * sign[0]), -design.number)
         heapq.heappush(best, (rank, design)) if len(best) < BEST else heapq.heappushpop(best, (rank, design))
-    costs = np.array(found).reshape(-1, len(sought))
+    costs = np.array(reached).reshape(-1, len(sought))
     kept = np.array(keeps, dtype=bool)
     beaten_by_none = np.zeros(len(kept), dtype=bool)
     beaten_by_none[kept] = front(costs[kept] * sign)
@@ -246,8 +246,8 @@ def varied(plan: StudyPlan, paths: Sequence[str] = ()) -> tuple[VariedField, ...
 def _label(path: str, every: Sequence[str]) -> str:
     parts = path.split(".")
     ends = (".".join(parts[-k:]) for k in range(1, len(parts) + 1))
-    found = next(end for end in ends if sum(f".{other}".endswith(f".{end}") for other in every) == 1)
-    return found.replace("_", " ").replace(".", " ")
+    label = next(end for end in ends if sum(f".{other}".endswith(f".{end}") for other in every) == 1)
+    return label.replace("_", " ").replace(".", " ")
 
 
 def _given(plan: StudyPlan, path: str) -> Sequence[Value]:

@@ -154,11 +154,11 @@ def drawn(
                 variants.append(_variant(conveyor, inputs, row.tolist(), end))
             except ConveyorError as error:
                 refused[str(error)] += 1
-        for found in calculate_many(variants, rtol, known=known, anchors=anchors):
-            if isinstance(found, CalculatedConveyor):
-                power.append(found.balance.power.motor)
+        for result in calculate_many(variants, rtol, known=known, anchors=anchors):
+            if isinstance(result, CalculatedConveyor):
+                power.append(result.balance.power.motor)
             else:
-                refused[str(found)] += 1
+                refused[str(result)] += 1
         if progress is not None:
             progress(min(at + _BATCH, ranges.draws), ranges.draws)
     if len(power) < FEWEST:

@@ -103,7 +103,7 @@ def optimise(
             progress(next(gone), plan.generations, best)
 
     ends = [(0.0, 1.0)] * len(plan.ranges) + [(0.0, len(listed) - 1.0) for listed in plan.choices]
-    found = differential_evolution(
+    evolved = differential_evolution(
         search.costs,  # type: ignore[arg-type]  # side by side, as vectorized says
         Bounds(*np.transpose(ends)),
         popsize=plan.population,
@@ -121,7 +121,7 @@ def optimise(
     if not best.keeps:
         why = best.why or f"the least beyond them breaks {', '.join(best.broken)}"
         raise NoSolutionError(f"none of {len(search.designs)} designs keeps the limits: {why}")
-    return SearchResult(best, len(search.designs), int(found.nit), bool(found.success), tuple(history))
+    return SearchResult(best, len(search.designs), int(evolved.nit), bool(evolved.success), tuple(history))
 
 
 class _Search:

@@ -140,14 +140,14 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    found = iter(calculate_many(variants, rtol, anchors=anchors))
-    return [one if isinstance(one, str) else _answer(next(found), outputs) for one in made]
+    results = iter(calculate_many(variants, rtol, anchors=anchors))
+    return [one if isinstance(one, str) else _answer(next(results), outputs) for one in made]
 
 
-def _answer(found: CalculatedConveyor | ConveyorError, outputs: Sequence[str]) -> Answer:
-    if not isinstance(found, CalculatedConveyor):
-        return str(found)
+def _answer(result: CalculatedConveyor | ConveyorError, outputs: Sequence[str]) -> Answer:
+    if not isinstance(result, CalculatedConveyor):
+        return str(result)
     try:
-        return [OUTPUTS[key].get(found) for key in outputs]
+        return [OUTPUTS[key].get(result) for key in outputs]
     except ConveyorError as error:
         return str(error)

@@ -152,7 +152,7 @@ class CalculatedStates:
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state that is not the spec's own load."""
         return tuple(
-            replace(check, case=case) for case, found in self.loads for check in checks(found, contacts=False)
+            replace(check, case=case) for case, load in self.loads for check in checks(load, contacts=False)
         )
 
 
@@ -213,20 +213,20 @@ def load_states(
         for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
             figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
             known = dict(zip(("full", "empty"), ends[at], strict=True)).get(name)
-            found = adding[at].loaded(loading) if known is None else known
+            one = adding[at].loaded(loading) if known is None else known
             keys = (_KEYS[name], *map(worst_key, figures))
-            states.append(LoadState(name, _names(own, loading), at, figures, keys, found))
+            states.append(LoadState(name, _names(own, loading), at, figures, keys, one))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _names(own, loading)
-        found = adding[temperature].loaded(loading)
+        one = adding[temperature].loaded(loading)
         if DRIVE_FORCE in figures:
             again = _in_full(conveyor, loaded, temperature, own)
             if isinstance(again, CalculatedConveyor):
-                found = again.balance
+                one = again.balance
             else:
                 refused.append(StateRefusal(f"worst for {DRIVE_FORCE}", temperature, str(again)))
         keys = tuple(map(worst_key, figures))
-        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, found))
+        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, one))
     return CalculatedStates(own, tuple(states), tuple(refused))
 
 
@@ -255,19 +255,19 @@ def at_one_take_up(
     held = _held(own, setting)
     moved = tuple(replace(state, balance=state.balance.held(setting)) for state in states.states)
     if cases is not None:
-        found = tuple(replace(result, found=_held(result.found, setting)) for result in results)
-        cases = replace(cases, results=found, as_given=held)
+        at_setting = tuple(replace(result, found=_held(result.found, setting)) for result in results)
+        cases = replace(cases, results=at_setting, as_given=held)
     return replace(states, own=held, states=moved), cases
 
 
-def _held(found: CalculatedConveyor, setting: float) -> CalculatedConveyor:
+def _held(result: CalculatedConveyor, setting: float) -> CalculatedConveyor:
     """A load with the take-up at a setting [N]; where tension acts on the rolls, they are loaded anew."""
-    if not found.line.tension_acts:
-        return replace(found, balance=found.balance.held(setting))
-    (again,) = calculate_many([Variant(found.conveyor, found.temperature, take_up=setting)], known=found)
+    if not result.line.tension_acts:
+        return replace(result, balance=result.balance.held(setting))
+    (again,) = calculate_many([Variant(result.conveyor, result.temperature, take_up=setting)], known=result)
     if not isinstance(again, CalculatedConveyor):
         raise again
-    return replace(again, friction_band=found.friction_band)
+    return replace(again, friction_band=result.friction_band)
 
 
 _Ends = tuple[Balance, Balance]
@@ -297,21 +297,21 @@ def _full_and_empty(
             asked[temperature, name] = _loaded(conveyor, case, temperature, own)
         except ConveyorError as error:
             refused.append(StateRefusal(name, temperature, str(error)))
-    found: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
-    found |= {key: own for key, one in asked.items() if one is conveyor}
+    solved: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
+    solved |= {key: own for key, one in asked.items() if one is conveyor}
     setting = own.balance.settled.setting
-    missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in found}
+    missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in solved}
     if missing:
         answers = calculate_many(list(missing.values()), progress=progress, known=own)
         for key, one in zip(missing, answers, strict=True):
             if isinstance(one, CalculatedConveyor):
-                found[key] = one
+                solved[key] = one
             else:
                 refused.append(StateRefusal(key[1], key[0], str(one)))
     ends = {
-        temperature: (found[temperature, "full"].balance, found[temperature, "empty"].balance)
+        temperature: (solved[temperature, "full"].balance, solved[temperature, "empty"].balance)
         for temperature, name in wanted
-        if name == "full" and (temperature, "full") in found and (temperature, "empty") in found
+        if name == "full" and (temperature, "full") in solved and (temperature, "empty") in solved
     }
     return ends, refused
 
@@ -334,11 +334,11 @@ def _worst(
             value = states.figures(loading)[figure]
             if figure not in best or value > best[figure][0]:
                 best[figure] = (value, temperature, loading)
-    found: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
+    loadings: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
     for figure, (_, temperature, loading) in best.items():
         key = (temperature, loading.tobytes())
-        found[key] = (loading, (*found.get(key, (loading, ()))[1], figure))
-    return found
+        loadings[key] = (loading, (*loadings.get(key, (loading, ()))[1], figure))
+    return loadings
 
 
 def _in_full(
@@ -350,8 +350,8 @@ def _in_full(
         made = _loaded(conveyor, case, temperature, own)
     except ConveyorError as error:
         return error
-    (found,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)], known=own)
-    return found
+    (result,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)], known=own)
+    return result
 
 
 def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:

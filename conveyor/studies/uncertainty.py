@@ -181,7 +181,7 @@ def study(
         raise InputError(f"{why}: nothing to vary")
     variants = [each for variation in variations for each in variation.variants]
     answers = calculate_many(variants, rtol, progress, known=middle)
-    powers = [_answer(found).balance.power.motor for found in answers]
+    powers = [_answer(result).balance.power.motor for result in answers]
     motor, at = middle.balance.power.motor, 0
     effects = []
     for variation in variations:
@@ -208,10 +208,10 @@ def study(
     )
 
 
-def _answer(found: CalculatedConveyor | NoAnswer) -> CalculatedConveyor:
-    if not isinstance(found, CalculatedConveyor):
-        raise found
-    return found
+def _answer(result: CalculatedConveyor | NoAnswer) -> CalculatedConveyor:
+    if not isinstance(result, CalculatedConveyor):
+        raise result
+    return result
 
 
 def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, float]:
@@ -393,9 +393,9 @@ def _scaled(
     return _Variation(name.replace("_", " "), *told, scenes, drawn=drawn)
 
 
-def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
+def _rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
     """Replicas of each compound, the level of its tests, and its strain sweeps where the belt is beyond them."""
-    conveyor, covers = found.conveyor, found.contacts.covers
+    conveyor, covers = result.conveyor, result.contacts.covers
     compounds = compounds_by_strand(conveyor)
     for name in dict.fromkeys(compound.name for compound in compounds.values()):
         strands = [strand for strand, c in compounds.items() if c.name == name]
@@ -413,13 +413,14 @@ def _rubber(found: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]
                 drawn=DrawnInput(f'rubber "{name}"', rubber=(compound, alternatives)),
             )
         if cover.level is not None:
-            yield _level(conveyor, name, {strand: found.contacts.level_band(strand) for strand in strands})
+            yield _level(conveyor, name, {strand: result.contacts.level_band(strand) for strand in strands})
         elif not alternatives:
             notes.append(f'compound "{name}" has no replicas and no tests: its rubber is taken as certain')
         factors = compound.amplitude_factors()
-        if factors is not None and cover.strain is not None and not factors.known_at(found.temperature):
+        if factors is not None and cover.strain is not None and not factors.known_at(result.temperature):
             linear = with_alternative(conveyor, compound, compound.replace(strain_dependence=None))
-            held = f"held from {figure(factors.nearest(found.temperature), 'temperature', found.conveyor.report.units)}"
+            nearest = figure(factors.nearest(result.temperature), "temperature", result.conveyor.report.units)
+            held = f"held from {nearest}"
             ends = (Variant(linear), Variant(conveyor))
             yield _Variation(f'strain of "{name}"', "that of the master curve", held, held, ends)
 

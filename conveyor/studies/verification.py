@@ -224,16 +224,16 @@ def verification(
 def _axis(name: str, given: Given) -> tuple[float, ...]:
     """Values of an axis, SI, each once and in order."""
     kind, allowed = _AXES[name]
-    found = []
+    values = []
     for item in given:
         try:
             value: Quantity = allowed.validate_python(item)
         except ValidationError as error:
             raise InputError(f"{name}: {error.errors()[0]['msg']}") from None
-        found.append(in_si(text(value), kind))
-    if not found:
+        values.append(in_si(text(value), kind))
+    if not values:
         raise InputError(f"{name}: give at least one")
-    return tuple(sorted(set(found)))
+    return tuple(sorted(set(values)))
 
 
 def _series(compound: RubberCompound, temperature: float) -> PronySeries | RangeError:
@@ -295,14 +295,14 @@ def _filled(
     level: Anchor | None,
 ) -> VerificationRow:
     """A row with what its curves say, one for all loads or one for each, at the level of the compound's tests."""
-    found: list[IndentationCurve] = []
+    drawn: list[IndentationCurve] = []
     for curve in curves:
         if isinstance(curve, NoSolutionError):
             return replace(row, reason=str(curve))
-        found.append(curve)
-    if not found:
+        drawn.append(curve)
+    if not drawn:
         return row
-    each = found * len(loads) if len(found) == 1 else found
+    each = drawn * len(loads) if len(drawn) == 1 else drawn
     factors = [1.0 if level is None else float(level.factor(w, row.temperature)) for w in loads]
     lost = (f * float(c.resistance(w)) for f, c, w in zip(factors, each, loads, strict=True))
     return replace(row, resistances=tuple(lost))

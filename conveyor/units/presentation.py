@@ -245,8 +245,8 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
     if kind.startswith(MONEY):
         currency = kind.removeprefix(MONEY)
         return Unit(currency, ",.4f" if "/" in currency else ",.0f")
-    found = _KINDS[system][kind]
-    label, digits = found.large if large and found.large else (found.unit, found.digits)
+    unit_of = _KINDS[system][kind]
+    label, digits = unit_of.large if large and unit_of.large else (unit_of.unit, unit_of.digits)
     exact = system == "SI" or _KINDS["SI"][kind].unit == label
     if kind == "margin":
         return Unit(label, digits, most=_AMPLE)
@@ -266,8 +266,8 @@ def spelled(label: str, kind: str, system: System = "SI") -> str:
     >>> spelled("temperature", "temperature"), spelled("share", "share"), spelled("f", "friction")
     ('temperature [°C]', 'share', 'f [-]')
     """
-    found = unit(kind, system)
-    return label if found.label is None or found.digits.endswith("%") else found.beside(label)
+    unit_of = unit(kind, system)
+    return label if unit_of.label is None or unit_of.digits.endswith("%") else unit_of.beside(label)
 
 
 def headed(label: str, kind: str, system: System = "SI") -> str:

@@ -205,10 +205,10 @@ def between(low: Quantity, high: Quantity, share: float) -> Quantity:
     if low.dimensionality != high.dimensionality:
         raise InputError(f"got {text(low)} and {text(high)}, expected two of one kind")
     base, other = low.to_base_units(), high.to_base_units()
-    found: Quantity = _build(base.magnitude + share * (other.magnitude - base.magnitude), base.units).to(
+    built: Quantity = _build(base.magnitude + share * (other.magnitude - base.magnitude), base.units).to(
         low.units
     )
-    return _build(float(f"{found.magnitude:.9g}"), low.units)
+    return _build(float(f"{built.magnitude:.9g}"), low.units)
 
 
 def same(one: Quantity, other: Quantity) -> bool:

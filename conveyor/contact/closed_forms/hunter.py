@@ -132,10 +132,10 @@ class HunterContact:
         coarse = np.cos(np.linspace(0.0, math.pi, 129))
         best = int(np.argmax(self.pressure(coarse)))
         bounds = (float(coarse[min(best + 1, 128)]), float(coarse[max(best - 1, 0)]))
-        found = minimize_scalar(
+        peak = minimize_scalar(
             lambda x: -float(self.pressure(np.array([x]))[0]), bounds=bounds, method="bounded"
         )
-        return -float(found.fun)
+        return -float(peak.fun)
 
 
 def _require_ratio(modulus_ratio: float) -> None:
@@ -279,13 +279,13 @@ def hunter_friction_peak(modulus_ratio: float) -> HunterContact:
     (0.483021, 1.3497)
     """
     require(1.0 < modulus_ratio <= 1e6, "modulus_ratio", modulus_ratio, "above 1 and at most 1e6 is needed")
-    found = minimize_scalar(
+    peak = minimize_scalar(
         lambda log_memory: -hunter(modulus_ratio, memory=math.exp(log_memory)).friction_at_load,
         bounds=(math.log(1e-2), math.log(1e2 * modulus_ratio)),
         method="bounded",
         options={"xatol": 1e-9},
     )
-    return hunter(modulus_ratio, memory=math.exp(float(found.x)))
+    return hunter(modulus_ratio, memory=math.exp(float(peak.x)))
 
 
 def low_speed_friction(*, memory: float, radius: float, modulus_ratio: float) -> float:

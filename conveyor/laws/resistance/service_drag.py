@@ -253,9 +253,11 @@ def service_roll_drag(
         log_z = np.exp(turn - slope * np.log(temperature))
         z = 10.0**log_z
         fed = (z - WALTHER_OFFSET) * (rotation * PER_MINUTE) >= PALMGREN_SWITCH
-        found = PALMGREN_FED * ((z - WALTHER_OFFSET) * (rotation * PER_MINUTE)) ** (2.0 / 3.0)
-        falls = -2.0 / 3.0 * found * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
-        return np.where(fed, found, PALMGREN_SLOW), np.where(fed, falls, 0.0)
+        fed_film = PALMGREN_FED * ((z - WALTHER_OFFSET) * (rotation * PER_MINUTE)) ** (2.0 / 3.0)
+        falls = (
+            -2.0 / 3.0 * fed_film * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
+        )
+        return np.where(fed, fed_film, PALMGREN_SLOW), np.where(fed, falls, 0.0)
 
     # F v = 2 G (T - T_air), by Newton's steps within a bracket that shrinks: friction falls as the oil warms
     air = np.full(load.shape, air_temperature)
