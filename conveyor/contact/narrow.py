@@ -1,8 +1,8 @@
 """One strip by its half width, many scenes at once, without a Python loop over scenes.
 
-Stacked linear algebra and the short rules: the half width is found at a low order and closed at the order that meets rtol.
-What is not found this way (loads near the roll's half circle, extremely thin layers) or is not one strip is left to the
-other ways.
+Stacked linear algebra and the short rules: the half width is found at a low order and closed at the order that meets
+rtol. What is not found this way (loads near the roll's half circle, extremely thin layers) or is not one strip is left
+to the other ways.
 """
 
 from __future__ import annotations
@@ -208,9 +208,9 @@ def _points() -> tuple[Array, Array]:
 class Search:
     """Half widths on their way to the load, one scene a row.
 
-    At a low order the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher order
-    it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and the
-    contact there as soon as it is near.
+    At a low order the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher
+    order it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and
+    the contact there as soon as it is near.
     """
 
     def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
@@ -300,7 +300,7 @@ class Search:
         return contact, matrix, miss, ik
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
-        """Contacts just evaluated, carried to their loads as those of the low order go; what that may miss of friction."""
+        """Contacts just evaluated, carried to their loads by the cubics; what that may miss of friction."""
         here, there = self._from[rows], self.place[rows]
         load, shift, drag = self.load[rows], self.shift[rows], self.drag[rows]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
