@@ -1,7 +1,8 @@
 """Memory of the process that runs a study, at 10,000 and 100,000 points, with a stand-in for the calculation.
 
 The stand-in answers at once, so that only what the driver does itself is measured: points, their keys, the file of
-answers, the table and the designs. Each size runs in a process of its own; the peak is that of the process.
+answers, the table (in parts while it runs, then whole) and the designs. Each size runs in a process of its own; the
+peak is that of the process.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ def run(count: int) -> None:
     import conveyor
     from conveyor import shelf
     from conveyor.models.study import StudyPlan
-    from conveyor.report.campaigning import of_points
+    from conveyor.report.campaigning import PartedTable, of_points
     from conveyor.studies import campaign as running
     from conveyor.studies.explored import explored
 
@@ -40,15 +41,24 @@ def run(count: int) -> None:
     )
     study = running.Campaign.of(plan, conveyor.load(SPEC), shelf.compound)
     with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
+
+        def row(number: int, keyed: running.Keyed) -> running.Point:
+            return running.point_of(study, known, number, keyed)
+
+        table = of_points(study, "SI")
+        parts = PartedTable(table, Path(folder) / "parts", count, row)
         begun = process_time()
-        running.run(study, known)
+        running.run(study, known, answered=parts.take)
         ran = process_time() - begun
-        of_points(study, "SI").write(Path(folder) / "t.csv", running.rows(study, known))
+        table.write(Path(folder) / "t.csv", running.rows(study, known))
         wrote = process_time() - begun - ran
         plain = peak()
         explored(study, running.designs(study, known))
     memory = f"peak {plain:.0f} MB, with designs {peak():.0f} MB"
-    print(f"{count:,} points: {memory}; run {ran:.1f} s, table {wrote:.1f} s of the processor", flush=True)
+    print(
+        f"{count:,} points: {memory}; run with parts {ran:.1f} s, table {wrote:.1f} s of the processor",
+        flush=True,
+    )
 
 
 def peak() -> float:

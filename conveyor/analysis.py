@@ -227,7 +227,7 @@ class Analysis(CalculatedConveyor):
 
     @property
     def plots(self) -> AnalysisPlots:
-        """Figures: resistances, tensions, profile, pressure, rubber, power over temperature and speed."""
+        """Figures: resistances, tensions, flap, profile, pressure, rubber, power over temperature and speed."""
         from conveyor.drawing import AnalysisPlots
 
         return AnalysisPlots(self)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
@@ -13,14 +13,24 @@ from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files.marks import TO_FILL_IN
 
+if TYPE_CHECKING:
+    from conveyor.starter import Kind
+
 
 class StarterKind(StrEnum):
-    """What there is a starter of: three conveyors, and a duty to size one from."""
+    """What there is a starter of, three conveyors and a duty to size one from; and full examples as they stand."""
 
     OVERLAND = "overland"
     IN_PLANT = "in-plant"
     DOWNHILL = "downhill"
     DUTY = "duty"
+    SHUTTLE = "shuttle"
+    CURVED = "curved"
+    BRAKES = "brakes"
+    TRANSFER = "transfer"
+    DYNAMICS = "dynamics"
+    STUDY = "study"
+    SEARCH = "search"
 
 
 @app.command(
@@ -29,6 +39,7 @@ class StarterKind(StrEnum):
         "conveyor new mine.yaml",
         "conveyor new mine.yaml --kind in-plant --units US",
         "conveyor new duty.yaml --kind duty",
+        "conveyor new spacing.yaml --kind study",
     ),
 )
 def new(
@@ -36,7 +47,9 @@ def new(
     kind: Annotated[
         StarterKind,
         typer.Option(
-            help="Conveyor the example values belong to; duty: of one to be sized.", case_sensitive=False
+            help="Conveyor the example values belong to; duty: of one to be sized. From shuttle on full examples in "
+            "SI, a study or search with the spec it varies beside it.",
+            case_sensitive=False,
         ),
     ] = StarterKind.OVERLAND,
     units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
@@ -48,10 +61,22 @@ def new(
         raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
     to = Outputs(force=force)
     to.file("SPEC", spec, ".yaml", ".yml", kind=TO_FILL_IN)
-    from conveyor.starter import quoted, written
+    from conveyor.starter import EXAMPLES, example, quoted, written
 
-    to.add("spec", spec, {spec: written(kind.value, units.value, file=spec.name).encode()})
+    if kind.value in EXAMPLES:
+        if units is not Units.SI:
+            raise InputError(
+                f"--units {units.value}: the example of --kind {kind.value} is in SI; leave the units out"
+            )
+        files, command = example(kind.value, spec), EXAMPLES[kind.value].command
+        for beside in [path for path in files if path != spec]:
+            to.file("SPEC", beside, ".yaml", kind=TO_FILL_IN)
+    else:
+        files = {spec: written(cast("Kind", kind.value), units.value, file=spec.name).encode()}
+        command = "size" if kind is StarterKind.DUTY else "power"
+    for path, content in files.items():
+        to.add("spec", path, {path: content})
     lines = to.save()
     if not quiet:
-        command = "size" if kind is StarterKind.DUTY else "power"
-        say(*lines, f"next: conveyor {command} {quoted(str(spec))}")
+        more = {"study": " -o points.csv", "optimise": " -o best.yaml"}.get(command, "")
+        say(*lines, f"next: conveyor {command} {quoted(str(spec))}{more}")

@@ -84,8 +84,7 @@ def study(
         campaign = running.Campaign.of(
             plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
         )
-    table = campaigning.of_points(campaign, system)
-    designed = campaigning.of_designs(campaign, system)
+    table, designed = campaigning.of_points(campaign, system), campaigning.of_designs(campaign, system)
     to = session.outputs(plan_file, spec)
     parted = not output.suffix
     to.folder("--output", output if parted else None)

@@ -76,12 +76,11 @@ class SpectralFields:
 
     def pressure(self, x: Array) -> Array:
         """Sum over the strips of p̃ = Σ c_v sin(vθ), X = X_l + α_l cos θ."""
-        v = np.arange(1, self.contact.c.shape[1] + 1)
         out = np.zeros(x.shape)
         for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self.contact.c, strict=True):
             s = (x - centre) / alpha
-            angle = np.arccos(np.clip(s, -1.0, 1.0))
-            out += np.where(np.abs(s) < 1.0, np.sin(np.multiply.outer(angle, v)) @ c, 0.0)
+            inside = np.abs(s) < 1.0
+            out[inside] += _sines(c, np.arccos(s[inside]))
         return out
 
     def outside(self, x: Array, reach: float = SERIES_REACH) -> Array:
@@ -151,6 +150,19 @@ class GridFields:
     def depth(self) -> float:
         """Δ/R."""
         return self.grid.depth
+
+
+def _sines(c: Array, angle: Array) -> Array:
+    """Σ_v c_v sin(vθ) at any angles, shape (p,): v = q w + r takes 2 sqrt(n) exponentials an angle in place of n."""
+    width = math.isqrt(c.size) + 1
+    table = np.zeros((c.size // width + 1, width))
+    table.ravel()[1 : c.size + 1] = c
+    found = []
+    for part in np.array_split(angle, 1 + angle.size * 2 * width // _CHUNK):
+        low = np.exp(1j * np.multiply.outer(part, np.arange(width)))
+        high = np.exp(1j * np.multiply.outer(part, width * np.arange(table.shape[0])))
+        found.append(((low @ table.T) * high).sum(axis=1).imag)
+    return np.concatenate(found)
 
 
 def sampled_sines(c: Array, count: int) -> Array:

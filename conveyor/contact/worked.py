@@ -21,6 +21,7 @@ from conveyor.contact.inside import FAR, HARMONICS, MIDDLE, NEAR, OCTAVE, RAMP, 
 from conveyor.contact.interior import interior, path_amplitude
 from conveyor.contact.layer_shapes import confined_shapes
 from conveyor.contact.layers import Confined
+from conveyor.contact.single import DENSE
 from conveyor.contact.solution import ContactSolution
 
 Array = NDArray[np.float64]
@@ -127,14 +128,14 @@ def working_strains(
 
 
 def _forgets(solution: ContactSolution) -> bool:
-    """Whether the contact stands alone under its period."""
+    """Whether the contact stands alone under its period, of orders that a table holds."""
     layer, problem = solution.problem.layer, solution.problem
     return (
         isinstance(layer, Confined)
         and layer.poisson == 0.5
         and layer.thickness <= FORGETS
         and problem.creep.weights.size > 0
-        and solution.stats.order > 0
+        and 0 < solution.stats.order <= DENSE
         and len(solution.patches) == 1
         and NEAR * 2.0 ** _octaves(solution) * solution.half_width * problem.rho <= 0.5 * math.pi
     )

@@ -99,6 +99,8 @@ def bulk_on_pulley(area: float, *, width: float) -> BulkOnPulley:
     >>> round(half.height, 6), round(half.centroid, 6), round(2.0 / 3.0 / math.pi, 6)
     (0.5, 0.212207, 0.212207)
     """
+    from scipy.optimize import brentq  # 0.4 s that a command without discharge does not pay
+
     require_positive(area=area, width=width)
     most = math.pi * width**2 / 8.0
 
@@ -238,6 +240,8 @@ def slipping_discharge(
     >>> [round(math.degrees(a), 2) for a in (found.slip_angle, found.angle)], round(found.speed, 3)
     ([24.94, 52.9], 1.72)
     """
+    from scipy.optimize import brentq
+
     require_positive(friction=friction, sliding_friction=sliding_friction)
 
     require(sliding_friction <= friction, "sliding_friction", sliding_friction, "at most friction is needed")

@@ -28,8 +28,13 @@ _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _RED = "B3261E"
 _STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
+_TALL = 13.0  # highest area of a chart that is drawn to scale [cm]
 _STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
-_BESIDE, _AROUND = 2.4, 4.2  # beside and round the area of a chart that is drawn to scale [cm]
+_BESIDE, _KEY, _AROUND = (
+    2.4,
+    4.6,
+    3.2,
+)  # beside, for the key of, and round the area of a chart that is drawn to scale [cm]
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
@@ -201,12 +206,13 @@ def trajectory(sheet: Worksheet, place: TablePlace, outline: TablePlace, system:
     step = decade * next(part for part in (1.0, 2.0, 5.0, 10.0) if part * decade >= least)
     ends = [(step * math.floor(min(span) / step), step * math.ceil(max(span) / step)) for span in spans]
     wide, high = (end - begin for begin, end in ends)
-    scale = min(_WIDTH / wide, 2.0 * _HEIGHT / high)  # [cm] for one unit
+    scale = min(_WIDTH / wide, _TALL / high)  # [cm] for one unit
     for axis, (begin, end) in zip((chart.x_axis, chart.y_axis), ends, strict=True):
         axis.scaling.min, axis.scaling.max = begin, end
         axis.majorUnit = step  # type: ignore[union-attr]
         axis.number_format, axis.tickLblPos = "General", "low"
-    width, height = scale * wide + _BESIDE, scale * high + _AROUND
+    width, height = scale * wide + _BESIDE + _KEY, scale * high + _AROUND
+    chart.legend = Legend(legendPos="r")
     sized(chart, width, height)
     inside = (_BESIDE - 0.6) / width, 1.2 / height, scale * wide / width, scale * high / height
     x, y, w, h = inside

@@ -202,26 +202,26 @@ def flap_diagram(found: CalculatedConveyor, *, system: System = "SI") -> Figure:
     figure, (axis,) = stacked(1, _HEIGHT)
     length, frequency, shape = unit("length", system, large=True), unit("swing", system), found.line.loop
     places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}
-    named: set[str] = set()
+    lines: dict[str, tuple[str, str, list[float], list[float]]] = {}
 
-    def once(label: str) -> str | None:
-        if label in named:
-            return None
-        named.add(label)
-        return label
+    def drawn(label: str, ink: str, line: str, x: Sequence[float], y: Sequence[float]) -> None:
+        _, _, ways, values = lines.setdefault(label, (ink, line, [], []))
+        ways += [*x, math.nan]  # a gap
+        values += [*y, math.nan]
 
     for duty in found.set_duty:
-        x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand]))
-        for mode, line in ((1, "-"), (2, "--")):
-            label = once(f"belt, mode {mode}, {duty.stretch.strand}")
-            ink = colour(STRANDS.index(duty.stretch.strand))
-            axis.plot(x, mode * np.array(duty.swings), line, color=ink, label=label)
-        margin = duty.limits.flap_margin or 0.0
+        x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand])).tolist()
+        strand, margin = duty.stretch.strand, duty.limits.flap_margin or 0.0
+        ink = colour(STRANDS.index(strand))
+        drawn(f"belt, {strand}", ink, "-", x, duty.swings)
+        drawn(f"belt, {strand}, second mode", ink, "--", x, [2.0 * swing for swing in duty.swings])
         for each in dict.fromkeys(duty.rotations):
-            axis.plot(x, [each, each], color=_FAILS, linewidth=1, label=once("rotation of the rolls"))
+            drawn("rotation of the rolls", _FAILS, "-", x, [each, each])
             axis.fill_between(
                 x, each * (1 - margin), each * (1 + margin), color=_FAILS, alpha=0.15, linewidth=0
             )
+    for label, (ink, line, ways, values) in lines.items():
+        axis.plot(ways, values, line, color=ink, label=label)
     axis.set_ylim(bottom=0.0)
     axis.set(
         xlabel=length.beside("distance from the head along the belt, return strand first"),

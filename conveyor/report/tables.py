@@ -521,7 +521,7 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
         Column("spacing", "spacing", lambda row: row.first.stretch.spacing),
         Column("sets", "count", attrgetter("sets")),
         Column("turning mass of a set", "mass", lambda row: row.first.stretch.set_mass),
-        Column("rotation", "rotation", lambda row: max(one.rotations[1] for one in row.of)),
+        Column("rotation", "rotation", lambda row: max(one.rotations[1] for one in row.of), page=None),
         Column("load of a set", "force", lambda row: row.heaviest.limits.load),
         Column("of the case", "text", attrgetter("case"), page=None),
         Column("rating", "force", lambda row: row.first.limits.rating, sparse=True),

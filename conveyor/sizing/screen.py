@@ -201,8 +201,11 @@ def _stretch(kind: str) -> float:
 
 
 class _Loop(NamedTuple):
-    """Candidates with a class of belt each: covers [m], load of the middle roll, indentation, force on all drives,
-    tension behind the head [N]; the class that the tensions ask for, and whether there is one."""
+    """Candidates with a class of belt each.
+
+    Covers [m], load of the middle roll, indentation, force on all drives, tension behind the head [N]; the class that
+    the tensions ask for, and whether there is one.
+    """
 
     covers: Array
     middle: Array
@@ -216,7 +219,7 @@ class _Loop(NamedTuple):
 def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     """Estimate every candidate."""
     length, numbers = task.length, every.numbers
-    ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
+    cover, kind = numbers[:, 3], numbers[:, 4]
     width, speed = every.runs(lambda on: on.trough.width.belt), every.runs(lambda on: on.speed)
     carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
     bulk, wear = task.flow / speed, [task.wear(v) for _, v, _, _ in every.running]
@@ -267,7 +270,8 @@ def _around(
     width, bulk = every.runs(lambda on: on.trough.width.belt), task.flow / every.runs(lambda on: on.speed)
     diameter, three = every.runs(lambda on: on.roll.diameter), every.runs(lambda on: on.trough.width.three)
     carry, back = (np.array(apart)[numbers[:, 1 + k]] for k, apart in enumerate(task.spacings))
-    count, flat = (every.runs(lambda on, k=k: on.trough.width.return_rolls[k]) for k in (0, 1))
+    count = every.runs(lambda on: on.trough.width.return_rolls[0])
+    flat = every.runs(lambda on: on.trough.width.return_rolls[1])
     of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
     of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
     on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
+from conveyor.starter.examples import EXAMPLES, example
 from conveyor.starter.values import KINDS, Kind, values
 from conveyor.starter.write import quoted, written
 
-__all__ = ["KINDS", "Kind", "quoted", "values", "written"]
+__all__ = ["EXAMPLES", "KINDS", "Kind", "example", "quoted", "values", "written"]

@@ -10,7 +10,15 @@ import numpy as np
 import pytest
 from numpy.polynomial import Chebyshev
 
-from conveyor.contact import ContactProblem, CreepSpectrum, HalfSpace, general, solve, solve_many
+from conveyor.contact import (
+    ContactProblem,
+    CreepSpectrum,
+    HalfSpace,
+    general,
+    solve,
+    solve_many,
+    working_strains,
+)
 from conveyor.contact.interior import interior, interior_fields, path_amplitude
 from conveyor.contact.layer_shapes import confined_shapes, free_shapes
 from conveyor.contact.layers import confined_symbol, free_symbol
@@ -392,3 +400,19 @@ def test_a_refused_problem_has_no_interior():
     refused = solve(ContactProblem("free", 0.066, 0.001, ELASTIC, 0.03), throw=False)
     with pytest.raises(NoSolutionError, match="beyond its half circle"):
         interior(refused)
+
+
+def test_many_working_strains_are_those_of_each_contact():
+    """The sum over a period and the integral: apart by 4 (h/λ)³ = 1e-4 and what lies beyond 1.2 thicknesses, 3e-4."""
+    rubber = CreepSpectrum(0.1, [0.4, 0.5], [0.01, 1.0])
+    given = ((0.001, 0.03, 0.5), (0.01, 0.02, 0.5), (0.003, 0.15, 0.5), (0.001, 0.03, 0.4))
+    thin = [ContactProblem("confined", 0.066, p, rubber, depth, poisson) for p, depth, poisson in given]
+    scenes = [*thin, ContactProblem("free", 0.4, 0.05, CreepSpectrum(0.1, [0.9], [1.0]), 1.0)]
+    solved = [solve(scene) for scene in scenes]
+    found = working_strains(solved, depths=8, points=24)
+    each = [interior(one, depths=8, points=24) for one in solved]
+    for (strain, wave_number), one in zip(found[:3], each[:3], strict=True):
+        assert strain == pytest.approx(one.working_strain, rel=3e-4)
+        assert wave_number == pytest.approx(one.wave_number, rel=3e-4)
+        assert strain != one.working_strain  # by another way
+    assert found[3:] == [(one.working_strain, one.wave_number) for one in each[3:]]

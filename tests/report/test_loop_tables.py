@@ -18,15 +18,16 @@ DUTY = BeltDuty(
     per_width_steady=100e3,
     per_width=140e3,
     rating=None,
-    strength_needed=630e3,
+    strength_needed={"at rest": 630e3},
     drive_diameter=0.725,
     pulleys=(
-        PulleyCheck("head", "head", "A", 0.63, 0.725, 0.8),
-        PulleyCheck("snub", "return", "C", 0.5, 0.45675, 0.5),
+        PulleyCheck("head", "head", "A", None, 0.63, 0.725, 0.8),
+        PulleyCheck("snub", "return", "C", None, 0.5, 0.45675, 0.5),
     ),
     curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0, 90e3, 12e3),),
 )
-OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=SimpleNamespace(stiffness=None)))
+BELT = SimpleNamespace(stiffness=None, strength=None, covers=())
+OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=BELT))
 
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():

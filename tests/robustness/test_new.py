@@ -10,8 +10,11 @@ import pytest
 import conveyor
 from conveyor import spec, starter
 from conveyor.checks import checks
+from conveyor.cli.new import StarterKind
 from conveyor.errors import InputError
+from conveyor.study_file import read_plan, read_search
 from conveyor.units import System
+from tests.command_line import ROOT, run
 
 KINDS = [(kind, units) for kind in starter.KINDS for units in ("SI", "US")]
 
@@ -98,3 +101,35 @@ def test_any_name_of_a_file_stays_inside_the_heading(name: str, tmp_path: Path) 
     path = tmp_path / "mine.yaml"
     path.write_text(starter.written("overland", file=name), encoding="utf-8")
     assert conveyor.load(path) == spec.from_data(starter.values("overland"))
+
+
+@pytest.mark.parametrize("kind", starter.EXAMPLES)
+def test_a_full_example_is_written_whole_and_read_as_it_stands(kind: str, tmp_path: Path) -> None:
+    shown = starter.EXAMPLES[kind]
+    for path, content in starter.example(kind, tmp_path / "mine.yaml").items():
+        path.write_bytes(content)
+    path = tmp_path / "mine.yaml"
+    if shown.base is None:
+        assert path.read_bytes() == (ROOT / "examples" / shown.file).read_bytes()
+        assert conveyor.load(path).name
+    else:
+        read = read_search(path) if shown.command == "optimise" else read_plan(path)
+        assert conveyor.load(tmp_path / read.base) == conveyor.load(ROOT / "examples" / shown.base)
+
+
+def test_new_offers_every_kind_and_says_how_it_runs(tmp_path: Path) -> None:
+    offered = {kind.value for kind in StarterKind}
+    assert offered == {*starter.KINDS, "duty", *starter.EXAMPLES}
+    done = run("new", str(tmp_path / "s.yaml"), "--kind", "study")
+    assert done.returncode == 0
+    assert "next: conveyor study" in done.stdout
+    assert (tmp_path / "s_base.yaml").is_file()
+    refused = run("new", str(tmp_path / "t.yaml"), "--kind", "shuttle", "--units", "US")
+    assert refused.returncode == 2
+    assert "in SI" in refused.stderr
+
+
+def test_the_example_of_a_transfer_keeps_its_checks() -> None:
+    found = conveyor.analyse(conveyor.load(ROOT / "examples" / "specs" / "transfer.yaml"))
+    assert found.trajectory.wraps
+    assert not [check.subject.text() for check in checks(found) if check.failed]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
 import subprocess
 import sys
@@ -59,3 +60,38 @@ def test_killed_workers_and_drivers_leave_the_same_table(tmp_path):
     assert again.returncode == 0, again.stderr
     assert json.loads(again.stdout)["calculated"] == 32 - kept
     assert killed.read_bytes() == undisturbed.read_bytes()
+
+
+_DRIVER = """
+import os, time
+from conveyor.cli.workers import executor_of
+if __name__ == "__main__":
+    with executor_of(None, 2) as pool:
+        print(*{pool.submit(os.getpid).result() for _ in range(4)}, flush=True)
+        time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a signal that cannot be caught")
+def test_workers_end_with_a_killed_driver(tmp_path):
+    script = tmp_path / "driver.py"
+    script.write_text(_DRIVER, encoding="utf-8")
+    driver = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
+    assert driver.stdout is not None
+    workers = [int(number) for number in driver.stdout.readline().split()]
+    assert workers
+    driver.kill()
+    driver.communicate()
+    end = time.monotonic() + PATIENCE
+    while any(alive(worker) for worker in workers) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not any(alive(worker) for worker in workers)
+
+
+def alive(process: int) -> bool:
+    """Whether a process is there."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True

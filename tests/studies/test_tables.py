@@ -362,7 +362,7 @@ def test_captions_say_what_is_drawn(line, tmp_path):
 
 
 def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_path):
-    told = [remark for remark in remarks(compared, tmp_path) if "the ranking turns" in remark]
+    told = [remark for remark in remarks(compared, tmp_path) if "the ranking changes" in remark]
     assert len(told) == len(SPEEDS)
     for speed, said in zip((4.5, 5.0), told, strict=True):
         assert said.startswith(f"the ranking changes with temperature; motor power at {speed:g} m/s: ")
@@ -376,7 +376,7 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
             assert power == sorted(power)
             assert len(power) == 2  # S100 has no tests: it is not ranked
     steady = conveyor.compare_compounds(line, NAMES, temperatures=["20 degC"], speeds=SPEEDS)
-    assert not [remark for remark in remarks(steady, tmp_path) if "the ranking turns" in remark]
+    assert not [remark for remark in remarks(steady, tmp_path) if "the ranking changes" in remark]
 
 
 def test_a_duty_decides_the_year(line, tmp_path):

@@ -1,0 +1,59 @@
+"""Full examples to start from, as they stand in the folder of examples: each runs with its command as it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final, NamedTuple
+
+import conveyor
+from conveyor.errors import InputError
+
+
+class Example(NamedTuple):
+    """An example: its file, the command that runs it, and the spec that it varies."""
+
+    file: str
+    command: str = "power"
+    base: str | None = None
+
+
+EXAMPLES: Final = {
+    "shuttle": Example("specs/shuttle.yaml"),
+    "curved": Example("specs/curved.yaml"),
+    "brakes": Example("specs/downhill_brakes.yaml"),
+    "transfer": Example("specs/transfer.yaml"),
+    "dynamics": Example("dynamics/overland_15km.yaml", "dynamics"),
+    "study": Example("studies/spacing.yaml", "study", "specs/overland.yaml"),
+    "search": Example("studies/search.yaml", "optimise", "specs/overland_10km.yaml"),
+}
+"""By kind, as `conveyor new` offers them beside the starters."""
+
+
+def example(kind: str, path: Path) -> dict[Path, bytes]:
+    """Files of an example to be written: at a path, and beside it the spec that a study varies.
+
+    Raises
+    ------
+    InputError
+        The package is not whole.
+
+    Examples
+    --------
+    >>> [file.name for file in example("study", Path("spacing.yaml"))]
+    ['spacing.yaml', 'spacing_base.yaml']
+    """
+    shown = EXAMPLES[kind]
+    told = _read(shown.file)
+    if shown.base is None:
+        return {path: told.encode()}
+    base = path.with_name(f"{path.stem}_base.yaml")
+    return {path: told.replace(f"../{shown.base}", base.name).encode(), base: _read(shown.base).encode()}
+
+
+def _read(name: str) -> str:
+    """A file of the examples, of the package or of the checkout."""
+    package = Path(conveyor.__file__).parent
+    for folder in (package / "_examples", package.parent / "examples"):
+        if (folder / name).is_file():
+            return (folder / name).read_text(encoding="utf-8")
+    raise InputError(f"no example {name} in {package / '_examples'}; install the package again")
