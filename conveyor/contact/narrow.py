@@ -209,13 +209,8 @@ class Search:
     """Half widths on their way to the load, one scene a row.
 
     At a low order the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher
-<<<<<<< HEAD
-    order it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and
-    the contact there as soon as it is near.
-=======
     order it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and the
     contact there as soon as it is near.
->>>>>>> main
     """
 
     def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
@@ -305,11 +300,7 @@ class Search:
         return contact, matrix, miss, ik
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
-<<<<<<< HEAD
-        """Contacts just evaluated, carried to their loads by the cubics; what that may miss of friction."""
-=======
         """Contacts just evaluated, carried to their loads as those of the low order go; the friction it may miss."""
->>>>>>> main
         here, there = self._from[rows], self.place[rows]
         load, shift, drag = self.load[rows], self.shift[rows], self.drag[rows]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
