@@ -35,7 +35,7 @@ from conveyor.errors import ConveyorError
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.indentation import RollContact, to_problem
 from conveyor.rubber import WLF, Arrhenius, PronySeries
-from conveyor.studies.compared import ends
+from conveyor.studies.comparison_scenes import ends
 
 CELSIUS = 273.15
 REFERENCE = 20.0 + CELSIUS

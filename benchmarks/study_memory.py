@@ -22,9 +22,9 @@ def run(count: int) -> None:
     import conveyor
     from conveyor import shelf
     from conveyor.models.study import StudyPlan
-    from conveyor.report.campaigning import PartedTable, of_points
+    from conveyor.report.point_tables import PartedTable, of_points
     from conveyor.studies import campaign as running
-    from conveyor.studies.explored import explored
+    from conveyor.studies.evaluation import explored
 
     running.answers = lambda _, points: [[1e6, 1e5, 8.0] for _ in points]
     fields = {

@@ -355,20 +355,20 @@ class Comparison(compound_study.CalculatedComparison):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row a scene; units in the names."""
-        from conveyor.report import comparing
+        from conveyor.report import comparison_tables
 
-        return comparing.scenes(self).frame()
+        return comparison_tables.scenes(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row a compound and speed, the least mean power first; savings and payback against the base."""
-        from conveyor.report import comparing
+        from conveyor.report import comparison_tables
 
-        return comparing.ranking(self).frame()
+        return comparison_tables.ranking(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.comparing import of_comparison
+        from conveyor.report.comparison_tables import of_comparison
 
         return of_comparison(self, chosen(self.conveyor.report.units, system))
 
@@ -401,9 +401,9 @@ class Comparison(compound_study.CalculatedComparison):
 
     def _repr_html_(self) -> str:
         """For notebooks: the ranking and what to know of it."""
-        from conveyor.report import comparing
+        from conveyor.report import comparison_tables
 
-        return comparing.notebook(self)
+        return comparison_tables.notebook(self)
 
 
 class CalibrationStudy(calibration_study.CalculatedCalibration):
@@ -412,26 +412,26 @@ class CalibrationStudy(calibration_study.CalculatedCalibration):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row a factor with its band."""
-        from conveyor.report.calibrating import factors
+        from conveyor.report.calibration_tables import factors
 
         return factors(self).frame()
 
     @cached_property
     def residuals(self) -> pd.DataFrame:
         """One row a run: measured, calculated before and after; units in the names."""
-        from conveyor.report.calibrating import runs
+        from conveyor.report.calibration_tables import runs
 
         return runs(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.calibrating import of_calibration
+        from conveyor.report.calibration_tables import of_calibration
 
         return of_calibration(self, chosen(self.conveyor.report.units, system))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.calibrating import plain
+        from conveyor.report.calibration_tables import plain
 
         return plain(self)
 
@@ -446,13 +446,13 @@ class VerificationSheet(verification_study.CalculatedVerification):
 
     def contents(self, system: System = "SI") -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.verifying import of_verification
+        from conveyor.report.verification_tables import of_verification
 
         return of_verification(self, system)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.verifying import plain
+        from conveyor.report.verification_tables import plain
 
         return plain(self)
 

@@ -23,9 +23,9 @@ from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
 from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.equilibrium import holds
 from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
-from conveyor.loop.settled import holds
 from conveyor.loop.starting import every_state
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.pipeline import CalculatedConveyor

@@ -16,7 +16,7 @@ from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan
 from conveyor.spec import load
 from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
-from conveyor.studies.explored import Explored, explored
+from conveyor.studies.evaluation import Explored, explored
 from conveyor.study_file import named, read_duty, read_plan
 from conveyor.units.presentation import chosen
 
@@ -78,14 +78,14 @@ class Study:
         """One row a point; units in the names."""
         import pandas as pd
 
-        from conveyor.report.campaigning import of_points
+        from conveyor.report.point_tables import of_points
 
         made = of_points(self.campaign, self.campaign.base.report.units)
         return pd.DataFrame(map(made.cells, self.points), columns=list(made.headings))
 
     def contents(self, system: System | None = None) -> Contents:
         """Tables and figures of the designs, in a system of units."""
-        from conveyor.report.designing import of_study
+        from conveyor.report.design_tables import of_study
 
         return of_study(self.explored, chosen(self.campaign.base.report.units, system))
 

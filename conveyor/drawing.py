@@ -15,7 +15,7 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
 from conveyor.report import analysis_plots, loop_plots, plots, transfer_tables
 from conveyor.report.tables import boundaries
-from conveyor.studies.compared import ComparedScene, Coverage, of_compound
+from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
 from conveyor.units.presentation import chosen
 from conveyor.units.sentences import celsius

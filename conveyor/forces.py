@@ -37,7 +37,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
-from conveyor.line.places import Spot
+from conveyor.line.stations import Spot
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Calibration

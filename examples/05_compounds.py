@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import conveyor
-from conveyor.fitting import told
+from conveyor.fitting import summary
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.report import plots
 
@@ -30,7 +30,7 @@ def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Pat
         ROOT / "materials" / "s120.dma.csv",
         Request("S120", shift=ROOT / "materials" / "s120.shift.csv", vertical=True),
     )
-    plots.save(told.figure(s120), folder / "rubber_s120.png")
+    plots.save(summary.figure(s120), folder / "rubber_s120.png")
 
 
 def main(folder: Path | None) -> None:

@@ -14,7 +14,7 @@ import pytest
 import conveyor
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
 from conveyor.fitting.compound import Request, fit_file
-from conveyor.fitting.told import lines
+from conveyor.fitting.summary import lines
 from conveyor.laboratory.read import read_answered
 from conveyor.rubber import PronySeries
 

@@ -12,7 +12,7 @@ import pytest
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.fitting import page as fit_page
-from conveyor.fitting import told, verdict
+from conveyor.fitting import summary, verdict
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.rubber import PronySeries, equivalent_sweep
 from conveyor.spec import load
@@ -91,7 +91,7 @@ def test_an_equivalent_sweep_of_a_dense_series():
 
 def test_a_temperature_sweep_takes_given_shifts(tmp_path: Path, together):
     shifts = tmp_path / "shifts.csv"
-    shifts.write_text(told.shift_table(together), encoding="utf-8")
+    shifts.write_text(summary.shift_table(together), encoding="utf-8")
     found = fit_file([FILES[2], shifts], Request("ramp", AT, replicas=0))
     assert found.rows.frequency.size == 41
     assert max(errors(found.compound, low=1.5, high=5.0)) < 0.1  # 41 rows over eight decades

@@ -13,7 +13,7 @@ import pytest
 
 import conveyor
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
-from conveyor.report.comparing import of_comparison, plain
+from conveyor.report.comparison_tables import of_comparison, plain
 from conveyor.report.tables import of_analysis
 from conveyor.spec import from_data
 from tests.worked_examples import worked_example

@@ -9,7 +9,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.fitting import told, verdict
+from conveyor.fitting import summary, verdict
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.rubber import Arrhenius, PronySeries, shifted
 from tests.command_line import run
@@ -79,7 +79,7 @@ def test_curves_that_contradict_themselves_say_so() -> None:
     s120 = (MATERIALS / "s120.dma.csv", MATERIALS / "s120.shift.csv")
     plain = fit_file(s120[0], Request("s120", shift=s120[1], replicas=0))
     assert plain.entropic_floor == pytest.approx(0.030, abs=0.001)
-    assert any("it would leave 3.0 %: try --vertical" in line for line in told.lines(plain))
+    assert any("it would leave 3.0 %: try --vertical" in line for line in summary.lines(plain))
     ends = next(one for one in verdict.verdict(plain) if one.name == "ends of the window")
     assert (ends.verdict, "contradict" in ends.why) == ("FAIL", True)
     mended = fit_file(s120[0], Request("s120", shift=s120[1], replicas=0, vertical=True))

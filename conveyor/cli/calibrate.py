@@ -93,11 +93,11 @@ def calibrate(
 def _show(calibration: CalibrationStudy, system: System) -> None:
     """Factors, correlation, runs, and the part of the spec."""
     from conveyor.cli.terminal import console, grid, wrapped
-    from conveyor.report import calibrating
+    from conveyor.report import calibration_tables
 
     screen = console()
-    runs = calibrating.runs(calibration).only(*_OF_RUNS)
-    for part in (calibrating.factors(calibration), calibrating.correlation(calibration), runs):
+    runs = calibration_tables.runs(calibration).only(*_OF_RUNS)
+    for part in (calibration_tables.factors(calibration), calibration_tables.correlation(calibration), runs):
         if not part.empty:
             screen.print(grid(part, system), "")
             if part.note:
@@ -106,7 +106,7 @@ def _show(calibration: CalibrationStudy, system: System) -> None:
     say(
         *(
             wrapped(line, screen.width, first="  - ", further="    ")
-            for line in calibrating.lines(calibration)
+            for line in calibration_tables.lines(calibration)
         )
     )
     say("", "to paste into the spec:", calibration.fragment.rstrip())

@@ -125,14 +125,14 @@ def compare(
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    from conveyor.report import comparing
+    from conveyor.report import comparison_tables
 
-    contents = comparing.of_comparison(comparison, system)
+    contents = comparison_tables.of_comparison(comparison, system)
     _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
     _figures(comparison, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
     from conveyor.cli.compare_tables import show
 
-    session.answer(comparing.plain(comparison), to, lambda: show(contents))
+    session.answer(comparison_tables.plain(comparison), to, lambda: show(contents))
 
 
 def _reports(

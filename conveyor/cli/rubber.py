@@ -154,7 +154,7 @@ def fit(
 ) -> None:
     """Fit a compound to laboratory data: shift isotherms, fit a Prony series; what a file leaves open is asked for."""
     from conveyor import shelf as shelf_of
-    from conveyor.fitting import compound as described
+    from conveyor.fitting import compound as compound_file
     from conveyor.units import in_si
 
     to = Outputs(*data, shift, strain, spec, force=force)
@@ -176,7 +176,7 @@ def fit(
         "instantaneous": None if instantaneous is None else in_si(instantaneous, "pressure"),
         "temperature": None if temperature is None else in_si(temperature, "temperature"),
     }  # fmt: skip
-    request = described.Request(
+    request = compound_file.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
         shift=shift,
@@ -194,20 +194,20 @@ def fit(
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
-    from conveyor.fitting import told
+    from conveyor.fitting import summary
 
     files = [file for file in (*data, shift, strain) if file is not None]
     with _placed(files):
-        fitted = described.from_files(data, request)
-    lines = told.lines(fitted)
+        fitted = compound_file.from_files(data, request)
+    lines = summary.lines(fitted)
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(told.figure(fitted), plot)})
+        to.add("figure", plot, {plot: plots.drawn(summary.figure(fitted), plot)})
     for path in compounds:
         to.add("compound file", path, {path: shelf_of.dump(fitted.compound, marks.FITTED).encode()})
     if write_shift is not None:
-        to.add("shift factors", write_shift, {write_shift: told.shift_table(fitted).encode()})
+        to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _exported(fitted.compound, export, to)
     if books or html is not None or spec is not None:
         lines += _judged(fitted, spec, said, [*books, *([] if html is None else [html])], to)

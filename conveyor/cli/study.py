@@ -19,11 +19,11 @@ from conveyor.files import marks
 from conveyor.printable import printable
 
 if TYPE_CHECKING:
-    from conveyor.report.campaigning import CampaignTable
     from conveyor.report.columns import Contents
+    from conveyor.report.point_tables import CampaignTable
     from conveyor.studies.campaign import Campaign, Keyed, Point
     from conveyor.studies.designs import Design
-    from conveyor.studies.explored import Explored
+    from conveyor.studies.evaluation import Explored
     from conveyor.units import System
 
 _SHOWN = 3
@@ -71,9 +71,9 @@ def study(
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
     begin(scheduler, workers)
     from conveyor import shelf as shelves
-    from conveyor.report import campaigning, designing
+    from conveyor.report import design_tables, point_tables
     from conveyor.studies import campaign as running
-    from conveyor.studies.explored import explored
+    from conveyor.studies.evaluation import explored
     from conveyor.study_file import named, read_plan
 
     plan = read_plan(plan_file)
@@ -84,7 +84,7 @@ def study(
         campaign = running.Campaign.of(
             plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
         )
-    table, designed = campaigning.of_points(campaign, system), campaigning.of_designs(campaign, system)
+    table, designed = point_tables.of_points(campaign, system), point_tables.of_designs(campaign, system)
     to = session.outputs(plan_file, spec)
     parted = not output.suffix
     to.folder("--output", output if parted else None)
@@ -106,7 +106,7 @@ def study(
             reasons.update([point[-1]] if isinstance(point[-1], str) else [])
             return point
 
-        parts = campaigning.PartedTable(table, output, campaign.listed.count, row) if parted else None
+        parts = point_tables.PartedTable(table, output, campaign.listed.count, row) if parted else None
         running.run(
             campaign,
             known,
@@ -120,8 +120,8 @@ def study(
             table.write(output, (row(number, keyed) for number, keyed in running.keyed_points(campaign)))
         evaluated = explored(campaign, running.designs(campaign, known))
         if designs is not None:
-            designed.write(designs, campaigning.design_rows(evaluated, running.designs(campaign, known)))
-    contents = designing.of_study(evaluated, system)
+            designed.write(designs, point_tables.design_rows(evaluated, running.designs(campaign, known)))
+    contents = design_tables.of_study(evaluated, system)
     _made(to, campaign, evaluated, contents, html=html, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
@@ -133,7 +133,7 @@ def study(
             say(f"{times} without an answer: {reason}")
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
-    session.answer(plain | designing.plain(evaluated), to, show)
+    session.answer(plain | design_tables.plain(evaluated), to, show)
 
 
 def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:
@@ -153,14 +153,14 @@ def _made(
     specs: Path | None,
 ) -> None:
     """Make the page, the figures and the specs that are asked for."""
-    from conveyor.report import designing
+    from conveyor.report import design_tables
     from conveyor.report import html as page
     from conveyor.report.plots import drawn
 
     if html is not None:
-        to.add("page", html, {html: page.build(contents, designing.PARTS).encode()})
+        to.add("page", html, {html: page.build(contents, design_tables.PARTS).encode()})
     if plots is not None:
-        drawings = designing.drawings(study, contents.system)
+        drawings = design_tables.drawings(study, contents.system)
         files = {plots / f"{name}.png": figure for name, figure in drawings}
         to.add("figures", plots, {path: drawn(figure, path) for path, figure in files.items()})
     if specs is not None:
@@ -194,7 +194,7 @@ def spec_of(campaign: Campaign, design: Design, figures: str) -> bytes:
 
 def said(design: Design, campaign: Campaign, system: System) -> str:
     """Figures of a design in one line."""
-    from conveyor.report.campaigning import priced
+    from conveyor.report.point_tables import priced
     from conveyor.units.presentation import unit
 
     known = [(one, design.figures[name]) for name, one in campaign.figures.items()]

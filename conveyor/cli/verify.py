@@ -81,7 +81,7 @@ def verify_sheet(
     if output is None and html is None and not session.as_json:
         raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
     import conveyor
-    from conveyor.report import excel, verifying
+    from conveyor.report import excel, verification_tables
     from conveyor.report import html as page
 
     line = None if spec is None else session.read(spec)
@@ -104,7 +104,7 @@ def verify_sheet(
     if output is not None:
         to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
     if html is not None:
-        to.add("page", html, {html: page.build(contents, verifying.PARTS).encode()})
+        to.add("page", html, {html: page.build(contents, verification_tables.PARTS).encode()})
     session.answer(sheet.to_dict(), to, lambda: _show(sheet))
 
 

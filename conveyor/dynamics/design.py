@@ -9,7 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 
 from conveyor.checks import Check
-from conveyor.dynamics.answers import CRITERIA
+from conveyor.dynamics.criteria import CRITERIA
 from conveyor.dynamics.follow import (
     ERROR,
     CalculatedDynamics,

@@ -15,7 +15,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.waves import PULLEY_INERTIA, SLACK_SAG, sag_factor, wave_speed
 from conveyor.line.line import Line
-from conveyor.line.places import Spot, Stand
+from conveyor.line.stations import Spot, Stand
 from conveyor.loop.take_up import belt_stiffness
 from conveyor.pipeline import CalculatedConveyor
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.fitting.described import add_shift, as_fitted, mega, of_series, strain_of
+from conveyor.fitting.compound_file import add_shift, as_fitted, mega, of_series, strain_of
 from conveyor.fitting.findings import check_findings
 from conveyor.fitting.laying import (
     kelvin_of,

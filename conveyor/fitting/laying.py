@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.fitting.described import DIGITS, Array
+from conveyor.fitting.compound_file import DIGITS, Array
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import (
     CURVES,

@@ -9,7 +9,7 @@ from typing import Final
 from conveyor.files import marks
 from conveyor.fitting import tables
 from conveyor.fitting.compound import Fitted
-from conveyor.fitting.figures import figures
+from conveyor.fitting.quality import figures
 from conveyor.fitting.verdict import GLOSSARY, Criterion, passed
 from conveyor.markup import Html, element, joined
 from conveyor.models.report import Paper

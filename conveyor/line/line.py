@@ -18,11 +18,11 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idl
 from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
-from conveyor.line import usual
-from conveyor.line.places import Places, Spot
+from conveyor.line import defaults
 from conveyor.line.roll_drags import roll_drags
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.scenes import StarterUnit
+from conveyor.line.stations import Places, Spot
 from conveyor.line.strands import LoopShape, Strands
 from conveyor.line.stretches import RouteSection, Stretch
 from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, Pulley
@@ -525,7 +525,7 @@ def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
 
 
 def _loading_points(conveyor: Conveyor, places: Places) -> tuple[LoadingPoint, ...]:
-    points, assumed = usual.feeding_points(conveyor)
+    points, assumed = defaults.feeding_points(conveyor)
     return tuple(_loading(conveyor, point, places, assumed=assumed) for point in points)
 
 
@@ -570,7 +570,7 @@ def _discharge(conveyor: Conveyor) -> HeadDischarge | None:
     given, last = conveyor.route.discharge, conveyor.route.sections[-1]
     if given is None:
         return None
-    at_head = (pulley.diameter for pulley in usual.pulleys(conveyor)[0] if pulley.position == "head")
+    at_head = (pulley.diameter for pulley in defaults.pulleys(conveyor)[0] if pulley.position == "head")
     return HeadDischarge(
         diameter=si(given.pulley_diameter or next(at_head)),
         slope=math.asin(last.rise / si(last.length)) if given.slope is None else si(given.slope),
@@ -586,7 +586,7 @@ def _belt_friction(conveyor: Conveyor) -> float:
 
 
 def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
-    cleaners, assumed = usual.cleaners(conveyor)
+    cleaners, assumed = defaults.cleaners(conveyor)
     return tuple(
         Scraper(
             kind=cleaner.kind,
@@ -616,7 +616,7 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
 
 
 def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
-    pulleys, assumed = usual.pulleys(conveyor)
+    pulleys, assumed = defaults.pulleys(conveyor)
     driven = _driven(conveyor, pulleys)
     return tuple(
         replace(_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)

@@ -21,7 +21,7 @@ from conveyor.laws.sizing import (
     wear_addition,
 )
 from conveyor.laws.tension import least_pulley_diameter
-from conveyor.line.usual import SHAFT
+from conveyor.line.defaults import SHAFT
 from conveyor.models import Conveyor
 from conveyor.models.sizing import DriveLayout, SiteRules, SizingDuty, sizes
 from conveyor.units import from_si, in_si, si

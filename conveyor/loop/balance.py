@@ -10,9 +10,9 @@ from conveyor.forces import Force, ForceSums, by_length_coefficient
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line
+from conveyor.loop.equilibrium import Settled, settle
 from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
 from conveyor.loop.frame import Frame
-from conveyor.loop.settled import Settled, settle
 from conveyor.loop.tensions import Loop, MotionState
 
 

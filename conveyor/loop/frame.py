@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from conveyor.forces import Bend, Force, at_places, bends
 from conveyor.laws.power import belt_power, motor_power
 from conveyor.line.line import Line
-from conveyor.line.places import Spot
+from conveyor.line.stations import Spot
 
 Array = NDArray[np.float64]
 

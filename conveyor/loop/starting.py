@@ -11,8 +11,8 @@ from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, run_up_tim
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
+from conveyor.loop.equilibrium import coasting
 from conveyor.loop.run_up import run_up
-from conveyor.loop.settled import coasting
 from conveyor.loop.tensions import MotionState
 
 COASTING = "drives off"

@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from conveyor.forces import without_rubber
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.balance import Balance, balance
+from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.frame import Frame
 from conveyor.loop.run_up import started, uncontrolled
-from conveyor.loop.settled import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.tensions import STEADY
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ from conveyor.laws.take_up import (
 )
 from conveyor.line.line import BeltBody, Line, TakeUpUnit
 from conveyor.loop.balance import Balance
-from conveyor.loop.settled import holds
+from conveyor.loop.equilibrium import holds
 from conveyor.loop.tensions import MotionState
 
 _STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough

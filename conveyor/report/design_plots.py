@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
-from conveyor.report.campaigning import priced
 from conveyor.report.plots import colour, grouped, keyed, stacked
+from conveyor.report.point_tables import priced
 from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
-    from conveyor.studies.explored import Explored, VariedField
+    from conveyor.studies.evaluation import Explored, VariedField
 
 _COLUMNS: Final = 2  # panels side by side
 _MOST: Final = 2000  # dots; of more designs every n-th, and the front

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from conveyor.report.animation import Panel, moving
 from conveyor.report.columns import slug
-from conveyor.report.moving import Panel, moving
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit

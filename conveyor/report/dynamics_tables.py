@@ -10,7 +10,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from conveyor.checks import Check, deciding
-from conveyor.dynamics.answers import at_pulley, checks_of, peaks
+from conveyor.dynamics.criteria import at_pulley, checks_of, peaks
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
 from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength

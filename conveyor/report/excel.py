@@ -19,7 +19,7 @@ from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
-from conveyor.report.live import with_values
+from conveyor.report.formulas import with_values
 from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
 
 FRONT: Final = "Summary"

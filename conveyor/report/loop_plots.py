@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from conveyor.laws.tension import grip_tension
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.settled import holds
+from conveyor.loop.equilibrium import holds
 from conveyor.report.columns import FAILS
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.units import System

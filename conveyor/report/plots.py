@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.models import Conveyor, RubberCompound
-    from conveyor.studies.compared import ComparedScene, Coverage
     from conveyor.studies.comparison import CalculatedComparison
+    from conveyor.studies.comparison_scenes import ComparedScene, Coverage
 
 _NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
 _one_at_a_time = Lock()

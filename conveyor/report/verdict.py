@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 from conveyor.checks import Check, leading
 from conveyor.line.covers import compounds_by_strand
-from conveyor.loop.settled import START
+from conveyor.loop.equilibrium import START
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.models import RubberCompound

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.rubber.arrays import ComplexArray, FloatArray, non_negative, positive, spectrum
-from conveyor.rubber.interlace import interlaced
+from conveyor.rubber.spectrum_inversion import interlaced
 
 _FLUID_ADVICE = (
     ": without an equilibrium modulus the series is a fluid and the belt would creep without end;"

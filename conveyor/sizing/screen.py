@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 _LOAD: Final = 4.0 / 3.0  # exponent of the line load
 _WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
-_CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.usual`
+_CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.defaults`
 _SKIRTS: Final = (
     2.0 * 0.7 * 9.81 / 0.625**2
 )  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m

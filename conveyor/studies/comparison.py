@@ -21,7 +21,7 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct, with_compound
 from conveyor.pipeline import Progress
-from conveyor.studies.compared import ComparedScene, Coverage, Refusal, of_compound, strands_of
+from conveyor.studies.comparison_scenes import ComparedScene, Coverage, Refusal, of_compound, strands_of
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.units import Quantity, quantity
 

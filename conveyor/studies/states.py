@@ -17,7 +17,7 @@ from typing import Final
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError
 from conveyor.loop.balance import Balance
-from conveyor.loop.settled import holds
+from conveyor.loop.equilibrium import holds
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.loop.take_up import at_one_setting
 from conveyor.models import Conveyor, LoadCase

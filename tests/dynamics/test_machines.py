@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.dynamics.answers import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp

@@ -161,7 +161,7 @@ def test_below_the_best_ever_published_it_warns(line):
 
 
 def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
-    from conveyor.report.comparing import remarks
+    from conveyor.report.comparison_tables import remarks
     from conveyor.studies.comparison import compare_compounds
 
     def said(compounds):

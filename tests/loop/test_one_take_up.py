@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.loop.settled import holds
+from conveyor.loop.equilibrium import holds
 from conveyor.loop.take_up import at_one_setting, take_up_duty
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case

@@ -11,7 +11,7 @@ import pytest
 import conveyor
 from conveyor.analysis import compare_compounds, studies
 from conveyor.models import LoadCase, Scenario
-from conveyor.report.comparing import of_comparison
+from conveyor.report.comparison_tables import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build
 from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import headed

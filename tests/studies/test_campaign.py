@@ -19,7 +19,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import calculate
-from conveyor.report.campaigning import PartedTable, of_points
+from conveyor.report.point_tables import PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
 from conveyor.studies.points import OUTPUTS, RTOL
 from tests.command_line import run as command
@@ -233,9 +233,9 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     if ending == "parquet":
         pytest.importorskip("pyarrow")
     else:
-        monkeypatch.setattr("conveyor.report.campaigning.find_spec", lambda _: None)
+        monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
     monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
-    monkeypatch.setattr("conveyor.report.campaigning.PART", 4)
+    monkeypatch.setattr("conveyor.report.point_tables.PART", 4)
     calls = []
 
     def instead(_, points):

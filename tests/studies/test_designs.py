@@ -16,7 +16,7 @@ from conveyor.models.study import StudyPlan
 from conveyor.studies.campaign import Answers, Campaign, designs, run
 from conveyor.studies.designs import front, mean, percentile
 from conveyor.studies.duty import analyse_duty
-from conveyor.studies.explored import explored
+from conveyor.studies.evaluation import explored
 from conveyor.studies.points import RTOL
 from conveyor.study_file import read_plan
 from tests.command_line import run as command

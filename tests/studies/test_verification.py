@@ -13,7 +13,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.report import excel, html, verifying
+from conveyor.report import excel, html, verification_tables
 from conveyor.report.cells import ASKED
 from conveyor.studies.verification import SPACING
 from tests.loop.loop_lines import line
@@ -97,7 +97,7 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
 
 def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
     found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm"], **ONE)
-    written = html.build(found.contents("US"), verifying.PARTS)
+    written = html.build(found.contents("US"), verification_tables.PARTS)
     assert re.search(r'<td class="asked"[^>]*></td>', written)
     assert "bonded to a carcass that does not give (confined)" in written
     assert "at 5.71 lbf/in, ours" in written

@@ -7,9 +7,9 @@ from dataclasses import replace
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.report.campaigning import priced
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.design_plots import Shown
+from conveyor.report.point_tables import priced
 from conveyor.report.tables import document, provenance
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -17,7 +17,7 @@ from conveyor.units import System
 if TYPE_CHECKING:
     from conveyor.models.study import Limit
     from conveyor.studies.designs import Design
-    from conveyor.studies.explored import Explored
+    from conveyor.studies.evaluation import Explored
 
 PARTS: Final = (
     ("best", "The best designs"),

@@ -9,7 +9,7 @@ import numpy as np
 
 from conveyor.fitting.compound import Fitted
 from conveyor.fitting.rows import MeasuredRows
-from conveyor.fitting.told import figure as band
+from conveyor.fitting.summary import figure as band
 from conveyor.report.plots import colour, stacked
 from conveyor.rubber import ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, celsius

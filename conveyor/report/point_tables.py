@@ -15,7 +15,7 @@ from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import growing
 from conveyor.report.files import plain
-from conveyor.studies.explored import varied
+from conveyor.studies.evaluation import varied
 from conveyor.studies.points import OUTPUTS
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, labelled, unit
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from conveyor.models.study import Value
     from conveyor.studies.campaign import Campaign, Keyed
     from conveyor.studies.designs import Design
-    from conveyor.studies.explored import Explored, VariedField
+    from conveyor.studies.evaluation import Explored, VariedField
 
 PART: Final = 1024
 """Points of a part of a table that is written while its study runs."""
