@@ -58,11 +58,11 @@ class Scene:
         """Ln of what is held: the load p̃_m, or the depth Δ/R."""
         return math.log(self.problem.pressure if self.depth is None else self.depth)
 
-    def measure(self, system: System, contact: Contact) -> float:
+    def measure(self, system: Equations, contact: Contact) -> float:
         """Ln of the same of a contact."""
         return math.log(contact.pressure[0] if self.depth is None else self.depth_of(system, contact))
 
-    def depth_of(self, system: System, contact: Contact) -> float:
+    def depth_of(self, system: Equations, contact: Contact) -> float:
         """Δ/R of a contact."""
         return system.depth(self.rule(float(contact.alpha[0])), self.creep, contact, self.problem.rho)
 
@@ -74,21 +74,21 @@ class Scene:
             rule = self.rules["solve"] = build_rule(self.problem.layer, self.creep, widest)
         return rule
 
-    def system(self, alpha: float, n: int, last: int) -> System:
+    def system(self, alpha: float, n: int, last: int) -> Equations:
         """Galerkin equations of one contact: order n, with the orders up to `last` eliminated where that is more."""
         self.matrices += 1
         place = np.array([alpha])
         if last == n:
             matrix = assemble(self.rule(alpha), self.creep, place, n)
-            return System(matrix, [nested(matrix)])
+            return Equations(matrix, [nested(matrix)])
         ik = ProductIK(n, place[:, None] / self.creep.times)
         matrix = assemble(self.rule(alpha), self.creep, place, n, ik)
         tail = Tail.of(alpha, self.creep, n, last)
-        return System(*tail.closed(matrix, ik), tail, ik)
+        return Equations(*tail.closed(matrix, ik), tail, ik)
 
 
 @dataclass(frozen=True, eq=False)
-class System:
+class Equations:
     """Equations of one contact, shape (1, n+1, n), and pairs of lower orders of them, half and three quarters."""
 
     matrix: Array
@@ -119,5 +119,5 @@ class State:
     """A contact at one order, its equations, and how far its load is off (relative)."""
 
     contact: Contact
-    system: System
+    system: Equations
     miss: float

@@ -401,7 +401,7 @@ def coverage(comparison: CalculatedComparison) -> Table:
 
 def refused(comparison: CalculatedComparison) -> Table:
     """Scenes without an answer, and why."""
-    columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", attrgetter("reason")))
+    columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", lambda row: degrees(row.reason)))
     heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
     return Table("refused", "Coverage", heading, columns, rows, (OnPage("refused", heading),))
 

@@ -14,7 +14,7 @@ from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPa
 from conveyor.report.representations import folded, of_figures, of_table
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
-from conveyor.units.sentences import Said, quoted, said
+from conveyor.units.sentences import Said, degrees, quoted, said
 
 if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
@@ -111,7 +111,7 @@ def refused_states(study: CalculatedStates) -> Table:
     columns = (
         Column("state", "text", attrgetter("name")),
         Column("temperature", "temperature", attrgetter("temperature")),
-        Column("reason", "text", attrgetter("reason")),
+        Column("reason", "text", lambda row: degrees(row.reason)),
     )
     heading = "Load states without an answer"
     return Table("refused_states", "Load cases", heading, columns, study.refused, (OnPage(_STATES, heading),))
@@ -204,7 +204,7 @@ def refused(study: CalculatedCases) -> Table:
     columns = (
         Column("case", "text", attrgetter("case")),
         *_AT,
-        Column("reason", "text", attrgetter("reason")),
+        Column("reason", "text", lambda row: degrees(row.reason)),
     )
     heading = "Cases without an answer"
     return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))

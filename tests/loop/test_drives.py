@@ -109,7 +109,7 @@ def test_motors_that_get_stuck_on_their_way_fail():
     conveyor = line(drive={"torque_curve": weak})
     found = closed(conveyor)
     assert motions(found).start.time is None
-    assert any("in their run-up" in why for why in told(conveyor, found))
+    assert any("during run-up" in why for why in told(conveyor, found))
 
 
 def test_run_up_under_a_falling_force_is_the_exponential_of_a_viscous_drag():

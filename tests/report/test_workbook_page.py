@@ -44,6 +44,8 @@ def _column(key, name):
         words = "<state>"
     if key == "power_<n>" and words != "temperature":
         words = "<compound>"
+    if key == "landings" and words != "quantity":
+        words = "<loading point>"
     return re.sub(r"motor power, [\d.]+ x friction", "motor power, <n> x friction", words), unit
 
 

@@ -20,6 +20,7 @@ from conveyor.pipeline import Variant, calculate, calculate_many
 from conveyor.spec import load
 from conveyor.studies.cases import CalculatedCases, analyse_cases
 from conveyor.units import quantity, si
+from conveyor.units.sentences import degrees
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 ROUNDING = 1e-11
@@ -374,7 +375,7 @@ def test_cases_without_an_answer_are_listed_with_their_reason(line):
     assert "the belt holds" in surge
     assert "the belt holds" in slow
     told = [check for check in study.checks if check.key == "case_answer"]
-    assert [check.why.text() for check in told] == [hot, surge, slow]
+    assert [check.why.text() for check in told] == [degrees(hot), surge, slow]
     assert {(check.found.text(), check.verdict) for check in told} == {("none to 3 of 4", "FAIL")}
 
 

@@ -216,7 +216,7 @@ def service_roll_drag(
     >>> drag = service_roll_drag(
     ...     250.0, belt_speed=5.41, roll_diameter=0.159, roll_length=0.465, air_temperature=293.15
     ... )
-    >>> round(drag.force, 1), round(drag.bearing_temperature - 293.15, 1)
+    >>> round(float(drag.force), 1), round(float(drag.bearing_temperature) - 293.15, 1)
     (2.4, 4.0)
     """
     load = np.asarray(roll_load, dtype=float)
