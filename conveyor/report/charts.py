@@ -30,11 +30,8 @@ _RED = "B3261E"
 _STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
 _TALL = 13.0  # highest area of a chart that is drawn to scale [cm]
 _STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
-_BESIDE, _KEY, _AROUND = (
-    2.4,
-    4.6,
-    3.2,
-)  # beside, for the key of, and round the area of a chart that is drawn to scale [cm]
+# beside, for the key of, and round the area of a chart that is drawn to scale [cm]
+_BESIDE, _KEY, _AROUND = 2.4, 6.4, 3.2
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
