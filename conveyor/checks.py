@@ -19,6 +19,7 @@ from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
 from conveyor.line.covers import compounds_by_strand
+from conveyor.line.line import Line
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.loop.belt_duty import CurveCheck, TransitionCheck
@@ -781,18 +782,21 @@ def holding(result: CalculatedConveyor) -> Iterator[Check]:
     moving, line = result.motions, result.line
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
-    shown = None if given else said("no brake or backstop given")
+    shown = None if given else said("no brake given")
     if moving.brake_to_hold > 0.0:
         what = "backstop" if moving.rolls_back else "brake"
+        bear = _backstops(line) if moving.rolls_back else ()
+        known = given or bool(bear)
+        none = "no brake given, nor what a backstop bears" if moving.rolls_back else "no brake given"
         why = said(
             f"the loaded belt needs a {what} of {{}} at the belt to stay at rest",
             (moving.brake_to_hold, "force"),
         )
         made = compared(
-            "holding_brake", f"holding {what}, loaded belt", brakes, "at least", moving.brake_to_hold, "force",
-            wording=shown, why=why,
+            "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
+            moving.brake_to_hold, "force", wording=None if known else said(none), why=why,
         )  # fmt: skip
-        yield made if given else replace(made, verdict="not checked")
+        yield made if known else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
         why = said(
             "drive.stop_deceleration requires brakes of {} at the belt, given: {}",
@@ -803,6 +807,16 @@ def holding(result: CalculatedConveyor) -> Iterator[Check]:
             "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
             "force", wording=shown, why=why,
         )  # fmt: skip
+
+
+def _backstops(line: Line) -> tuple[float, ...]:
+    """What the backstops of given torque bear at the belt [N]."""
+    parts = ((drive.parts, drive.radius) for drive in line.drives)
+    return tuple(
+        part.backstop / radius
+        for part, radius in parts
+        if part is not None and part.backstop is not None and radius is not None
+    )
 
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:

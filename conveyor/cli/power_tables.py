@@ -72,7 +72,7 @@ def _head(screen: Console, contents: Contents) -> None:
     if about.said:
         screen.print(words(", ".join(said)))
     facts = {row.label: row.unit(system).brief(row.value) for row in contents["identity"].rows}
-    material = facts["material"].rpartition(",")[0]
+    material = facts["material"].rpartition(", ")[0]  # without its density
     screen.print(
         words(
             f"{material}, {facts['mass flow']} over {facts['length']}, lift {facts['lift']}\n"

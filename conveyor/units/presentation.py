@@ -160,7 +160,7 @@ class Unit:
         >>> unit("force", large=True).said(168734.4), unit("force", "US", large=True).said(168734.4)
         ('168.7 kN', '37,933 lbf')
         """
-        return f"{self.written(value)} {self.sign}".rstrip()
+        return self._with_sign(self.written(value))
 
     def brief(self, value: float | str) -> str:
         """One SI value to four digits with its unit, for sentences; words as they are.
@@ -176,7 +176,7 @@ class Unit:
         written = f"{number:.4g}"
         if 1000.0 <= abs(float(written)) < _HUGE:
             written = f"{float(written):,.0f}"
-        return f"{written} {self.sign}".rstrip()
+        return self._with_sign(written)
 
     def short(self, value: float | str | None) -> str:
         """One SI value to three digits with its unit, for what is read first; words as they are.
@@ -193,11 +193,15 @@ class Unit:
         number = self.shown(value)
         if not isinstance(number, float) or self.digits.endswith("%"):
             return self.written(value)
-        return f"{rounded(number)} {self.sign}".rstrip()
+        return self._with_sign(rounded(number))
 
     def converted(self, value: Quantity) -> str:
         """A quantity as a spec gives it, in this unit, for sentences."""
         return self.written(si(value)) if self.digits.endswith("%") else self.brief(si(value))
+
+    def _with_sign(self, number: str) -> str:
+        """A number and its unit, with a space between them but for degrees of arc (SI brochure 5.4.3)."""
+        return f"{number}{self.sign}" if self.sign == "°" else f"{number} {self.sign}".rstrip()
 
     def beside(self, words: str) -> str:
         """Words with the unit in brackets, for an axis.

@@ -61,8 +61,8 @@ def figure(value: float, kind: str, system: System = "SI") -> str:
     number, sign = convert(value, kind, system), unit_label(kind, system)
     if sign == "N" and abs(number) >= _KILO:
         number, sign = number / _KILO, "kN"
-    sign = sign.replace("^2", "²").replace("^3", "³").replace("deg", "°")
-    return f"{rounded(number)} {sign}".rstrip()
+    sign = sign.replace("^2", "²").replace("^3", "³").replace("deg", "°").replace("*", " ")
+    return f"{rounded(number)}°" if sign == "°" else f"{rounded(number)} {sign}".rstrip()
 
 
 def belt_strength(value: float, system: System = "SI") -> str:
