@@ -160,15 +160,20 @@ class AnalysisPlots:
         self, studies: CalculatedStudies | None = None, *, system: System | None = None
     ) -> dict[str, Figure]:
         """All of these by name, and those of the studies where they are given."""
-        conveyor = self.analysis.conveyor
+        result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
         made = {
             "resistances": self.resistances(system=system),
             "tensions": self.tensions(system=system),
             "profile": self.profile(system=system),
-            **({} if self.analysis.trajectory is None else {"trajectory": self.trajectory(system=system)}),
+            **(
+                {"plan": self.plan(system=system), "drift": self.drift(system=system)}
+                if result.horizontal
+                else {}
+            ),
+            **({} if result.trajectory is None else {"trajectory": self.trajectory(system=system)}),
             "pressure": self.pressure(system=system),
-            **({"flap": self.flap(system=system)} if self.analysis.set_duty else {}),
+            **({"flap": self.flap(system=system)} if result.set_duty else {}),
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),

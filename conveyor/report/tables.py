@@ -1289,9 +1289,9 @@ def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
 
 def bands(excited: Getter, data: Getter) -> Iterator[Column]:
     """What the rolls excite and what the data hold: numbers in workbook and files, bands in words on the page."""
-    for name, get in (("excited", excited), ("data", data)):
-        yield Column(f"{name} from", "frequency", _end(get, 0), page=None)
-        yield Column(f"{name} to", "frequency", _end(get, 1), page=None)
+    for name, kind, get in (("excited", "passing", excited), ("data", "frequency", data)):
+        yield Column(f"{name} from", kind, _end(get, 0), page=None)
+        yield Column(f"{name} to", kind, _end(get, 1), page=None)
     for name, get in (("excitation band", excited), ("band of the data", data)):
         yield Column(name, "frequency", _words(get), sheet=False)
 

@@ -147,3 +147,22 @@ def test_a_level_route_is_drawn_level():
     shuttle = conveyor.load(SPECS / "shuttle.yaml")
     low, high = conveyor.analyse(shuttle).plots.profile(system="SI").axes[0].get_ylim()
     assert (low, high) == pytest.approx((-0.05 * 24.0, 0.05 * 24.0))
+
+
+@pytest.mark.parametrize(
+    ("spec", "more"), [("curved", {"plan", "drift"}), ("transfer", {"trajectory", "flap"})]
+)
+def test_what_a_spec_asks_for_is_drawn(studied, monkeypatch, spec, more):
+    result, _ = studied(spec)
+    for name in ("power_against_temperature", "power_against_speed"):  # of every conveyor, and slow
+        monkeypatch.setattr(type(result.plots), name, lambda *_, **__: None)
+    usual = {
+        "resistances",
+        "tensions",
+        "profile",
+        "pressure",
+        "rubber-carry",
+        "power-temperature",
+        "power-speed",
+    }
+    assert set(result.plots.every()) - {"rubber-return"} == usual | more
