@@ -25,10 +25,8 @@ Array = NDArray[np.float64]
 
 _BLOCK = 32
 _SEGMENT = 4096  # orders whose tables are held together
-_SMOOTH, _PLAIN = (
-    8,
-    4,
-)  # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
+# sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
+_SMOOTH, _PLAIN = 8, 4
 
 
 def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:

@@ -29,16 +29,10 @@ Array = NDArray[np.float64]
 FORGETS: Final = 0.4
 """Thickness k h of an incompressible bonded layer up to which the next roll changes strains by less than 1e-3: four
 (h/λ)³, as of friction (`indentation.MEMORY`)."""
-_REACH: Final = (
-    1.2  # thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4
-)
-_GRADED: Final = (
-    0.0,
-    0.02,
-    0.1,
-    0.4,
-    1.2,
-)  # edges of panels in m α, where the strain rises from nothing as (m h)²
+_REACH: Final = 1.2
+"""Thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4."""
+_GRADED: Final = (0.0, 0.02, 0.1, 0.4, 1.2)
+"""Edges of panels in m α, where the strain rises from nothing as (m h)²."""
 _PHASE: Final = 8.0  # radians a panel at most: 8 Gauss nodes integrate its waves to 1e-6
 _GAUSS: Final = 8
 _CHUNK: Final = 8  # contacts at once: few enough for the cache
