@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping
 from datetime import date
@@ -45,6 +46,8 @@ _STANDS = Look(
 _FAILS = Look(
     Font(name="Calibri", size=12, bold=True, color="9B1C1C"), PatternFill("solid", fgColor="FDEBEB")
 )
+_MOST_CHECKS: Final = 28
+"""Rows of checks that the first page has room for."""
 _ROW: Final = 15.0  # [pt]
 _GAP: Final = 7.0  # [pt]
 _LINE: Final = 118
@@ -201,8 +204,16 @@ def _pictures(page: Page, row: int, places: Mapping[str, tuple[Worksheet, TableP
     return _gap(page.sheet, row + (_CHART_ROWS if made else 0))
 
 
+def _margin(check: Any) -> float:
+    """How far a check is from failing; one without a margin is farthest."""
+    return math.inf if check.margin is None else check.margin
+
+
 def _checked(page: Page, row: int) -> int:
-    """Of every criterion the check that governs, and all that failed; the way to the others and to the warnings."""
+    """Of every criterion the check that governs, and all that failed; the way to the others and to the warnings.
+
+    Where the page has no room for so many, those that pass by the widest margin are left out.
+    """
     sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
@@ -210,7 +221,10 @@ def _checked(page: Page, row: int) -> int:
     header_row(sheet, row + 1, 1, ("check", "", "", "calculated, required", "margin", "case", "verdict"))
     sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
     written = unit("share", system)
-    shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
+    leading = [check for check in checks if check.leads or check.verdict == "FAIL"]
+    safe = sorted((check for check in leading if check.verdict == "pass"), key=_margin)
+    left = safe[len(safe) - max(0, len(leading) - _MOST_CHECKS) :]
+    shown = [check for check in leading if check not in left]
     i = row + 1
     for i, check in enumerate(shown, start=row + 2):
         text = f"{check.found}, {check.asked}"
@@ -230,7 +244,8 @@ def _checked(page: Page, row: int) -> int:
         _coloured(sheet, i, VERDICTS[check.verdict])
     if len(shown) < len(checks):
         i += 1
-        words = f"of every criterion the least margin; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
+        which = "the least margins" if left else "of every criterion the least margin"
+        words = f"{which}; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
         put(sheet.cell(i, 1), words, GREY)
     kinds = ("warning", "assumption")
     said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)
