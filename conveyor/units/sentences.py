@@ -40,14 +40,14 @@ def rounded(number: float) -> str:
 
 
 def percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
-    """Write a share in per cent, `signed` with a plus.
+    """Write a share in per cent, `signed` with a plus; what rounds to nothing has no minus.
 
     Examples
     --------
-    >>> percent(0.0222, 1), percent(-0.14), percent(0.05, signed=True)
-    ('2.2 %', '-14 %', '+5 %')
+    >>> percent(0.0222, 1), percent(-0.14), percent(0.05, signed=True), percent(-1e-9, 1)
+    ('2.2 %', '-14 %', '+5 %', '0.0 %')
     """
-    return f"{100.0 * share:{'+' if signed else ''}.{decimals}f} %"
+    return f"{100.0 * share:{'+' if signed else ''}z.{decimals}f} %"
 
 
 def figure(value: float, kind: str, system: System = "SI") -> str:
