@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.report.plots import colour, grouped, keyed, stacked, titled
-from conveyor.sizing.designs import SizedDesign
+from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.spacing import section_spacings
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from conveyor.sizing.designs import CalculatedSizing
 
 _HEIGHT, _TALL = 3.0, 2.7
+_OVER_SERIES = 1.5  # of the widest distance in the series: limits far above it say no more
 
 
 def idlers(design: SizedDesign) -> float:
@@ -70,4 +72,36 @@ def sweeps(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system
         grouped(axis.yaxis)
     keyed(axes[-1])
     titled(figure, f"{sizing.duty.name}: around the best design")
+    return figure
+
+
+def spacing(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+    """Distances of the sets of the best design along its profile, beside the widest that sag and bearings allow."""
+    figure, (profile, axis) = stacked(2, _HEIGHT + _TALL)
+    large, apart = unit("length", system, large=True), unit("spacing", system)
+    ends = np.vstack([(0.0, 0.0), np.cumsum(sizing.task.sections, axis=0)])
+    along = large(ends[:, 0])
+    profile.plot(along, large(ends[:, 1]), color="#1F4E79", marker=".")
+    profile.set(ylabel=large.beside("height over the tail"))
+    rows = list(section_spacings(sizing.task, sizing.best))
+    for k, strand in enumerate(("carry", "return")):
+        mine = [row for row in rows if row.strand == strand]
+        for values, style, wide, label in (
+            ([row.built for row in mine], "-", 2.0, f"{strand} sets"),
+            ([row.sag for row in mine], "--", 1.0, f"{strand}, widest by sag"),
+            ([row.bearings for row in mine], ":", 1.0, f"{strand}, widest by L10 of the bearings"),
+        ):
+            axis.stairs(
+                apart(np.array(values)), along, baseline=None, color=colour(k), linestyle=style, linewidth=wide,
+                label=label,
+            )  # fmt: skip
+    most = max(*sizing.task.spacings[0], *sizing.task.spacings[1])
+    axis.set(
+        xlabel=large.beside("along the belt from the tail"), ylabel=apart.beside("distance of sets"),
+        ylim=(0.0, float(apart(_OVER_SERIES * most))),
+    )  # fmt: skip
+    for each in (profile, axis):
+        grouped(each.xaxis)
+    keyed(axis)
+    titled(figure, f"{sizing.duty.name}: idler sets along the profile")
     return figure

@@ -14,7 +14,9 @@ from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Remark, checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
-from conveyor.sizing.designs import CalculatedSizing, SizedDesign
+from conveyor.sizing.designs import CalculatedSizing
+from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.spacing import section_spacings
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY
@@ -24,7 +26,7 @@ PARTS: Final = (
     ("designs", "Designs"),
     ("costs", "Costs"),
     ("around", "Around the best design"),
-    ("spacing", "Distances of the carry sets"),
+    ("spacing", "Distances of the sets"),
     ("checks", "Checks of the best design"),
     ("remarks", "What it rests on"),
     ("provenance", "Provenance"),
@@ -47,7 +49,9 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
     )  # fmt: skip
     about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
-                     partial(sizing_plots.shares, sizing, system=system), "costs")]  # fmt: skip
+                     partial(sizing_plots.shares, sizing, system=system), "costs"),
+             Drawing("spacing", "Distances of the idler sets of the best design along its profile.",
+                     partial(sizing_plots.spacing, sizing, system=system), "spacing")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
         drawn.append(
@@ -185,20 +189,30 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
 
 
 def spacing(sizing: CalculatedSizing) -> Table:
-    """Distances of the carry sets of every section, of the designs that have them graduated."""
+    """Distances of the sets of every section, of the best design and of those that have them graduated."""
     rows = [
-        (rank, section.name, section.length, apart)
+        (rank, one)
         for rank, design in enumerate(sizing.designs, start=1)
-        for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
+        if rank == 1 or design.choice.graduated
+        for one in section_spacings(sizing.task, design)
     ]
     columns = (
         Column("rank", "count", itemgetter(0), json="rank"),
-        Column("section", "text", itemgetter(1), json="section"),
-        Column("length", "length", itemgetter(2), json="length_m"),
-        Column("carry sets", "spacing", itemgetter(3), json="carry_spacing_m"),
+        Column("strand", "text", _of("strand"), json="strand"),
+        Column("section", "text", _of("section"), json="section"),
+        Column("length", "length", _of("length"), json="length_m"),
+        Column("sets", "spacing", _of("built"), json="spacing_m"),
+        Column("widest by sag", "spacing", _of("sag"), json="sag_m"),
+        Column("widest by bearings", "spacing", _of("bearings"), json="bearings_m"),
+        Column("cheapest", "spacing", _of("cheapest"), json="cheapest_m"),
     )
-    caption = "Carry sets as far apart in each section as is cheapest where sag and rolls bear it"
-    return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),))
+    caption = "Distances of the sets along the profile, and what ends them"
+    note = (
+        "Widest by sag at the lowest steady tension of the section, by the L10 asked for; cheapest of energy, "
+        "rotation and the sets themselves. Where all three are wider than the sets stand, the series ended them "
+        "(rules.carry_spacings, rules.return_spacings)"
+    )
+    return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),), note)
 
 
 def _remarks(sizing: CalculatedSizing) -> Table:
