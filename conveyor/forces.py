@@ -176,7 +176,7 @@ def without_rubber(strands: Strands) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
 
-    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strands.stretches)
+    skewed = any(stretch.turn is not None and stretch.turn.guided for stretch in strands.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
         guidance=each(_guidance) if skewed else None,

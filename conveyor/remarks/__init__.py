@@ -59,6 +59,11 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
         f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
         "into the banking at the ends of a curve, and edge rolls, are left out."
     )
+    if 1 in {conveyor.idlers.carry.rolls, conveyor.idlers.return_.rolls}:
+        yield (
+            "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its place "
+            "(derived): the belt comes in along the middle and drifts all along the curve; its drift is that at the end."
+        )
     if conveyor.ambient.wind_speed is not None:
         yield (
             f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across "

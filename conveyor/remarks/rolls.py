@@ -259,7 +259,7 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
     widest, idlers_of = widest_spacings(), result.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in result.line.stretches if stretch.strand == strand]
-        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.skew for s in stretches):
+        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield said(
                 f"idlers.{strand}: tilt or skew with μ0 = {friction:g}, general knowledge, not a source"

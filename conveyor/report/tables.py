@@ -1058,8 +1058,8 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
-        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
-        "its rolls, or no radius is too large."
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. Of a flat set: at the "
+        "end of the curve, with the worse of both. ∞: the belt runs off its rolls, or no radius is too large."
     )
     page = (OnPage("belt", "Horizontal curves"),)
     return Table(
