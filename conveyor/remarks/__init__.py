@@ -61,8 +61,8 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
     )
     if 1 in {conveyor.idlers.carry.rolls, conveyor.idlers.return_.rolls}:
         yield (
-            "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its place "
-            "(derived): the belt comes in along the middle and drifts all along the curve; its drift is that at the end."
+            "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its "
+            "place (derived): the belt comes in along the middle and drifts all along; its drift is that at the end."
         )
     if conveyor.ambient.wind_speed is not None:
         yield (
