@@ -826,12 +826,12 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
         name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
         if parts.backstop is not None and duty.backstop is not None:
             why = said(
-                f'the backstop of "{name}" bears {{}}, {{}} are asked of it', (parts.backstop, "moment"),
-                (duty.backstop, "moment"),
+                f'the backstop of "{name}" bears {{}}, {{}} are asked of it', (parts.backstop, "torque"),
+                (duty.backstop, "torque"),
             )  # fmt: skip
             yield compared(
                 "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
-                "moment", why=why, where="holding" if duty.backstop == duty.holding else "motors stalled",
+                "torque", why=why, where="holding" if duty.backstop == duty.holding else "motors stalled",
             )  # fmt: skip
         if parts.heat is not None and duty.heat is not None:
             why = said(

@@ -63,7 +63,7 @@ def landings(a: CalculatedConveyor) -> Table:
     )
     every = [(label, kind, tuple(get(each) for each in shown)) for label, kind, get in figures_of]
     known = tuple(
-        Figure(label, kind, values if len(shown) > 1 else values[0])
+        Figure(label, kind, values)
         for label, kind, values in every
         if any(value is not None for value in values)
     )
@@ -76,7 +76,7 @@ def landings(a: CalculatedConveyor) -> Table:
 
 
 def _of_point(i: int) -> Any:
-    return lambda row: row.value[i] if isinstance(row.value, tuple) else row.value
+    return lambda row: row.value[i]
 
 
 def cleaners(a: CalculatedConveyor) -> Table:
