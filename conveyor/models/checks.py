@@ -268,11 +268,12 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
     if conveyor.calculation.support != "belt":
         return
     carcass = conveyor.belt.carcass
-    usual = None if carcass.strength is None else usual_stiffness(si(carcass.strength), carcass=carcass.kind)
+    strength, rating = (None if each is None else si(each) for each in (carcass.strength, carcass.rating))
+    usual = usual_stiffness(strength, rating=rating, carcass=carcass.kind)
     if carcass.stiffness is None and usual is None:
         message = (
-            'missing: calculation.support "belt" needs it; give it, or the strength of a carcass of steel cord, EP or '
-            "polyamide"
+            'missing: calculation.support "belt" needs it; give it, or strength or rating of a carcass of steel '
+            "cord, EP or polyamide"
         )
         yield Problem(("belt", "carcass", "stiffness"), message)
     for name, cover in (("bottom_cover", conveyor.belt.bottom_cover), ("top_cover", conveyor.belt.top_cover)):

@@ -237,7 +237,7 @@ def _contact(result: CalculatedConveyor) -> Iterator[Said]:
                 f"({CARCASS_BENDING.low:g} to {CARCASS_BENDING.high:g}; general knowledge)"
             )
         if conveyor.belt.carcass.stiffness is None:
-            yield said("belt.carcass.stiffness not given: a usual multiple of the strength taken")
+            yield said("belt.carcass.stiffness not given: a usual multiple of strength or rating taken")
         if conveyor.calculation.flexure is not None and conveyor.calculation.flexure.belt is not None:
             yield said('calculation.flexure.belt is not used: support "belt" includes that loss')
     elif support != "confined":

@@ -75,7 +75,9 @@ _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
 """Sections of like rolls that are named."""
-_USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its strength (general knowledge)."
+_USUAL_STIFFNESS: Final = (
+    "The belt's stiffness is a usual multiple of its strength (general knowledge) or rating (CEMA)."
+)
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
