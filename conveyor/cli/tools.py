@@ -110,6 +110,7 @@ def template(
 @app.command(
     epilog=examples(
         "conveyor schema > conveyor.schema.json",
+        "conveyor schema --duty > duty.schema.json",
         "conveyor schema --result > result.schema.json",
         "conveyor schema --markdown > spec.md",
     )
@@ -121,10 +122,13 @@ def schema(
     result: Annotated[
         bool, typer.Option("--result", help="Print the JSON schema of what --json prints.")
     ] = False,
+    duty: Annotated[
+        bool, typer.Option("--duty", help="Print the JSON schema of a duty to be sized.")
+    ] = False,
 ) -> None:
-    """Print the JSON schema of a spec, for editors, or of results; or the reference of the file formats."""
-    if markdown and result:
-        raise InputError("--markdown, --result: give one of them")
+    """Print the JSON schema of a spec, for editors, of a duty or of results; or the reference of the file formats."""
+    if markdown + result + duty > 1:
+        raise InputError("--markdown, --result, --duty: give one of them")
     if result:
         from conveyor.report.result_schema import result_schema
 
@@ -135,9 +139,11 @@ def schema(
 
         print_text(written())
         return
+    from conveyor.models import Conveyor
+    from conveyor.models.sizing import SizingDuty
     from conveyor.spec import schema as build
 
-    print_json(build())
+    print_json(build(SizingDuty if duty else Conveyor))
 
 
 @app.command(
