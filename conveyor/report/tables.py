@@ -887,7 +887,8 @@ def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
         Column("heat of a stop", "heat", worst(max, attrgetter("heat")), sparse=True),
         Column("rise of the disc", "rise", worst(max, attrgetter("disc_rise")), sparse=True),
         Column("motor power, uncontrolled", "power",
-               worst(max, lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+               worst(partial(max, key=abs), lambda duty: None if duty.shared is None else motor(duty.shared)),
+               sparse=True),
     )  # fmt: skip
     note = (
         "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "

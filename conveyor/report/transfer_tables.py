@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
 from conveyor.report.plots import colour, keyed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
+from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
@@ -93,6 +95,8 @@ def cleaners(a: CalculatedConveyor) -> Table:
     given = a.line.carryback[0] is not None
     rows = tuple(enumerate(a.cleanings, start=1)) if given else ()
     note = "Every cleaner takes the same share of what reaches it; over the width of its blade."
+    if any("efficiency" not in each.model_fields_set for each in a.conveyor.route.cleaners or ()):
+        note += f" Efficiency not given: {percent(CLEANER_EFFICIENCY.value)} (general knowledge)."
     heading = "Cleaners"
     return Table("cleaners", SHEET, heading, columns, rows, (OnPage(_PAGE, heading),), note)
 
