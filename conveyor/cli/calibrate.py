@@ -98,7 +98,7 @@ def _show(calibration: CalibrationStudy, system: System) -> None:
     screen = console()
     runs = calibration_tables.runs(calibration).only(*_OF_RUNS)
     for part in (calibration_tables.factors(calibration), calibration_tables.correlation(calibration), runs):
-        if not part.empty:
+        if part.rows:
             screen.print(grid(part, system), "")
             if part.note:
                 say(part.note, "")

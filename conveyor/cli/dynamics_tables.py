@@ -36,10 +36,10 @@ def _sizes(screen: Console, contents: Contents) -> None:
     by_key = {column.key: column for column in shown.columns}
     for row in shown.rows:
         written = row.unit(contents.system)
-        error, most = by_key["to"].get(row), by_key["serves_up_to"].get(row)
-        said = f"{by_key['scenario'].get(row)}: {row.label} {written.said(by_key['found'].get(row))}"
+        error, most = by_key["to"].value(row), by_key["serves_up_to"].value(row)
+        said = f"{by_key['scenario'].value(row)}: {row.label} {written.said(by_key['found'].value(row))}"
         said += "" if error is None else f", to {percent(error, 1)}"
         said += "" if most is None else f"; up to {written.said(most)} serves"
-        governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
+        governs, why = by_key["governing_check"].value(row), by_key["what_fails_with_less"].value(row)
         said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"
         screen.print(words(said))

@@ -196,9 +196,9 @@ def _states(states: Table, system: System) -> Grid:
         made.add_column(heading, justify="right" if heading in figures.values() else "left")
     columns = {column.key: column for column in states.columns}
     for row in states.rows:
-        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
-        at = unit("temperature", system).brief(columns["temperature"].get(row))
-        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
+        said = [unit(columns[key].kind, system, large=True).said(columns[key].value(row)) for key in figures]
+        at = unit("temperature", system).brief(columns["temperature"].value(row))
+        made.add_row(words(columns["state"].value(row)), words(columns["sections_loaded"].value(row)), at, *said)
     return made
 
 
@@ -206,7 +206,7 @@ def _cases(cases: Table, system: System) -> Grid:
     made = table("governing load cases")
     for heading in ("figure", "value", "case", "at"):
         made.add_column(heading, justify="right" if heading == "value" else "left")
-    get = {column.key: column.get for column in cases.columns}
+    get = {column.key: column.value for column in cases.columns}
     for row in cases.rows:
         at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
         value = unit(row.kind, system, large=True).said(get["value"](row))
@@ -227,13 +227,13 @@ def _year(figures: Iterable[Figure], system: System) -> Grid:
 
 def _ranges(screen: Console, contents: Contents) -> None:
     power, band = unit("power", contents.system, large=True), contents["power_band"]
-    ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
+    ends = [band.columns[band.index(key)].value for key in ("motor_power_low", "motor_power_high")]
     said = " to ".join(power.said(end(band.rows[0])) for end in ends)
     exact = [
         f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER:]
     ]
     inputs = contents["sensitivity"]
-    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
+    first = ", ".join(inputs.columns[0].value(row) for row in inputs.rows[:_MATTERS])
     screen.print(words("\nuncertainty", style="bold"))
     said = f"motor power {said} (90 % interval){''.join(exact)}; most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))

@@ -24,7 +24,7 @@ def show(contents: Contents) -> None:
     screen.print(grid(every.only(*_SHOWN), contents.system, title, large=True))
     why = next(column for column in every.columns if column.key == "why")
     for rank, row in enumerate(every.rows, start=1):
-        screen.print(words(f"{rank}: {why.get(row)}"))
+        screen.print(words(f"{rank}: {why.value(row)}"))
     screen.print(words("\nbasis and limitations", style="bold"))
     for line in merged(contents.lines("assumption")):
         screen.print(words(wrapped(line, screen.width, first="  - ", further="    ")))

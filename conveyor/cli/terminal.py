@@ -66,7 +66,7 @@ def grid(part: Part, system: System, title: str | None = None, *, large: bool = 
             for column in part.columns
         )
         made.add_row(*(
-            words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
+            words(cell.written(column.value(row))) for cell, column in zip(cells, part.columns, strict=True)
         ))  # fmt: skip
     return made
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from operator import attrgetter, itemgetter
+from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -15,9 +15,9 @@ from conveyor.dynamics.follow import CalculatedDynamics, Followed
 from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
 from conveyor.report import dynamics_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, slug
+from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, noted, slug
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Further, Remark, checked, document, provenance, told
+from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
@@ -32,7 +32,7 @@ PARTS: Final = (
 )
 """Parts of the page; a conveyor's has the first and the fourth among its own."""
 _SAMPLES = 200  # rows of histories of a scenario
-_SCENARIO = Column("scenario", "text", itemgetter(0), json="scenario")
+_SCENARIO = Column("scenario", "text", "0", json="scenario")
 
 
 def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
@@ -64,20 +64,15 @@ def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
         scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
     ):  # fmt: skip
         table = made(dynamics)
-        if not table.empty:
+        if table.rows:
             yield table
 
 
-def _row(get: str) -> Any:
-    """Of a row that begins with its scenario."""
-    return lambda row: attrgetter(get)(row[1])
-
-
 _PEAKS: Final = (
-    Column("highest tension", "force", _row("highest"), json="highest_N"),
-    Column("at", "duration", _row("highest_at"), json="highest_at_s"),
-    Column("lowest tension", "force", _row("lowest"), json="lowest_N"),
-    Column("at", "duration", _row("lowest_at"), json="lowest_at_s", key="lowest_at"),
+    Column("highest tension", "force", "1.highest", json="highest_N"),
+    Column("at", "duration", "1.highest_at", json="highest_at_s"),
+    Column("lowest tension", "force", "1.lowest", json="lowest_N"),
+    Column("at", "duration", "1.lowest_at", json="lowest_at_s", key="lowest_at"),
 )
 
 
@@ -88,30 +83,26 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
         i = int(one.record.highest.argmax() if high else one.record.lowest.argmin())
         return float((one.record.highest_at if high else one.record.lowest_at)[i]), one.place(i)
 
-    def col(label: str, kind: str, get: Any, json: str) -> Column:
-        return Column(label, kind, get, json=json)
-
     columns = (
-        col("scenario", "text", attrgetter("name"), "scenario"),
-        col("followed for", "duration", lambda r: float(r.times[-1]), "duration_s"),
-        col("highest tension", "force", attrgetter("highest"), "highest_tension_N"),
-        col("at", "duration", lambda r: peak(r, high=True)[0], "highest_at_s"),
-        col("in", "text", lambda r: peak(r, high=True)[1], "highest_in"),
-        col("lowest tension", "force", attrgetter("lowest"), "lowest_tension_N"),
+        Column("scenario", "text", "name", json="scenario"),
+        Column("followed for", "duration", lambda r: float(r.times[-1]), json="duration_s"),
+        Column("highest tension", "force", "highest", json="highest_tension_N"),
+        Column("at", "duration", lambda r: peak(r, high=True)[0], json="highest_at_s"),
+        Column("in", "text", lambda r: peak(r, high=True)[1], json="highest_in"),
+        Column("lowest tension", "force", "lowest", json="lowest_tension_N"),
         Column("at", "duration", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
         Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
-        col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
-        col("stops after", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
-        col("way", "length", attrgetter("way"), "way_m"),
-        Column("error of the peaks", "share", attrgetter("error"), json="error"),
-        Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
-        Column("cells", "count", lambda r: r.middles.size, None, json="cells"),
-        Column("step", "time", lambda r: r.record.step, None, json="step_s"),
+        Column("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()),
+               json="highest_speed_m_per_s"),
+        Column("stops after", "duration", lambda r: r.rests_at if r.stops else None, json="rest_s"),
+        Column("way", "length", "way", json="way_m"),
+        Column("error of the peaks", "share", "error", json="error"),
+        Column("energy missing", "error", "missing_energy", None, json="energy_error"),
+        Column("cells", "count", "middles.size", None, json="cells"),
+        Column("step", "time", "record.step", None, json="step_s"),
     )  # fmt: skip
     caption = "Starts and stops; distance is that of the belt at the first drive"
-    return Table(
-        "scenarios", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
-    )
+    return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
 class SizeRow(NamedTuple):
@@ -141,13 +132,13 @@ class SizeRow(NamedTuple):
 def sizes(dynamics: CalculatedDynamics) -> Table:
     """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
     columns = (
-        Column("sought", NAMED, attrgetter("label"), json="sought"),
-        Column("scenario", "text", attrgetter("size.scenario"), json="scenario"),
-        Column("found", OF_ROW, attrgetter("size.value"), json="value"),
-        Column("to", "share", attrgetter("size.error"), json="error"),
-        Column("serves up to", OF_ROW, attrgetter("size.most"), json="most"),
-        Column("governing check", "text", attrgetter("size.governs"), json="governs"),
-        Column("what fails with less", "text", attrgetter("size.why"), json="fails_with_less"),
+        Column("sought", NAMED, "label", json="sought"),
+        Column("scenario", "text", "size.scenario", json="scenario"),
+        Column("found", OF_ROW, "size.value", json="value"),
+        Column("to", "share", "size.error", json="error"),
+        Column("serves up to", OF_ROW, "size.most", json="most"),
+        Column("governing check", "text", "size.governs", json="governs"),
+        Column("what fails with less", "text", "size.why", json="fails_with_less"),
     )
     rows = [SizeRow(size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
@@ -195,9 +186,7 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
         Column("carriage, in", "length", take_up(attrgetter("travel"), np.min), json="carriage_in_m"),
     )  # fmt: skip
     caption = "Drives and take-up; brake and backstop as they act at the belt, the carriage against its begin"
-    return Table(
-        "scenario_drives", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
-    )
+    return Table("scenario_drives", "Scenarios", caption, columns, rows, "dynamics", named=2)
 
 
 def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
@@ -215,12 +204,10 @@ def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
         for i in range(len(one.line.pulleys))
         for peak in (at_pulley(one, i),)
     ]
-    columns = (_SCENARIO, Column("pulley", "text", _row("section"), json="pulley"), *_PEAKS,
+    columns = (_SCENARIO, Column("pulley", "text", "1.section", json="pulley"), *_PEAKS,
                Column("safety of the belt", "ratio", safety, json="safety", sparse=True))  # fmt: skip
     caption = "Highest and lowest tension of the belt at every pulley"
-    return Table(
-        "scenario_pulleys", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
-    )
+    return Table("scenario_pulleys", "Scenarios", caption, columns, rows, "dynamics", named=2)
 
 
 def splice_tensions(dynamics: CalculatedDynamics) -> Table:
@@ -236,15 +223,13 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
         )  # fmt: skip
 
     columns = (
-        Column("scenario", "text", attrgetter("name"), json="scenario"),
+        Column("scenario", "text", "name", json="scenario"),
         Column("highest tension per width", "strength", lambda r: r.highest / belt.width, json="highest_N_per_mm"),
         Column("lowest tension per width", "strength", lambda r: r.lowest / belt.width, json="lowest_N_per_mm"),
         Column("required strength, as if steady", "strength", needed, json="strength_N_per_mm", sparse=True),
     )  # fmt: skip
     caption = "What every splice bears as it goes round; strength by its endurance (DIN 22101:2002)"
-    return Table(
-        "scenario_splices", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
-    )
+    return Table("scenario_splices", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
 def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
@@ -252,16 +237,14 @@ def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     rows = [(one.name, peak) for one in dynamics.followed for peak in peaks(one)]
     columns = (
         _SCENARIO,
-        Column("section", "text", _row("section"), json="section"),
-        Column("strand", "text", _row("strand"), json="strand"),
+        Column("section", "text", "1.section", json="section"),
+        Column("strand", "text", "1.strand", json="strand"),
         *_PEAKS,
-        Column("least for sag, steady", "force", _row("least_for_sag"), json="least_for_sag_N"),
-        Column("largest sag over the span", "share", _row("sag"), json="sag"),
+        Column("least for sag, steady", "force", "1.least_for_sag", json="least_for_sag_N"),
+        Column("largest sag over the span", "share", "1.sag", json="sag"),
     )
     caption = "Highest and lowest tension of every section and strand, from the take-up round"
-    return Table(
-        "scenario_tensions", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=3
-    )
+    return Table("scenario_tensions", "Scenarios", caption, columns, rows, "dynamics", named=3)
 
 
 def histories(dynamics: CalculatedDynamics) -> Table:
@@ -301,10 +284,7 @@ def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: Sys
         for check in every
         if check.failed and check.why is not None and check.case is not None
     ]
-    said = {"warning": warned, "assumption": dynamics.assumptions}
-    rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
-    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    return Table("remarks", "Checks and notes", "Remarks", columns, rows)
+    return noted({"warning": warned, "assumption": dynamics.assumptions})
 
 
 def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:

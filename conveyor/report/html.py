@@ -116,9 +116,9 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
     content = [_OWN[name](contents)] if name in _OWN else []
     content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == name]
     for shown in contents.parts:
-        places = [place for place in shown.page if place.part == name]
+        places = [place for place in shown.places if place.part == name]
         for place in places:
-            if place is shown.page[0] and shown.key != name:
+            if place == shown.places[0] and shown.key != name:
                 drawings = [drawing for drawing in contents.drawings if drawing.above == shown.key]
                 if drawings and name == "rubber":
                     content.append(element("h3", shown.heading))
@@ -127,7 +127,7 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
             content.append(made if place.printed else folded(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
-    every = [place for shown in contents.parts for place in shown.page if place.part == name]
+    every = [place for shown in contents.parts for place in shown.places if place.part == name]
     folded_only = bool(every) and not any(place.printed for place in every) and name not in _OWN
     return Part(name, heading, joined(content), printed=not folded_only)
 

@@ -43,7 +43,7 @@ def of_table(shown: Table, caption: str, system: System) -> Html:
 def _cell(shown: Table, column: Column, row: Any, system: System) -> str:
     if column.kind == NAMED:
         return headed(row.called(system), row.kind, system)
-    return shown.unit(column, row, system).written(column.get(row))
+    return shown.unit(column, row, system).written(column.value(row))
 
 
 def _figures(figures: Iterable[Figure], system: System) -> list[tuple[str, str]]:

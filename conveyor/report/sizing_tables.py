@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from operator import attrgetter, itemgetter
 from typing import Any, Final
 
 from conveyor.checks import checks
 from conveyor.remarks import assumptions
 from conveyor.report import sizing_plots
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Remark, checked, document, provenance
+from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
 from conveyor.sizing.designs import CalculatedSizing, SizedDesign
 from conveyor.spec import fingerprint
@@ -53,47 +51,39 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
         drawn.append(
             Drawing("around", words, partial(sizing_plots.sweeps, sizing, sweeps, system=system), "around")
         )
-    return Contents(about, tuple(part for part in parts if not part.empty), system, tuple(drawn))
+    return Contents(about, parts, system, tuple(drawn))
 
 
 def _money(sizing: CalculatedSizing) -> str:
     return f"{MONEY}{sizing.duty.prices.currency}"
 
 
-def _of(get: str) -> Callable[[Any], Any]:
-    """Of the design in a row of rank and design."""
-    return lambda row: attrgetter(get)(row[1])
-
-
 def designs(sizing: CalculatedSizing) -> Table:
     """One row a design, the cheapest in a year first."""
     money, saved = _money(sizing), sizing.best.year
 
-    def col(label: str, kind: str, get: Callable[[Any], Any], json: str) -> Column:
-        return Column(label, kind, get, json=json)
-
     columns = (
-        col("rank", "count", itemgetter(0), "rank"),
-        col("belt width", "size", _of("choice.trough.width.belt"), "width_mm"),
-        col("trough", "angle", _of("choice.trough.angle"), "trough_deg"),
-        col("speed", "speed", _of("choice.speed"), "speed_m_per_s"),
-        col("filling", "share", _of("choice.filling"), "filling"),
-        col("belt", "text", lambda row: _belt(row[1]), "belt"),
-        col("top cover", "size", _of("chosen.top"), "top_cover_mm"),
-        col("bottom cover", "size", _of("chosen.bottom"), "bottom_cover_mm"),
-        Column("compound", "text", lambda row: row[1].conveyor.carry_compound.name, json="compound"),
-        col("rolls", "size", _of("choice.roll.diameter"), "roll_diameter_mm"),
-        col("carry sets", "spacing", lambda row: _widest(row[1]), "carry_spacing_m"),
-        col("return sets", "spacing", _of("choice.back"), "return_spacing_m"),
-        col("drives", "text", _of("choice.drives"), "drives"),
-        col("motors", "power", lambda row: sum(row[1].chosen.motors), "motors_kW"),
-        col("motor power", "power", _of("found.balance.power.motor"), "motor_power_kW"),
-        col("belt safety", "ratio", _of("safety"), "belt_safety"),
-        Column("take-up", "force", _of("found.balance.settled.setting"), json="take_up_N"),
-        Column("L10 of a roll set", "life", _of("roll_life"), json="roll_life_h"),
-        col("capital", money, lambda row: float(row[1].costs.whole_capital), "capital"),
-        col("energy a year", money, lambda row: float(row[1].costs.yearly["energy"]), "energy_per_year"),
-        col("cost a year", money, _of("year"), "cost_per_year"),
+        Column("rank", "count", "0", json="rank"),
+        Column("belt width", "size", "1.choice.trough.width.belt", json="width_mm"),
+        Column("trough", "angle", "1.choice.trough.angle", json="trough_deg"),
+        Column("speed", "speed", "1.choice.speed", json="speed_m_per_s"),
+        Column("filling", "share", "1.choice.filling", json="filling"),
+        Column("belt", "text", lambda row: _belt(row[1]), json="belt"),
+        Column("top cover", "size", "1.chosen.top", json="top_cover_mm"),
+        Column("bottom cover", "size", "1.chosen.bottom", json="bottom_cover_mm"),
+        Column("compound", "text", "1.conveyor.carry_compound.name", json="compound"),
+        Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
+        Column("carry sets", "spacing", lambda row: _widest(row[1]), json="carry_spacing_m"),
+        Column("return sets", "spacing", "1.choice.back", json="return_spacing_m"),
+        Column("drives", "text", "1.choice.drives", json="drives"),
+        Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
+        Column("motor power", "power", "1.found.balance.power.motor", json="motor_power_kW"),
+        Column("belt safety", "ratio", "1.safety", json="belt_safety"),
+        Column("take-up", "force", "1.found.balance.settled.setting", json="take_up_N"),
+        Column("L10 of a roll set", "life", "1.roll_life", json="roll_life_h"),
+        Column("capital", money, "1.costs.whole_capital", json="capital"),
+        Column("energy a year", money, "1.costs.yearly.energy", json="energy_per_year"),
+        Column("cost a year", money, "1.year", json="cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _why(sizing, row[0] - 1), json="why"),
     )  # fmt: skip
@@ -101,7 +91,7 @@ def designs(sizing: CalculatedSizing) -> Table:
         "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
     )
     rows = tuple(enumerate(sizing.designs, start=1))
-    return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
+    return Table("designs", "Designs", caption, columns, rows, "designs")
 
 
 def _belt(design: SizedDesign) -> str:
@@ -134,10 +124,10 @@ def costs(sizing: CalculatedSizing) -> Table:
         for name, value in design.costs.yearly.items()
     ]
     columns = (
-        Column("rank", "count", itemgetter(0), json="rank"),
-        Column("part", "text", itemgetter(1), json="part"),
-        Column("capital", money, lambda row: None if row[2] is None else float(row[2]), json="capital"),
-        Column("a year", money, itemgetter(3), json="per_year"),
+        Column("rank", "count", "0", json="rank"),
+        Column("part", "text", "1", json="part"),
+        Column("capital", money, "2", json="capital"),
+        Column("a year", money, "3", json="per_year"),
     )
     caption = "Capital and cost of a year by part: annuity over its life, upkeep, energy"
     note = "prices are general knowledge, known to a factor of two, unless the duty gives them"
@@ -150,7 +140,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     rows = [
         (
             sweep,
-            value,
+            dict.fromkeys(("spacing", "size", "speed")) | {sweep.kind: value},
             design if isinstance(design, SizedDesign) else None,
             design if isinstance(design, str) else "",
         )
@@ -158,30 +148,23 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
         for value, design in zip(sweep.values, sweep.designs, strict=True)
     ]
 
-    def of(get: Callable[[SizedDesign], Any]) -> Callable[[Any], Any]:
-        return lambda row: None if row[2] is None else get(row[2])
-
     columns = (
-        Column("choice", "text", lambda row: row[0].name, json="choice"),
+        Column("choice", "text", "0.name", json="choice"),
+        Column("distance", "spacing", "1.spacing", json="distance_m"),
+        Column("size", "size", "1.size", json="size_mm"),
+        Column("speed", "speed", "1.speed", json="speed_m_per_s"),
+        Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
+        Column("belt", "text", lambda row: row[2] and _belt(row[2]), json="belt"),
+        Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year"),
         Column(
-            "distance", "spacing", lambda row: row[1] if row[0].kind == "spacing" else None, json="distance_m"
+            "idlers a year", money, lambda row: row[2] and sizing_plots.idlers(row[2]), json="idlers_per_year"
         ),
-        Column("size", "size", lambda row: row[1] if row[0].kind == "size" else None, json="size_mm"),
-        Column(
-            "speed", "speed", lambda row: row[1] if row[0].kind == "speed" else None, json="speed_m_per_s"
-        ),
-        Column("motor power", "power", of(attrgetter("found.balance.power.motor")), json="motor_power_kW"),
-        Column("belt", "text", of(_belt), json="belt"),
-        Column(
-            "energy a year", money, of(lambda one: float(one.costs.yearly["energy"])), json="energy_per_year"
-        ),
-        Column("idlers a year", money, of(sizing_plots.idlers), json="idlers_per_year"),
-        Column("belt a year", money, of(lambda one: float(one.costs.yearly["belt"])), json="belt_per_year"),
-        Column("cost a year", money, of(attrgetter("year")), json="cost_per_year"),
-        Column("no design because", "text", itemgetter(3), json="why"),
+        Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year"),
+        Column("cost a year", money, "2.year", json="cost_per_year"),
+        Column("no design because", "text", "3", json="why"),
     )
     caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors, brake sized again"
-    return Table("around", "Around the best", caption, columns, rows, (OnPage("around", caption),))
+    return Table("around", "Around the best", caption, columns, rows, "around")
 
 
 def spacing(sizing: CalculatedSizing) -> Table:
@@ -192,13 +175,13 @@ def spacing(sizing: CalculatedSizing) -> Table:
         for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
     ]
     columns = (
-        Column("rank", "count", itemgetter(0), json="rank"),
-        Column("section", "text", itemgetter(1), json="section"),
-        Column("length", "length", itemgetter(2), json="length_m"),
-        Column("carry sets", "spacing", itemgetter(3), json="carry_spacing_m"),
+        Column("rank", "count", "0", json="rank"),
+        Column("section", "text", "1", json="section"),
+        Column("length", "length", "2", json="length_m"),
+        Column("carry sets", "spacing", "3", json="carry_spacing_m"),
     )
     caption = "Carry sets as far apart in each section as is cheapest where sag and rolls bear it"
-    return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),))
+    return Table("spacing", "Spacing", caption, columns, rows, "spacing")
 
 
 def _remarks(sizing: CalculatedSizing) -> Table:
@@ -214,9 +197,7 @@ def _remarks(sizing: CalculatedSizing) -> Table:
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
         *assumptions(best.conveyor),
     ]
-    rows = tuple(Remark(("assumption", line)) for line in lines)
-    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    return Table("remarks", "Checks and notes", "Remarks", columns, rows, (OnPage("remarks", "Remarks"),))
+    return noted({"assumption": lines}, page="remarks")
 
 
 def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
