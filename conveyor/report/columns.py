@@ -414,12 +414,30 @@ class ReportHead:
 
 @dataclass(frozen=True)
 class Contents:
-    """What a report holds: its tables in their order, no empty ones, its drawings, the system they are in."""
+    """What a report holds.
+
+    Attributes
+    ----------
+    document : ReportHead
+        What it is of.
+    parts : tuple of Table
+        Its tables in their order, no empty ones.
+    system : str
+        Units they are in.
+    drawings : tuple of Drawing
+        Its figures.
+    page : tuple of (str, str)
+        Parts of its page and their headings; those that hold nothing are left out.
+    layout : str
+        How its workbook is laid out, if not table under table.
+    """
 
     document: ReportHead
     parts: tuple[Table, ...]
     system: System
     drawings: tuple[Drawing, ...] = ()
+    page: tuple[tuple[str, str], ...] = ()
+    layout: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(part for part in self.parts if part.rows))

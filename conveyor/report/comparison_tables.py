@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.laws.energy import Duty, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
@@ -27,6 +27,16 @@ if TYPE_CHECKING:
     from conveyor.models import Operation
     from conveyor.studies.comparison import CalculatedComparison, ComparedScene
 
+PARTS: Final = (
+    ("ranking", "Ranking"),
+    ("warnings", "Action required, basis and limitations"),
+    ("power", "Power"),
+    ("loss-tangents", "Loss tangents"),
+    ("coverage", "Coverage of the data"),
+    ("scenes", "Every scene"),
+    ("refused", "Without an answer"),
+)
+"""Parts of the page."""
 _COSTS = (
     "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
     "payback", "energy_drawn", "energy_fed_back",
@@ -63,7 +73,7 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
         ("belt speeds", _span([scene.speed for scene in comparison.scenes], "speed", system)),
     )
     about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
-    return Contents(about, parts, system, tuple(drawings(comparison, system)))
+    return Contents(about, parts, system, tuple(drawings(comparison, system)), PARTS, "comparison")
 
 
 def _span(values: list[float], kind: str, system: System) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
@@ -66,7 +66,7 @@ def of_study(study: Explored, system: System) -> Contents:
     if len(study.values):
         every = Shown(study, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
-    return Contents(about, parts, system, drawn)
+    return Contents(about, parts, system, drawn, PARTS)
 
 
 def _limit(label: str, limit: Limit) -> str:
@@ -153,13 +153,6 @@ def refused(study: Explored) -> Table:
     columns = (Column("designs", "count", "1"), Column("no answer because", "text", "0"))
     heading = "Designs without an answer"
     return Table("refused", "Refused", heading, columns, tuple(study.refused.items()), "refused")
-
-
-def drawings(study: Explored, system: System) -> Iterator[tuple[str, Any]]:
-    """Figures of a study by name; none where no design has an answer."""
-    if len(study.values):
-        for name, draw in Shown(study, system).every.items():
-            yield name, draw()
 
 
 def plain(study: Explored) -> dict[str, Any]:

@@ -44,7 +44,7 @@ def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
     )  # fmt: skip
     names = ", ".join(one.name for one in dynamics.followed)
     about = document(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(drawings(dynamics, system)))
+    return Contents(about, parts, system, tuple(drawings(dynamics, system)), PARTS)
 
 
 def further(dynamics: CalculatedDynamics, system: System) -> Further:

@@ -60,7 +60,14 @@ VERIFICATION_SHEETS: Final = {
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
+_LAYOUTS: Final[Mapping[str, Fills]] = {
+    "conveyor": SHEETS,
+    "comparison": COMPARISON_SHEETS,
+    "verification": VERIFICATION_SHEETS,
+}
+"""By the layout of a report; others have all tables of a sheet under one another."""
 _WHERE_ASKED: Final = (
+    *VERIFICATION_SHEETS,
     "Transfer",
     "Load cases",
     "Case checks",
@@ -111,11 +118,11 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
+def files(contents: Contents, path: Path) -> dict[Path, bytes]:
     """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
     live: dict[tuple[str, str], float | str] = {}
     with _uncollected():
-        book, content = build(contents, path.stem, fills, live), BytesIO()
+        book, content = build(contents, path.stem, live), BytesIO()
         try:
             book.save(content)  # by way of temporary files
         except OSError as error:
@@ -139,17 +146,10 @@ def _uncollected() -> Iterator[None]:
 
 
 def build(
-    contents: Contents,
-    stem: str = "",
-    fills: Fills | None = None,
-    live: dict[tuple[str, str], float | str] | None = None,
+    contents: Contents, stem: str = "", live: dict[tuple[str, str], float | str] | None = None
 ) -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas.
-
-    `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
-    """
-    about, own = contents.document, fills is None
-    fills = fills if fills is not None else COMPARISON_SHEETS if about.facts else SHEETS
+    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas."""
+    about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
@@ -160,7 +160,7 @@ def build(
     if front:
         book.create_sheet(FRONT)
     for title in dict.fromkeys((*fills, *contents.sheets)):
-        if title in contents.sheets or (own and title not in _WHERE_ASKED):
+        if title in contents.sheets or title not in _WHERE_ASKED:
             page = Page(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
             fills.get(title, sheets.stacked)(page)
             last = page.print_only()

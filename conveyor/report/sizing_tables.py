@@ -51,7 +51,7 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
         drawn.append(
             Drawing("around", words, partial(sizing_plots.sweeps, sizing, sweeps, system=system), "around")
         )
-    return Contents(about, parts, system, tuple(drawn))
+    return Contents(about, parts, system, tuple(drawn), PARTS)
 
 
 def _money(sizing: CalculatedSizing) -> str:

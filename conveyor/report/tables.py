@@ -69,6 +69,31 @@ from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import Said, band_words, degrees, figure, plain_figure, said
 
+PARTS: Final = (
+    ("key-figures", "Key figures"),
+    ("checks", "Checks"),
+    ("warnings", "Warnings"),
+    ("resistances", "Resistances"),
+    ("route", "Route and sections"),
+    ("tensions", "Tensions, drives and take-up"),
+    ("rolls", "Roll contacts"),
+    ("rubber", "Rubber"),
+    ("start-stop", "Start and stop"),
+    ("dynamics", "Starting and stopping"),
+    ("through-time", "Through time"),
+    ("belt", "Belt, pulleys and curves"),
+    ("transfer", "Loading, cleaning and discharge"),
+    ("load-states", "Load states"),
+    ("load-cases", "Load cases"),
+    ("duty", "Duty of a year"),
+    ("uncertainty", "Uncertainty"),
+    ("method", "Method"),
+    ("assumptions", "Assumptions"),
+    ("summary", "Figures as given"),
+    ("inputs", "Inputs"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page."""
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
@@ -151,7 +176,9 @@ def of_analysis(
     )
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     shown = () if further is None else further.drawings
-    return Contents(about, parts, system, (*drawings(analysis, system, studies), *drawn, *shown))
+    return Contents(
+        about, parts, system, (*drawings(analysis, system, studies), *drawn, *shown), PARTS, "conveyor"
+    )
 
 
 def _every_check(

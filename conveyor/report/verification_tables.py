@@ -41,7 +41,8 @@ def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
     report = Report() if sheet.conveyor is None else sheet.conveyor.report
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
     what = noted({"assumption": lines(sheet)}, ABOUT, "What these figures are")
-    return Contents(about, (what, to_fill_in(), per_width(sheet, system), per_set(sheet)), system)
+    parts = (what, to_fill_in(), per_width(sheet, system), per_set(sheet))
+    return Contents(about, parts, system, page=PARTS, layout="verification")
 
 
 def lines(sheet: CalculatedVerification) -> Iterator[str]:

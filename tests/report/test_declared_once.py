@@ -15,7 +15,7 @@ import conveyor
 from conveyor import checks as criteria
 from conveyor import pipeline
 from conveyor.checks import compared
-from conveyor.cli.power_tables import show
+from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
 from conveyor.report import excel, files, html, representations, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
@@ -99,7 +99,7 @@ def test_in_json(result):
 
 
 def test_the_terminal_takes_the_same_tables(probed, capsys):
-    show(probed)
+    show_power(probed)
     assert "effective tension" in capsys.readouterr().out
 
 
