@@ -113,7 +113,7 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
 def _write(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
     """Make a file of the kind its name says; of several scenarios a figure each."""
     from conveyor.report.columns import slug
-    from conveyor.report.dynamics_plots import picture
+    from conveyor.report.dynamics_tables import picture
 
     if path.suffix.lower() not in FIGURE:
         to.report(contents, path)

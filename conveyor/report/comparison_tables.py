@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Final
 from conveyor.laws.energy import Duty, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import earns_nothing, year_cost
-from conveyor.markup import Html, joined
+from conveyor.markup import Html
 from conveyor.report import plots, what_if
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Remark, Table, figures
-from conveyor.report.representations import folded, of_table
+from conveyor.report.page import notebook
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
@@ -623,7 +623,7 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
     }
 
 
-def notebook(comparison: CalculatedComparison) -> Html:
+def notebook_of_comparison(comparison: CalculatedComparison) -> Html:
     """The ranking and its notes."""
-    shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
-    return joined([shown, folded("notes", remarks(comparison))])
+    tables = [(comparison.conveyor.name, ranking(comparison))]
+    return notebook(comparison.conveyor.report.units, tables, {"notes": remarks(comparison)})

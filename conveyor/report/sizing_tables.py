@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
 
 from conveyor.checks import checks
 from conveyor.remarks import assumptions
-from conveyor.report import sizing_plots
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
+from conveyor.report.plots import colour, grouped, keyed, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
 from conveyor.sizing.designs import CalculatedSizing, SizedDesign
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY
+from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import percent
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from conveyor.sizing.around import VariedChoice
+    from conveyor.sizing.designs import CalculatedSizing
+
 
 PARTS: Final = (
     ("designs", "Designs"),
@@ -45,12 +54,10 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
     )  # fmt: skip
     about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
-                     partial(sizing_plots.shares, sizing, system=system), "costs")]  # fmt: skip
+                     partial(cost_shares, sizing, system=system), "costs")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
-        drawn.append(
-            Drawing("around", words, partial(sizing_plots.sweeps, sizing, sweeps, system=system), "around")
-        )
+        drawn.append(Drawing("around", words, partial(cost_lines, sizing, sweeps, system=system), "around"))
     return Contents(about, parts, system, tuple(drawn), PARTS)
 
 
@@ -156,9 +163,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
         Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
         Column("belt", "text", lambda row: row[2] and _belt(row[2]), json="belt"),
         Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year"),
-        Column(
-            "idlers a year", money, lambda row: row[2] and sizing_plots.idlers(row[2]), json="idlers_per_year"
-        ),
+        Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year"),
         Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year"),
         Column("cost a year", money, "2.year", json="cost_per_year"),
         Column("no design because", "text", "3", json="why"),
@@ -214,3 +219,61 @@ def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
         **{key: contents[key].plain() for key in _TABLES if key in contents},
         "assumptions": list(contents.lines("assumption")),
     }
+
+
+_HEIGHT, _TALL = 3.0, 2.7
+
+
+def idler_cost(design: SizedDesign) -> float:
+    """Cost of rolls and frames of a year [currency/a]."""
+    return float(design.costs.yearly["rolls"] + design.costs.yearly["idler frames"])
+
+
+def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+    """What a year costs by part, a bar a design."""
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(sizing.designs))
+    ranks = np.arange(1, len(sizing.designs) + 1)
+    start = np.zeros(len(ranks))
+    for k, name in enumerate(sizing.best.costs.yearly):
+        cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in sizing.designs]))
+        axis.barh(ranks, cost, left=start, color=colour(k), label=name)
+        start = start + cost
+    axis.set(yticks=ranks, ylabel="rank", xlabel=money.beside("cost of a year"))
+    axis.invert_yaxis()
+    grouped(axis.xaxis)
+    keyed(axis)
+    titled(figure, sizing.duty.name)
+    return figure
+
+
+def cost_lines(
+    sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
+) -> Figure:
+    """Energy against idlers, belt and the rest, one choice varied around the best design."""
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, axes = stacked(len(varied), _TALL * len(varied))
+    for axis, sweep in zip(axes, varied, strict=True):
+        kind = unit(sweep.kind, system)
+        points = [
+            (x, one)
+            for x, one in zip(sweep.values, sweep.designs, strict=True)
+            if isinstance(one, SizedDesign)
+        ]
+        at = kind(np.array([x for x, _ in points]))
+        parts = {
+            "energy": [float(one.costs.yearly["energy"]) for _, one in points],
+            "idlers": [idler_cost(one) for _, one in points],
+            "belt": [float(one.costs.yearly["belt"]) for _, one in points],
+        }
+        whole = np.array([one.year for _, one in points])
+        parts["the rest"] = list(whole - np.sum(list(parts.values()), axis=0))
+        for k, (name, cost) in enumerate(parts.items()):
+            axis.plot(at, money(np.array(cost)), color=colour(k), marker="o", markersize=3, label=name)
+        axis.plot(at, money(whole), color="black", marker="o", linewidth=2.0, markersize=4, label="whole")
+        axis.axvline(float(kind(sweep.at)), color="0.6", linestyle="--", linewidth=1.0)
+        axis.set(xlabel=kind.beside(sweep.name), ylabel=money.beside("a year"), ylim=(0.0, None))
+        grouped(axis.yaxis)
+    keyed(axes[-1])
+    titled(figure, f"{sizing.duty.name}: around the best design")
+    return figure

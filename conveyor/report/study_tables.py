@@ -7,10 +7,10 @@ from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.markup import Html, element, joined
+from conveyor.markup import Html
 from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
-from conveyor.report.representations import folded, of_figures, of_table
+from conveyor.report.page import notebook
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import Said, degrees, quoted, said
@@ -395,33 +395,27 @@ def _plain_state(state: LoadState) -> dict[str, Any]:
 def notebook_of_states(study: CalculatedStates) -> Html:
     """The load states, and those without an answer."""
     refusals = [f"{row.name}: {row.reason}" for row in study.refused]
-    caption = f"{study.conveyor.name}: load states"
-    shown = of_table(load_states(study), caption, study.conveyor.report.units)
-    return joined([shown, folded("without an answer", refusals)])
+    tables = [(f"{study.conveyor.name}: load states", load_states(study))]
+    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
-    caption = f"{study.conveyor.name}: governing load cases"
-    shown = of_table(governing(study, study.governing), caption, study.conveyor.report.units)
-    return joined([shown, folded("without an answer", refusals)])
+    tables = [(f"{study.conveyor.name}: governing load cases", governing(study, study.governing))]
+    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_duty(study: CalculatedYear) -> Html:
-    """Sums of the year, the bars folded away."""
-    system = study.conveyor.report.units
-    bars = element("details", element("summary", "bars"), of_table(duty(study), "", system))
-    return joined([of_figures(year(study), f"{study.conveyor.name}: the year", system), bars])
+    """Sums of the year, and its bars."""
+    tables = [(f"{study.conveyor.name}: the year", year(study)), ("bars", duty(study))]
+    return notebook(study.conveyor.report.units, tables)
 
 
 def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
     """Bands of the motor power, and which input matters."""
-    system = study.conveyor.report.units
-    return joined(
-        [
-            of_table(band(study), f"{study.conveyor.name}: motor power", system),
-            of_table(sensitivity(study), "sensitivity ranking", system),
-            folded("notes", study.notes),
-        ]
-    )
+    tables = [
+        (f"{study.conveyor.name}: motor power", band(study)),
+        ("sensitivity ranking", sensitivity(study)),
+    ]
+    return notebook(study.conveyor.report.units, tables, {"notes": study.notes})

@@ -36,7 +36,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, method, warnings
-from conveyor.report import analysis_plots, loop_plots
+from conveyor.report import analysis_plots
 from conveyor.report.columns import (
     NAMED,
     OF_ROW,
@@ -589,7 +589,7 @@ def profile(a: CalculatedConveyor) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
     sections, ends = a.line.sections, boundaries(a.line)
     along = accumulate((section.length for section in sections), initial=0.0)
-    places = loop_plots.places(a.conveyor, a.line)
+    places = analysis_plots.places(a.conveyor, a.line)
     rows = zip(range(len(ends)), ("", *(section.name for section in sections)), along, ends, strict=True)
     columns = (
         Column("behind section", "text", "1"),
@@ -631,7 +631,7 @@ def section_ends(a: CalculatedConveyor) -> Table:
         Column("behind section", "text", place),
         *_of_places(a),
         *(
-            Column(f"{name}{loop_plots.fault(a.line, state)}", "force", _of_end(state), key=slug(name))
+            Column(f"{name}{analysis_plots.fault(a.line, state)}", "force", _of_end(state), key=slug(name))
             for name, state in _states(a).items()
         ),
     )
@@ -1405,13 +1405,13 @@ def drawings(
     yield Drawing(
         "profile",
         "Profile of the route from the tail, with feeding points, drives and take-up.",
-        lambda: loop_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
+        lambda: analysis_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
         "key-figures",
     )
     yield Drawing(
         "tensions",
         "Tension round the loop in every state, from the head along the return strand and back.",
-        lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
+        lambda: analysis_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
     yield from of_discharge(a, system)
@@ -1419,13 +1419,13 @@ def drawings(
         yield Drawing(
             "plan",
             "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
-            lambda: loop_plots.plan(a.line, system=system),
+            lambda: analysis_plots.plan(a.line, system=system),
             "sections",
         )
         yield Drawing(
             "drift",
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
-            lambda: loop_plots.drift(
+            lambda: analysis_plots.drift(
                 [
                     (label.text(system).removeprefix("load state "), result.horizontal)
                     for label, result in _loads(a, studies)
@@ -1445,7 +1445,7 @@ def drawings(
             "flap",
             "Natural frequencies of the belt between the idlers in steady running, and rotation of the rolls with the "
             "distance wanted.",
-            lambda: loop_plots.flap_diagram(a, system=system),
+            lambda: analysis_plots.flap_diagram(a, system=system),
             "idler_sets",
         )
     strands = compounds_by_strand(conveyor)
