@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_answer, to_problem
+from conveyor.indentation import RollContact, no_answer, to_problems
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
@@ -145,10 +145,10 @@ def softened_many(
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
         depths, points = next(finely)  # the first strain is but a start
-        problems = [
-            to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
-            for i, one in zip(asked, series, strict=True)
-        ]
+        problems = to_problems(
+            [replace(works[i].contact, rubber=one) for i, one in zip(asked, series, strict=True)],
+            [works[i].line_load for i in asked],
+        )
         solved = solve_many(problems, _CONTACT_RTOL)
         answered = [one for one in solved if one.status is Status.OK]
         strained = iter(working_strains(answered, depths=depths, points=points))
