@@ -15,7 +15,17 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact import Belt, ContactProblem, CreepSpectrum, LoadCurve, SolveStats, load_curves, solve
+from conveyor.contact import (
+    Belt,
+    ContactProblem,
+    CreepSpectrum,
+    LoadCurve,
+    SolveStats,
+    Status,
+    load_curves,
+    solve,
+    solve_many,
+)
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber import CreepSeries, PronySeries, creeps
 
@@ -440,3 +450,36 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
         error=solution.error_estimate,
         energy_error=solution.energy_error,
     )
+
+
+def indentation_resistances(
+    contacts: Sequence[RollContact], line_loads: Sequence[float], rtol: float = 1e-6
+) -> list[float | NoSolutionError]:
+    """Indentation resistance per width of many rolls, each under its line load, side by side.
+
+    Parameters
+    ----------
+    contacts : sequence of RollContact
+        Rolls, covers, speeds and rubbers.
+    line_loads : sequence of float
+        w of each [N/m].
+    rtol : float
+        Relative error asked for [-].
+
+    Returns
+    -------
+    list
+        In their order f [N/m], or why there is none.
+
+    Raises
+    ------
+    InputError
+        A value outside what the contact allows.
+    """
+    solutions = solve_many(to_problems(contacts, line_loads), rtol)
+    return [
+        solution.friction * w
+        if solution.status is Status.OK
+        else no_answer(contact, f"{w:.4g}", NoSolutionError(solution.message))
+        for contact, w, solution in zip(contacts, line_loads, solutions, strict=True)
+    ]

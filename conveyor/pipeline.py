@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
-from conveyor.line.anchors import anchor
+from conveyor.line.anchors import anchors as anchors_at_tests
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
@@ -60,8 +59,8 @@ T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
-Anchors: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]]
-"""Levels of compounds, with the very compounds they are of and whether their rubber softens; begins empty."""
+Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
+"""The very compounds, whether their rubber softens, and their levels or why there is none; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,6 +323,7 @@ def calculate_many(
         No one setting of the take-up serves all.
     """
     shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
+    shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -389,14 +389,23 @@ class _Loaded:
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
-    """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
+    """Levels of compounds as a conveyor's calculation takes them."""
     levels: Anchors = []
-    softened = conveyor.calculation.strain != "off"
-    for compound in compounds if _anchored(conveyor.calculation) else ():
-        if compound.tests:
-            with suppress(NoSolutionError, RangeError, InputError):
-                _once(levels, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    if _anchored(conveyor.calculation):
+        _add_anchors(levels, [(compound, conveyor.calculation.strain != "off") for compound in compounds])
     return levels
+
+
+def _add_anchors(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> None:
+    """Add the levels of compounds, softened or not, that are not known, side by side."""
+    new: list[tuple[RubberCompound, bool]] = []
+    for one, soft in asked:
+        if not any(one is other and soft == how for other, how, *_ in (*levels, *new)):
+            new.append((one, soft))
+    for softened in dict.fromkeys(soft for _, soft in new):
+        compounds = [one for one, soft in new if soft == softened]
+        found = anchors_at_tests(compounds, softened=softened)
+        levels += [(one, softened, level) for one, level in zip(compounds, found, strict=True)]
 
 
 def _anchored(calculation: Calculation) -> bool:
@@ -484,9 +493,18 @@ class _Shared:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
                 if cover.level is not None:
-                    self._anchors.append(((compound,), (known.line.softened,), cover.level.anchor))
+                    self._anchors.append((compound, known.line.softened, cover.level.anchor))
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 self._running[self._first(work)] = cover
+
+    def anchor(self, variants: Iterable[Variant]) -> None:
+        """Find the levels of all their compounds."""
+        anchored = [one.conveyor for one in variants if _anchored(one.conveyor.calculation)]
+        _add_anchors(self._anchors, [
+            (compound, conveyor.calculation.strain != "off")
+            for conveyor in anchored
+            for compound in compounds_by_strand(conveyor).values()
+        ])  # fmt: skip
 
     def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
         """The line of a variant under what acts on its curves, and its covers before its rolls work them.
@@ -541,15 +559,13 @@ class _Shared:
 
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
-        calculation = conveyor.calculation
-        anchored = _anchored(calculation)
-        softened = calculation.strain != "off"
+        softened, anchored = conveyor.calculation.strain != "off", _anchored(conveyor.calculation)
         levels: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():
-            tests = None
-            if anchored and compound.tests:
-                made = partial(anchor, compound, softened=softened)
-                tests = _once(self._anchors, (compound,), (softened,), made)
+            known = (level for one, how, level in self._anchors if one is compound and how == softened)
+            tests = next(known) if anchored else None
+            if isinstance(tests, Exception):
+                raise tests
             levels[strand] = None if tests is None else Level(tests, at)
         return levels
 

@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 LOAD_EXPONENT = 4.0 / 3.0
 """Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
 _STRAIN_RTOL = 5e-3  # of the working strain: sweeps are repeated to a few per cent
-_CONTACT_RTOL = 1e-4
+_CONTACT_RTOL = 1e-3
 INSIDE: Final = (12, 32)
 """Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
 against 28 and 96."""

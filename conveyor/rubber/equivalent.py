@@ -185,10 +185,10 @@ def equivalent_linear(
     Notes
     -----
     Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain; the first one
-    from how the strain fell with E' and how E' falls with strain. A secant whose slope would lead away, or that steps by
-    more than a factor 3, gives way to half the plain step or to that factor. It ends when what the plain step leaves,
-    by that slope and a fifth of the change at least, is within `rtol`: series and strain are those of the last step,
-    whose contact is not looked at again.
+    from how the strain fell with E' and how E' falls with strain. A secant whose slope would lead away, or that steps
+    by more than a factor 3, gives way to half the plain step or to that factor. It ends when what the plain step
+    leaves, by that slope and a fifth of the change at least, is within `rtol`: series and strain are those of the last
+    step, whose contact is not looked at again.
 
     Examples
     --------
@@ -267,9 +267,7 @@ def equivalent_linear_many(
         done = {i: going[i] for i in heard if going[i].left < rtol}
         for i, (series, (stiff, lossy)) in _series(tasks, done, answers).items():
             path = done[i]
-            answers[i] = EquivalentLinear(
-                series, math.exp(path.trial), path.omega, stiff, lossy, path.steps
-            )
+            answers[i] = EquivalentLinear(series, math.exp(path.trial), path.omega, stiff, lossy, path.steps)
         for i, path in going.items():
             if i not in answers and path.steps == _MOST_STEPS:
                 answers[i] = path.unsettled()
@@ -311,18 +309,16 @@ def _factors(
             strain = np.exp([asked[i][0] for i in chosen])
             at = [tasks[i].temperature for i in chosen]
             try:
-                pairs = zip(factors.storage(strain, at).tolist(), factors.loss(strain, at).tolist(), strict=True)
+                pairs = zip(
+                    factors.storage(strain, at).tolist(), factors.loss(strain, at).tolist(), strict=True
+                )
                 found.update(zip(chosen, pairs, strict=True))
             except RangeError as error:
                 if len(chosen) > 1:
                     together += [[i] for i in chosen]
                 else:
                     answers[chosen[0]] = error
-    return {
-        i: _held(tasks[i], found[i], omega)
-        for i, (_, omega) in asked.items()
-        if i in found
-    }
+    return {i: _held(tasks[i], found[i], omega) for i, (_, omega) in asked.items() if i in found}
 
 
 def _held(task: StrainTask, factors: tuple[float, float], omega: float) -> tuple[float, float]:

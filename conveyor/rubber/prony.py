@@ -345,7 +345,9 @@ def creeps(series: Iterable[PronySeries]) -> list[CreepSeries]:
     for same in alike.values():
         for start in range(0, len(same), _CHUNK):
             chosen = same[start : start + _CHUNK]
-            moduli, times = (np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True))
+            moduli, times = (
+                np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True)
+            )
             excess, compliances = interlaced([s.equilibrium for s in chosen], moduli, times)
             for one, over, weights in zip(chosen, excess, compliances, strict=True):
                 terms = _one_per_time(weights, one.times * (1.0 + over))

@@ -269,6 +269,6 @@ class AmplitudeFactors:
 
     def _between(self, temperature: FloatArray) -> FloatArray:
         """Weights of the levels at temperatures, shape (levels, n), linear between; the last ones are held beyond."""
-        return np.array([
-            np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)
-        ])
+        return np.array(
+            [np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)]
+        )
