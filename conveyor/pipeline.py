@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
+from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
 from conveyor.line.anchors import anchors as anchors_at_tests
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
@@ -35,8 +35,9 @@ from conveyor.line.covers import (
     softened_covers,
 )
 from conveyor.line.line import Line
-from conveyor.line.strands import Strands
-from conveyor.line.stretches import STRANDS, Acting, Strand, Stretch
+from conveyor.line.roll_drags import RollDrags, roll_drags
+from conveyor.line.strands import OneStrand, Strands
+from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
@@ -57,6 +58,8 @@ from conveyor.rubber.anchor import Anchor
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
+_Known: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], T]]
+"""What was made of the very same parts and equal values."""
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
 Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
@@ -413,16 +416,20 @@ def _anchored(calculation: Calculation) -> bool:
     return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
 
 
-def _strands(conveyor: Conveyor, on_curves: Acting) -> tuple[Strands, WithoutRubber]:
-    """The strands of a conveyor and the forces that its load alone decides."""
-    strands = Strands.of(conveyor, on_curves)
-    return strands, without_rubber(strands)
+def _strand(
+    conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: Acting
+) -> tuple[OneStrand, WithoutRubber]:
+    """A strand of a conveyor and the forces that its load alone decides."""
+    made = OneStrand.of(conveyor, sections, strand, on_curves)
+    return made, strand_without_rubber(made)
 
 
-def _loaded(conveyor: Conveyor, strands: Strands, fixed: WithoutRubber) -> _Loaded:
+def _loaded(
+    conveyor: Conveyor, strands: Strands, drags: RollDrags, fixed: Sequence[WithoutRubber]
+) -> _Loaded:
     """A line, its rolls not at work yet."""
-    line = Line.of(conveyor, strands)
-    return _Loaded(line, Frame(line), fixed)
+    line, (carry, back) = Line.of(conveyor, strands, drags), fixed
+    return _Loaded(line, Frame(line), carry.joined(back))
 
 
 def _solved(
@@ -482,9 +489,11 @@ class _Shared:
     """
 
     def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
-        self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
-        self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
-        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[CoverName, PronySeries]]] = []
+        self._sections: _Known[tuple[RouteSection, ...]] = []
+        self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
+        self._drags: _Known[tuple[tuple[float, ...], ...]] = []
+        self._lines: _Known[_Loaded] = []
+        self._rubbers: _Known[dict[CoverName, PronySeries]] = []
         self._anchors = anchors
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
@@ -532,12 +541,21 @@ class _Shared:
         )
 
     def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec; lines of one belt and load, in any air and under any drives, share their strands."""
-        parts = (given.belt, given.idlers, given.material, given.route, given.calculation)
-        scene = (on_curves, given.ambient.wind_speed)
-        strands, fixed = _once(self._strands, parts, scene, partial(_strands, given, on_curves))
+        """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
+        sections = _once(self._sections, (given.route,), (), lambda: route_sections(given))
         air = given.air_temperature if given.idlers.drag_follows_air else None
-        return _once(self._lines, (strands, given.drive), (air,), partial(_loaded, given, strands, fixed))
+        scene = (on_curves, given.ambient.wind_speed)
+        strands, drags, fixed = [], [], []
+        for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
+            parts = (given.belt, own, given.material, given.route, given.calculation)
+            made = partial(_strand, given, sections, strand, on_curves)
+            one, without = _once(self._strands, parts, (strand, *scene), made)
+            strands.append(one)
+            fixed.append(without)
+            drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
+        both = Strands(sections, (strands[0], strands[1]))
+        made_of = partial(_loaded, given, both, drags, fixed)
+        return _once(self._lines, (*strands, given.drive), (air,), made_of)
 
     def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -571,7 +589,7 @@ class _Shared:
 
 
 def _once(
-    known: list[tuple[tuple[object, ...], tuple[object, ...], T]],
+    known: _Known[T],
     parts: tuple[object, ...],
     values: tuple[object, ...],
     make: Callable[[], T],
