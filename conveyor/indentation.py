@@ -317,7 +317,7 @@ class IndentationCurve:
             A load outside the curve.
         """
         w = np.asarray(line_load, dtype=float)
-        return np.asarray(self.curve.at(w * (self.curve.problem.pressure / self.highest)).friction * w)
+        return np.asarray(self.curve.friction(w * (self.curve.problem.pressure / self.highest)) * w)
 
     def at(self, line_load: ArrayLike) -> Indentation:
         """Back from dimensionless to physical.
