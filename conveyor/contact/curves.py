@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.arguments import checked
-from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     by_energy,
     may_touch_elsewhere,
@@ -25,7 +24,6 @@ from conveyor.contact.checks import (
     relative_difference,
 )
 from conveyor.contact.curve import LoadCurve, LoadSolutions
-from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.narrow import (
     CHUNK,
     RANGE,
@@ -45,7 +43,8 @@ from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import Contact, assemble, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.tabled import Tabled
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
@@ -310,12 +309,10 @@ class _Sampler:
         """Contacts of order n of some rows at places t of their half width."""
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
         every = np.repeat(rows, t.size)
-        creeps = self.group.creeps[every]
-        ik = ProductIK(n, alpha[:, None] / creeps.times)
-        matrix = assemble(self.rule[every], creeps, alpha, n, ik)
+        matrix = Tabled(self.rule[every], self.group.creeps[every], alpha).matrices(n)
         contact = equilibrium(matrix, alpha, self.group.rho[every])
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
-        return _Batch(rows, t.size, contact, matrix, ik, np.asarray(valid))
+        return _Batch(rows, t.size, contact, matrix, np.asarray(valid))
 
     def _enclosed(self, first: _Batch) -> NDArray[np.bool_]:
         """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
@@ -376,7 +373,8 @@ class _Sampler:
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
         by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
-        by_loss = friction_by_loss(self.check[every], self.group.creeps[every], batch.contact, rho, batch.ik)
+        checked_by = Tabled(self.check[every], self.group.creeps[every], batch.contact.alpha)
+        by_loss = checked_by.friction_by_loss(batch.contact, rho)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
         each = (by_order.friction, energy, by_energy(energy, by_order.most))
         error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
@@ -411,7 +409,6 @@ class _Batch:
     count: int
     contact: Contact
     matrix: Array
-    ik: ProductIK
     valid: NDArray[np.bool_]
 
     @property
@@ -424,7 +421,6 @@ class _Batch:
             count,
             chosen_rows(self.contact, at),
             self.matrix[at],
-            self.ik[at],
             self.valid[rows],
         )
 

@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     WRAPPED,
     by_energy,
@@ -26,7 +25,6 @@ from conveyor.contact.checks import (
     relative_difference,
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
-from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
 from conveyor.contact.orders import lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
@@ -44,8 +42,9 @@ from conveyor.contact.short_rule import (
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
+from conveyor.contact.spectral import Contact, equilibrium, penetration
 from conveyor.contact.stack import Stack, kind, stacked
+from conveyor.contact.tabled import Tabled
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
@@ -199,10 +198,10 @@ def guess(group: Group) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _points() -> tuple[Array, Array]:
-    """Chebyshev points of the search in units of its half range, and from values there to polynomial coefficients."""
+def _points() -> tuple[tuple[float, ...], Array]:
+    """Half widths over the guess at Chebyshev points of the search, and from values there to a cubic's coefficients."""
     t = np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))
-    return t, np.linalg.inv(np.vander(t, increasing=True)).T
+    return tuple(np.exp(RANGE * t).tolist()), np.linalg.inv(np.vander(t, increasing=True)).T
 
 
 class Search:
@@ -216,13 +215,11 @@ class Search:
     def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
         self.group, self.rule = group, rule
         self.middle = np.log(alpha)
-        t, transform = _points()
+        ratios, transform = _points()
         size = alpha.size
-        sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
-        every = np.repeat(np.arange(size), _SAMPLES)
-        rho = group.rho[every]
-        matrix = assemble(rule[every], group.creeps[every], sampled, _SEARCH)
-        contact = equilibrium(matrix, sampled, rho, tolerance=_ROUGH)
+        sampled = np.multiply.outer(alpha, ratios).ravel()
+        matrix = Tabled(rule, group.creeps, alpha).matrices(_SEARCH, ratios)
+        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
         self.load = (
             np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform
@@ -277,13 +274,11 @@ class Search:
         out: Array = np.where(self.lossy[rows], slope, 0.0)
         return out
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, ProductIK]:
-        """Contacts of some rows at order n, matrices, ln p - target, Bessel products; moves on to the next places."""
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array]:
+        """Contacts of some rows at order n, their matrices, ln p - target; moves on to the next places."""
         t = self._from[rows] = self.place[rows]
         alpha = np.exp(self.middle[rows] + RANGE * t)
-        creeps = self.group.creeps[rows]
-        ik = ProductIK(n, alpha[:, None] / creeps.times)
-        matrix = assemble(self.rule[rows], creeps, alpha, n, ik)
+        matrix = Tabled(self.rule[rows], self.group.creeps[rows], alpha).matrices(n)
         start = alpha * _value(self.shift[rows], t)
         contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
         self.matrices[rows] += 1
@@ -297,7 +292,7 @@ class Search:
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, matrix, miss, ik
+        return contact, matrix, miss
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go; the friction it may miss."""
@@ -362,7 +357,7 @@ class _Closing:
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             exponent = search.exponent(rows)
-            contact, matrix, miss, ik = search.evaluate(rows, n)
+            contact, matrix, miss = search.evaluate(rows, n)
             if step == 0:
                 by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
@@ -374,7 +369,7 @@ class _Closing:
             if at.size:
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
-                self._accept(rows[at], evaluated, closed, ik[at], self.error[rows[at]] + left[at])
+                self._accept(rows[at], evaluated, closed, self.error[rows[at]] + left[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -388,13 +383,13 @@ class _Closing:
             self.search.alive[row] = False
             self.done[row] = Near(*self.search.place_and_slope(row))
 
-    def _accept(self, rows: Index, contact: Contact, closed: Contact, ik: ProductIK, error: Array) -> None:
+    def _accept(self, rows: Index, contact: Contact, closed: Contact, error: Array) -> None:
         """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
         search, group, rtol = self.search, self.search.group, self.rtol
         grade = grades_for(rtol)[1]
         check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
         rho = group.rho[rows]
-        by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
+        by_loss = Tabled(check, group.creeps[rows], contact.alpha).friction_by_loss(contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
