@@ -39,7 +39,7 @@ from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
 from conveyor.contact.scene import instantly_relaxed
-from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels_beyond, short_rule
+from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels_beyond, short_rules
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
@@ -225,13 +225,12 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
 
 def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], rtol: float) -> _Sampler:
     """Between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
-    solving, checking = grades_for(rtol)
+    grades = grades_for(rtol)
     low, high = np.log(guesses[0]) - RANGE, np.log(guesses[1]) + RANGE
-    rule = short_rule(group.layers, group.creeps, np.exp(high), solving)
-    check = short_rule(group.layers, group.creeps, np.exp(high), checking, rule)
+    rule, check = short_rules(group.layers, group.creeps, np.exp(high), grades)
     rows = np.arange(lowest.size)
     return _Sampler(
-        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, solving.error, rows, narrow=True
+        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, grades[0].error, rows, narrow=True
     )
 
 

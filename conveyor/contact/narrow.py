@@ -38,7 +38,7 @@ from conveyor.contact.short_rule import (
     cap_of,
     grades_for,
     panels_beyond,
-    short_rule,
+    short_rules,
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
@@ -123,7 +123,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         return [None] * len(problems)
     outcomes: list[Outcome | Near | Left | None] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    grade = grades_for(rtol)[0]
+    grades = grades_for(rtol)
     for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
@@ -132,11 +132,10 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         for _ in range(_GUESSES_TRIED):
             alpha = np.minimum(alpha, widest)
             strayed = []
-            for chosen in _chunks(group, alpha, rows, grade):
+            for chosen in _chunks(group, alpha, rows, grades[0]):
                 part = group[chosen]
-                search = Search(
-                    part, short_rule(part.layers, part.creeps, ROOM * alpha[chosen], grade), alpha[chosen]
-                )
+                rules = short_rules(part.layers, part.creeps, ROOM * alpha[chosen], grades)
+                search = Search(part, rules, alpha[chosen])
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
                 strayed.append(chosen[search.stray])
@@ -212,13 +211,14 @@ class Search:
     contact there as soon as it is near.
     """
 
-    def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
-        self.group, self.rule = group, rule
+    def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array) -> None:
+        self.group = group
+        self.rule, self.check = rules
         self.middle = np.log(alpha)
         ratios, transform = _points()
         size = alpha.size
         sampled = np.multiply.outer(alpha, ratios).ravel()
-        matrix = Tabled(rule, group.creeps, alpha).matrices(_SEARCH, ratios)
+        matrix = Tabled(self.rule, group.creeps, alpha).matrices(_SEARCH, ratios)
         contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
         self.load = (
@@ -387,9 +387,9 @@ class _Closing:
         """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
         search, group, rtol = self.search, self.search.group, self.rtol
         grade = grades_for(rtol)[1]
-        check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
         rho = group.rho[rows]
-        by_loss = Tabled(check, group.creeps[rows], contact.alpha).friction_by_loss(contact, rho)
+        checked_by = Tabled(search.check[rows], group.creeps[rows], contact.alpha)
+        by_loss = checked_by.friction_by_loss(contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)

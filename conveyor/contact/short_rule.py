@@ -14,6 +14,7 @@ layer's part S - j is left, on Gauss panels of each scene's own.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -68,31 +69,18 @@ def grades_for(rtol: float) -> tuple[Grade, Grade]:
 
 @dataclass(frozen=True, eq=False)
 class ShortRule:
-    """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,).
-
-    `unit` are the weights of ∫_0^1 j f dm on its first nodes, the same in every rule of a creep spectrum and a cap.
-    """
+    """Nodes m and complex weights of F/m for each scene, shape (b, k)."""
 
     nodes: Array
     weights: ComplexArray
-    half_width: Array
-    unit: ComplexArray
-    cap: float = WIDEST
-
-    def repeated(self, count: int) -> ShortRule:
-        """One scene's rule for `count` contacts of it."""
-        return self[np.zeros(count, dtype=int)]
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
-        return ShortRule(
-            self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen], self.cap
-        )
+        return ShortRule(self.nodes[chosen], self.weights[chosen])
 
 
 def full_rule(rule: Rule) -> ShortRule:
     """One scene's full rule as a batch of one."""
-    empty = np.empty((1, 0), dtype=complex)
-    return ShortRule(rule.nodes[None], rule.weights[None], np.array([rule.half_width]), empty)
+    return ShortRule(rule.nodes[None], rule.weights[None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,40 +164,49 @@ def cap_of(half_width: float) -> float:
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
-def short_rule(
-    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, like: ShortRule | None = None
-) -> ShortRule:
-    """Rules of b scenes, each valid for contacts up to its half width α [-], at most 2.4.
+def short_rules(
+    layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]
+) -> list[ShortRule]:
+    """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
-    All scenes take as many nodes as the one that needs most: hand over like with like. `like` are rules of another
-    grade for the same spectra.
+    All scenes take as many nodes as the one that needs most: hand over like with like.
     """
-    cap = cap_of(float(half_width.max())) if like is None else like.cap
-    end = float(math.ceil(2.0 * _RAMP * _width(grade, cap)))
-    phase = float(half_width.max()) * end
-    # a function that turns ±c radians is a polynomial of degree c + O(c^(1/3)) to rounding
-    steps = 4.0 if cap == WIDEST else 16.0
-    count = int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
-    window = _window(grade, count, cap)
-    beyond, measure = _beyond(layers.reach(grade.depth), half_width, grade, window.end)
-    inner = np.broadcast_to(window.inner, (half_width.size, window.inner.size))
-    m = np.concatenate([inner, beyond], axis=1)
+    widest = float(half_width.max())
+    cap = cap_of(widest)
+    windows = [_window(grade, _count(grade, cap, widest), cap) for grade in grades]
+    nodes: list[Array] = []
+    measures: list[Array] = []
+    for grade, window in zip(grades, windows, strict=True):
+        beyond, measure = _beyond(layers.reach(grade.depth), half_width, grade, window.end)
+        nodes += [np.broadcast_to(window.inner, (half_width.size, window.inner.size)), beyond]
+        measures.append(measure)
+    m = np.concatenate(nodes, axis=1)
     j = creeps.compliance(m)
     symbol = layers.symbol(m, j)
-    cut, end = window.ramp.size, window.inner.size
-    unit = _unit_weights(creeps, window) if like is None else like.unit
-    panels = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
-    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], panels], axis=1)
-    weights = (fine @ window.spread) / window.coarse
-    outside = measure * (symbol[:, end:] - j[:, end:]) / beyond
-    nodes = np.broadcast_to(window.coarse, weights.shape)
-    return ShortRule(
-        np.concatenate([nodes, beyond], axis=1),
-        np.concatenate([weights, outside], axis=1),
-        half_width,
-        unit,
-        cap,
-    )
+    unit = -_unit_weights(creeps, windows[0])
+    rules, start = [], 0
+    for window, beyond, measure in zip(windows, nodes[1::2], measures, strict=True):
+        cut, inner = start + window.ramp.size, start + window.inner.size
+        end = inner + beyond.shape[1]
+        panels = window.measure * (window.rest * symbol[:, cut:inner] - j[:, cut:inner])
+        fine = np.concatenate([unit, window.ramp * symbol[:, start:cut], panels], axis=1)
+        weights = (fine @ window.spread) / window.coarse
+        outside = measure * (symbol[:, inner:end] - j[:, inner:end]) / beyond
+        coarse = np.broadcast_to(window.coarse, weights.shape)
+        rules.append(
+            ShortRule(
+                np.concatenate([coarse, beyond], axis=1), np.concatenate([weights, outside], axis=1)
+            )
+        )
+        start = end
+    return rules
+
+
+def _count(grade: Grade, cap: float, widest: float) -> int:
+    """Coarse nodes of a window: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3)) to rounding."""
+    phase = widest * math.ceil(2.0 * _RAMP * _width(grade, cap))
+    steps = 4.0 if cap == WIDEST else 16.0
+    return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
 
 def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[Array, Array]:
