@@ -26,6 +26,7 @@ from conveyor.contact.checks import (
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.fields import SpectralFields
+from conveyor.contact.moved import within
 from conveyor.contact.orders import lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene, instantly_relaxed
@@ -152,7 +153,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
     caps = np.array([cap_of(width) for width in half_width])
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
-    order = order[panels[order] <= _MOST_PANELS]
+    order = order[(panels[order] <= _MOST_PANELS) & within(1.0 / group.creeps.times)[rows[order]]]
     for cap in np.unique(caps[order]):
         same = rows[order[caps[order] == cap]]
         step = CHUNK if cap == WIDEST else _WIDE_CHUNK
@@ -171,7 +172,8 @@ def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
-    return np.asarray((half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS))
+    slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
+    return np.asarray(slim & within(1.0 / group.creeps.times))
 
 
 def guess(group: Group) -> Array:

@@ -2,8 +2,8 @@
 
 A matrix (spectral.py) is a sum over nodes of J_i J_v(u), u = m α, and over retardation terms of I_max K_min(b),
 b = α/ζ. Both are smooth: J_i J_v in u (no wave shorter than π), I K in ln b (no singularity within π/2 of the real
-axis). So the weight of each node and each term is moved to 16 neighbours on a grid by Lagrange interpolation, and
-matrices are products of the grids' weights with tables of J_i J_v and I_max K_min there; at a half width r times as
+axis). So the weights of nodes and terms are moved to grids (moved.py), and matrices are products of the grids' weights
+with tables of J_i J_v and I_max K_min there; at a half width r times as
 large the tables are of r u and r b. A node's matrix is that of `spectral.assemble` to 2e-12 of its weight.
 """
 
@@ -17,45 +17,15 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.creep import Creeps
 from conveyor.contact.energy import friction_by_loss
+from conveyor.contact.moved import BEFORE, LOGS, POINTS, log_stencils, logs, moved, stencils, within
 from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.spectral import Contact, assemble
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_POINTS = 16  # of a stencil
-_STEP = 0.2  # of u
-# of x, ln b = 2 + 3 sinh x: a tenth of ln b in the middle, more where I K falls like b or 1/b
-_STEP_X, _MIDDLE, _SCALE = 1.0 / 30.0, 2.0, 3.0
-_REACH = 80  # steps of x to both sides: b from 4e-9 to 1e10
+_STEP = 0.2  # of the grid of u
 _HIGHEST, _LARGEST = 64, 1 << 20  # order, and entries of a table of waves, beyond which matrices are formed one by one
-
-
-@lru_cache(maxsize=1)
-def _lagrange() -> Array:
-    """From powers of a place, counted from the stencil's middle, to the weights of its points."""
-    x = np.arange(_POINTS) - 0.5 * (_POINTS - 1)
-    return np.linalg.inv(np.vander(x, increasing=True).T)
-
-
-def _shares(place: Array) -> tuple[Index, Array]:
-    """First grid point of each place's stencil, in steps of the grid, and its points' weights along the first axis."""
-    first = np.floor(place)
-    powers = np.empty((_POINTS, *place.shape))
-    powers[0] = 1.0
-    np.subtract(place, first + 0.5, out=powers[1])
-    for known in (2, 4, 8):
-        np.multiply(powers[:known], powers[1] * powers[known - 1], out=powers[known : 2 * known])
-    shares = _lagrange() @ powers.reshape(_POINTS, -1)
-    return first.astype(int), shares.reshape(powers.shape)
-
-
-def _moved(stencils: tuple[Index, Array], weights: Array, size: int) -> Array:
-    """Weights of shape (b, k) moved to a grid, shape (b, size)."""
-    first, shares = stencils
-    rows = first.shape[0]
-    index = np.arange(_POINTS)[:, None, None] + (first + size * np.arange(rows)[:, None])
-    return np.bincount(index.ravel(), (weights * shares).ravel(), rows * size).reshape(rows, size)
 
 
 @lru_cache(maxsize=16)
@@ -78,8 +48,8 @@ def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
 @lru_cache(maxsize=64)
 def _waves(n: int, size: int, ratio: float) -> list[Array]:
     """J_i J_v(r u) on the grid of u for pairs of equal and of unequal parity, and of equal parity over u²."""
-    u = _STEP * (np.arange(size) - (_POINTS // 2 - 1.0))
-    u[_POINTS // 2 - 1] = 1e-150  # for zero: J_1²/u² is ¼ there
+    u = _STEP * (np.arange(size) - BEFORE)
+    u[BEFORE] = 1e-150  # for zero: J_1²/u² is ¼ there
     table = bessel_j(n, np.abs(ratio * u))
     table[1::2] *= np.sign(u)
     even, odd = (np.ascontiguousarray((table[i] * table[v]).T) for i, v in _pairs(n)[0])
@@ -89,9 +59,7 @@ def _waves(n: int, size: int, ratio: float) -> list[Array]:
 @lru_cache(maxsize=32)
 def _terms(n: int, ratio: float) -> list[Array]:
     """I_max K_min(r b) on the grid of b for the same pairs, with signs; on the diagonal 1/(2v) - I_v K_v."""
-    x = _STEP_X * (np.arange(2 * _REACH + _POINTS) - (_REACH + _POINTS // 2 - 1.0))
-    b = ratio * np.exp(_MIDDLE + _SCALE * np.sinh(x))
-    products, deficit = ProductIK(n, b[:, None]).weighted(np.ones(1))
+    products, deficit = ProductIK(n, ratio * logs()[:, None]).weighted(np.ones(1))
     signs = [np.where((v - i - 1) % 4 < 2, 1.0, -1.0) for i, v in _pairs(n)[0]]
     return [
         np.where(i == v, deficit[:, v], sign * products[:, i, v])
@@ -115,17 +83,14 @@ class Tabled:
     def __init__(self, rule: ShortRule, creeps: Creeps, alpha: Array) -> None:
         self.rule, self.creeps, self.alpha = rule, creeps, alpha
         u = (alpha / _STEP)[:, None] * rule.nodes
-        x = np.arcsinh((np.log(alpha[:, None] / creeps.times) - _MIDDLE) / _SCALE) / _STEP_X
-        self._size = 32 * int((float(u.max()) + _POINTS) / 32.0 + 1.0)
-        self._fits = float(np.abs(x).max()) < _REACH
+        b = alpha[:, None] / creeps.times
+        self._size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
+        self._fits = bool(within(b).all())
         if self._fits:
-            self._u, self._b = _shares(u), _shares(x + _REACH)
+            self._u, self._b = stencils(u), log_stencils(b)
 
     def _tabled(self, n: int) -> bool:
         return self._fits and n <= _HIGHEST and self._size * n * n <= _LARGEST
-
-    def _moved_terms(self, weights: Array) -> Array:
-        return _moved(self._b, weights, 2 * _REACH + _POINTS)
 
     def matrices(self, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
         """`spectral.assemble` of order n at α times each ratio, one contact's after the other, (b · r, n+1, n)."""
@@ -134,8 +99,8 @@ class Tabled:
             alpha = np.multiply.outer(self.alpha, ratios).ravel()
             return assemble(self.rule[every], self.creeps[every], alpha, n)
         _, where, factor, _ = _pairs(n)
-        terms = self._moved_terms(self.creeps.weights)
-        weights = [_moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)]
+        terms = moved(self._b, self.creeps.weights, LOGS)
+        weights = [moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)]
         out = np.empty((self.alpha.size, len(ratios), (n + 1) * n))
         for k, ratio in enumerate(ratios):
             waves, half_space = _waves(n, self._size, ratio), _terms(n, ratio)
@@ -151,8 +116,8 @@ class Tabled:
             return friction_by_loss(self.rule, self.creeps, contact, rho)
         ((i, v), _), _, _, factor = _pairs(n)
         lossy = self.rule.weights.imag * self.rule.nodes * (self.alpha * self.alpha)[:, None]
-        power = _moved(self._u, lossy, self._size) @ _waves(n, self._size, 1.0)[2]
-        power += self._moved_terms(self.creeps.weights * self.creeps.times) @ _terms(n, 1.0)[0]
+        power = moved(self._u, lossy, self._size) @ _waves(n, self._size, 1.0)[2]
+        power += moved(self._b, self.creeps.weights * self.creeps.times, LOGS) @ _terms(n, 1.0)[0]
         x = np.zeros((self.alpha.size, n + 1))
         np.multiply(contact.c, np.arange(1.0, n + 1.0), out=x[:, 1:])
         power *= x[:, i]
