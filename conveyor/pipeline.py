@@ -24,6 +24,7 @@ from conveyor.line.anchors import anchors as anchors_at_tests
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
+    FELT,
     CoverName,
     Covers,
     Level,
@@ -33,6 +34,7 @@ from conveyor.line.covers import (
     covers_of,
     rubbers,
     softened_covers,
+    told_apart,
 )
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import RollDrags, roll_drags
@@ -325,7 +327,8 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
+    shared = _Shared(known, [] if anchors is None else anchors, rtol)
+    told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
@@ -488,13 +491,14 @@ class _Shared:
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
+    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None) -> None:
         self._sections: _Known[tuple[RouteSection, ...]] = []
         self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
         self._drags: _Known[tuple[tuple[float, ...], ...]] = []
         self._lines: _Known[_Loaded] = []
         self._rubbers: _Known[dict[CoverName, PronySeries]] = []
-        self._anchors = anchors
+        self._merged: _Known[PronySeries] = []
+        self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self.tensioned: Tensioned = {}
@@ -532,13 +536,22 @@ class _Shared:
         rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
         loaded = self._prepared(given, on_curves)
         covers = covers_of(given, rubber, self._levels(given, at))
-        return replace(
-            loaded,
-            works={
-                strand: StrandAtWork(loaded.line, strand, cover, compounds[strand], at)
-                for strand, cover in covers.items()
-            },
-        )
+        works = {
+            strand: self._felt(StrandAtWork(loaded.line, strand, cover, compounds[strand], at))
+            for strand, cover in covers.items()
+        }
+        return replace(loaded, works=works)
+
+    def _felt(self, work: StrandAtWork) -> StrandAtWork:
+        """A strand whose cover has its rubber as far as its rolls tell terms apart."""
+        rtol = work.line.rtol if self._rtol is None else self._rtol
+        times = told_apart(work, rtol)
+        if times is None:
+            return work
+        rubber, (fastest, slowest) = work.cover.rubber, times
+        cut = tuple(rubber.times.searchsorted(times).tolist())
+        less = _once(self._merged, (rubber,), cut, lambda: rubber.merged(fastest=fastest, slowest=slowest))
+        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
         """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.indentation import RollContact, indentation_resistances
+from conveyor.indentation import RollContact, felt, indentation_resistances
 from conveyor.laws.softening import COARSE, WorkedCover, softened_many
+from conveyor.line.covers import FELT
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
 from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
@@ -195,7 +196,7 @@ def _theory(
 
 def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
     """The roll of a test on its cover."""
-    return RollContact(
+    contact = RollContact(
         radius=points.radius,
         spacing=max(SPACING, 4.0 * points.radius),
         cover_thickness=points.cover_thickness,
@@ -203,6 +204,10 @@ def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
         rubber=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
+    if contact.poisson != 0.5:
+        return contact
+    fastest, slowest = felt(contact, float(points.line_load.min()), FELT * RTOL)
+    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
 
 
 def _nodes(loads: Array, *, few: bool) -> list[float]:

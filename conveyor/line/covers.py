@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import Backing, RollContact, Support
+from conveyor.indentation import Backing, RollContact, Support, felt
 from conveyor.laws.softening import SoftCover, WorkedCover, WorkingStrain, losing_load, softened_many
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
@@ -41,7 +41,8 @@ class RunningCover:
 
     `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
     the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
-    belt's other cover: its thickness [m], and its rubber at small strain.
+    belt's other cover: its thickness [m], and its rubber at small strain. `merged` is what merging terms that the rolls
+    do not tell apart may change of indentation [-].
     """
 
     thickness: float
@@ -50,6 +51,7 @@ class RunningCover:
     other: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
     level: Level | None = None
+    merged: float = 0.0
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -153,6 +155,18 @@ class StrandAtWork:
         contact = roll_contact(self.line, max(self.kinds, key=lambda kind: kind.highest), self.cover)
         swept = self.compound.swept_series(self.temperature)
         return WorkedCover(contact, losing_load(loads, weights), factors, self.temperature, swept)
+
+
+FELT: Final = 0.02
+"""Of the tolerance of the contacts, what merging the fast and what merging the slow terms of a rubber may take [-]."""
+
+
+def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
+    """Relaxation times between which the rolls of a strand tell terms apart [s]; None off a stiff carcass."""
+    if work.line.support != "confined" or work.cover.poisson != 0.5:
+        return None
+    lightest = min(work.kinds, key=lambda kind: kind.lowest * kind.radius)
+    return felt(roll_contact(work.line, lightest, work.cover), lightest.lowest, FELT * rtol)
 
 
 def softened_covers(works: Sequence[StrandAtWork]) -> list[RunningCover | NoSolutionError | RangeError]:
