@@ -37,7 +37,7 @@ from conveyor.line.covers import (
     told_apart,
 )
 from conveyor.line.line import Line
-from conveyor.line.roll_drags import RollDrags, roll_drags
+from conveyor.line.roll_drags import roll_drags
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
@@ -427,11 +427,9 @@ def _strand(
     return made, strand_without_rubber(made)
 
 
-def _loaded(
-    conveyor: Conveyor, strands: Strands, drags: RollDrags, fixed: Sequence[WithoutRubber]
-) -> _Loaded:
+def _loaded(line: Line, fixed: Sequence[WithoutRubber]) -> _Loaded:
     """A line, its rolls not at work yet."""
-    line, (carry, back) = Line.of(conveyor, strands, drags), fixed
+    carry, back = fixed
     return _Loaded(line, Frame(line), carry.joined(back))
 
 
@@ -495,6 +493,7 @@ class _Shared:
         self._sections: _Known[tuple[RouteSection, ...]] = []
         self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
         self._drags: _Known[tuple[tuple[float, ...], ...]] = []
+        self._likes: _Known[Line] = []
         self._lines: _Known[_Loaded] = []
         self._rubbers: _Known[dict[CoverName, PronySeries]] = []
         self._merged: _Known[PronySeries] = []
@@ -566,9 +565,12 @@ class _Shared:
             strands.append(one)
             fixed.append(without)
             drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
-        both = Strands(sections, (strands[0], strands[1]))
-        made_of = partial(_loaded, given, both, drags, fixed)
-        return _once(self._lines, (*strands, given.drive), (air,), made_of)
+        carry, back = strands
+        both, (up, down) = Strands(sections, (carry, back)), drags
+        others = (given.belt, given.material, given.route, given.drive, given.calculation)
+        like = _once(self._likes, others, (), lambda: Line.of(given, both, drags))
+        line = replace(like, strands=both, roll_drags=(*up, *down))
+        return _once(self._lines, (*strands, given.drive), (air,), partial(_loaded, line, fixed))
 
     def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
