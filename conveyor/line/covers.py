@@ -86,20 +86,14 @@ def rubbers(conveyor: Conveyor, temperature: float) -> dict[CoverName, PronySeri
     }
 
 
-def covers_of(
-    conveyor: Conveyor,
-    rubber: Mapping[CoverName, PronySeries],
-    levels: Mapping[Strand, Level | None],
-) -> dict[Strand, RunningCover]:
-    """The cover under each strand, of given rubber at its level."""
+def covers_of(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> dict[Strand, RunningCover]:
+    """The cover under each strand, of given rubber."""
     bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
     top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
     pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
     compounds = compounds_by_strand(conveyor)
     return {
-        strand: RunningCover(
-            thickness, rubber[strand], compounds[strand].poisson_ratio, other, level=levels[strand]
-        )
+        strand: RunningCover(thickness, rubber[strand], compounds[strand].poisson_ratio, other)
         for strand in STRANDS
         for (thickness, _), other in [pairs[strand]]
     }
@@ -132,7 +126,6 @@ class StrandAtWork:
             line.support,
             cover.thickness,
             cover.other if line.support == "belt" else None,
-            cover.level,
         )
 
     def like(self, other: StrandAtWork) -> bool:
@@ -169,18 +162,28 @@ def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
     return felt(roll_contact(work.line, lightest, work.cover), lightest.lowest, FELT * rtol)
 
 
-def softened_covers(works: Sequence[StrandAtWork]) -> list[RunningCover | NoSolutionError | RangeError]:
+def softened_covers(
+    works: Sequence[StrandAtWork], tests: Sequence[WorkedCover] = ()
+) -> tuple[list[RunningCover | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
     """The covers at the strain their rolls work them at, where the compounds have sweeps, solved side by side.
+
+    Parameters
+    ----------
+    works : sequence of StrandAtWork
+        Strands.
+    tests : sequence of WorkedCover
+        Covers of rolling-resistance tests, that go with them.
 
     Returns
     -------
-    list
-        In their order the covers; or why there is none: it has no answer at its working strain, or the sweeps of its
-        compound do not reach the strain.
+    tuple of list
+        In their order the covers, of strands and of tests; or why there is none: it has no answer at its working
+        strain, or the sweeps of its compound do not reach the strain.
     """
     asked = {i: worked for i, work in enumerate(works) if (worked := work.worked()) is not None}
-    soft = dict(zip(asked, softened_many(list(asked.values())), strict=True))
-    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)]
+    found = softened_many([*tests, *asked.values()])
+    soft = dict(zip(asked, found[len(tests) :], strict=True))
+    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)], found[: len(tests)]
 
 
 def _running(
