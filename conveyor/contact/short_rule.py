@@ -95,7 +95,7 @@ class _Window:
     end: float
     coarse: Array
     spread: Array  # (unit + inner, K)
-    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner)
+    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner) of narrow contacts
     terms: ComplexArray  # the same of single terms with 1/ζ on the grid of logarithms
 
 
@@ -134,9 +134,10 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
     unit_x, unit_gauss = _gauss(unit)
     inner = np.concatenate([integers, panels])
     zeta = 1.0 / logs()
-    terms = np.empty((zeta.size, unit + inner.size), dtype=complex)
-    terms[:, :unit] = _unit_weights(zeta, unit, slow, plain)
-    terms[:, unit:] = 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))
+    terms, ones = _unit_weights(zeta, unit, slow, plain), 0.5 * unit_gauss
+    if cap == WIDEST:  # wide windows have too many nodes for a table
+        terms = np.concatenate([terms, 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))], axis=1)
+        ones = np.concatenate([ones, np.ones(inner.size)])
     coarse_x, coarse_gauss = _gauss(count)
     fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
@@ -151,7 +152,7 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
         end=end,
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
-        plain=np.concatenate([0.5 * unit_gauss, np.ones(inner.size)]),
+        plain=ones,
         terms=terms,
     )
 
@@ -175,16 +176,16 @@ def short_rules(
         _beyond(layers.reach(grade.depth), half_width, grade, window.end)
         for grade, window in zip(grades, windows, strict=True)
     ]
-    outside = creeps.compliance(np.concatenate([beyond for beyond, _ in panels], axis=1))
     terms = moved(log_stencils(1.0 / creeps.times), creeps.weights, LOGS)
-    m, j, unit, start = [], [], [], 0
+    m, j, unit = [], [], []
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
         known += creeps.instantaneous[:, None] * window.plain
-        unit.append(known[:, : -window.inner.size])
+        nodes = _UNITS[cap == WIDEST][0]
+        unit.append(known[:, :nodes])
         m += [np.broadcast_to(window.inner, (half_width.size, window.inner.size)), beyond]
-        j += [known[:, -window.inner.size :], outside[:, start : start + beyond.shape[1]]]
-        start += beyond.shape[1]
+        inside = known[:, nodes:] if cap == WIDEST else creeps.compliance(window.inner[None])
+        j += [inside, creeps.compliance(beyond)]
     symbol = layers.symbol(np.concatenate(m, axis=1), np.concatenate(j, axis=1))
     rules, start = [], 0
     for k, (window, (beyond, measure)) in enumerate(zip(windows, panels, strict=True)):
@@ -192,7 +193,9 @@ def short_rules(
         end = inner + beyond.shape[1]
         inside = window.measure * (window.rest * symbol[:, cut:inner] - j[2 * k][:, window.ramp.size :])
         fine = np.concatenate([-unit[k], window.ramp * symbol[:, start:cut], inside], axis=1)
-        weights = (fine @ window.spread) / window.coarse
+        # complex @ real would make the real one complex first
+        parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
+        weights = parts[: half_width.size] + 1j * parts[half_width.size :]
         rest = measure * (symbol[:, inner:end] - j[2 * k + 1]) / beyond
         nodes = [np.broadcast_to(window.coarse, weights.shape), beyond]
         rules.append(ShortRule(np.concatenate(nodes, axis=1), np.concatenate([weights, rest], axis=1)))
