@@ -13,7 +13,7 @@ from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
-from conveyor.report import analysis_plots, loop_plots, plots, transfer_tables
+from conveyor.report import analysis_plots, plots, transfer_tables
 from conveyor.report.tables import boundaries
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
@@ -53,16 +53,16 @@ class AnalysisPlots:
     def tensions(self, *, system: System | None = None) -> Figure:
         """Tension round the loop in every state, and the least that the sag allows."""
         result = self.analysis
-        return loop_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
+        return analysis_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
 
     def flap(self, *, system: System | None = None) -> Figure:
         """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
-        return loop_plots.flap_diagram(self.analysis, system=self._in(system))
+        return analysis_plots.flap_diagram(self.analysis, system=self._in(system))
 
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
-        return loop_plots.route_profile(
+        return analysis_plots.route_profile(
             conveyor, self.analysis.line, boundaries(self.analysis.line), system=self._in(system)
         )
 
@@ -80,7 +80,7 @@ class AnalysisPlots:
 
     def plan(self, *, system: System | None = None) -> Figure:
         """The route from above, with its horizontal curves."""
-        return loop_plots.plan(self.analysis.line, system=self._in(system))
+        return analysis_plots.plan(self.analysis.line, system=self._in(system))
 
     def drift(self, *, system: System | None = None) -> Figure:
         """Drift of the belt in every horizontal curve, over all states of motion.
@@ -92,7 +92,7 @@ class AnalysisPlots:
         """
         if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
-        return loop_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
+        return analysis_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""

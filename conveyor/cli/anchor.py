@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from conveyor.cli.app import say
-from conveyor.cli.completion import compound_names
+from conveyor.cli.app import compound_names, say
+from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.files import marks
 
@@ -58,7 +58,7 @@ def anchor(
 ) -> None:
     """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = session.outputs(compound, tests)
-    to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
+    to.file("--output", output, *SPEC, kind=marks.COMPOUND)
     from conveyor import anchoring
     from conveyor import shelf as store
     from conveyor.measured.rolling_tests import read_rolling_tests

@@ -18,6 +18,7 @@ import typer
 import typer.core
 
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.files.shelves import files
 from conveyor.printable import in_json, printable
 from conveyor.ranges import MOST, spaced
 
@@ -147,6 +148,16 @@ Progress = Callable[..., None]
 """Called with what is going on, what is done, the whole, and what else to say."""
 _ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
+
+
+def compound_names(context: typer.Context, incomplete: str) -> list[str]:
+    """Names on the shelf that begin with what was typed; the folders of --shelf are searched, too."""
+    given = context.params.get("shelf") or context.params.get("shelves") or ()
+    try:
+        known = files(given)
+    except InputError:
+        return []
+    return sorted(name for name in known if name.startswith(incomplete.casefold()))
 
 
 def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None = None) -> Conveyor:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from conveyor.cli.app import Spec, say
+from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import CalibrationStudy
@@ -68,10 +68,8 @@ def calibrate(
 ) -> None:
     """Fit factors on indentation, idler rotation and flexure to measured power, as far as the runs tell them apart."""
     to = session.outputs(spec, measured)
-    is_book = output is not None and output.suffix.lower() == ".xlsx"
-    to.file("--output", output, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if is_book else marks.TO_FILL_IN)
+    to.file("--output", output, *SPEC, ".xlsx")
     import conveyor
-    from conveyor.report import excel
 
     line = session.read(spec)
     system = session.system(line)
@@ -83,8 +81,8 @@ def calibrate(
             factors=factors,
             progress=None if told is None else partial(told, "runs"),
         )
-    if output is not None and is_book:
-        to.add("workbook", output, excel.files(calibration.contents(system), output, {}))
+    if output is not None and output.suffix.lower() == ".xlsx":
+        to.report(calibration.contents(system), output)
     elif output is not None:
         to.add("part of a spec", output, {output: calibration.fragment.encode()})
     session.answer(calibration.to_dict(), to, lambda: _show(calibration, system))
@@ -98,7 +96,7 @@ def _show(calibration: CalibrationStudy, system: System) -> None:
     screen = console()
     runs = calibration_tables.runs(calibration).only(*_OF_RUNS)
     for part in (calibration_tables.factors(calibration), calibration_tables.correlation(calibration), runs):
-        if not part.empty:
+        if part.rows:
             screen.print(grid(part, system), "")
             if part.note:
                 say(part.note, "")

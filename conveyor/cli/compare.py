@@ -5,21 +5,14 @@ from __future__ import annotations
 import math
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from conveyor.cli.app import AsParquet, Spec, TablesFolder, WebPage, Workbook, one_of, values
-from conveyor.cli.completion import compound_names
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import AsParquet, Spec, TablesFolder, WebPage, Workbook, compound_names, one_of, values
+from conveyor.cli.outputs import FIGURE
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import marks
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Comparison
-    from conveyor.report.columns import Contents
-    from conveyor.units import System
 
 
 @command(
@@ -98,12 +91,10 @@ def compare(
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     to = session.outputs(spec, *compounds)
-    to.file("--output", output, ".xlsx", kind=marks.REPORT)
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
-    to.tables(tables, parquet=parquet)
+    to.reports(output, html, tables, parquet=parquet)
     to.file("--csv", csv, ".csv")
     for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
-        to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+        to.file(option, path, *FIGURE)
     from conveyor.analysis import compare_compounds
 
     line = session.read(spec)
@@ -125,59 +116,20 @@ def compare(
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    from conveyor.report import comparison_tables
+    from conveyor.report import comparison_tables, files
 
-    contents = comparison_tables.of_comparison(comparison, system)
-    _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
-    _figures(comparison, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
-    from conveyor.cli.compare_tables import show
-
-    session.answer(comparison_tables.plain(comparison), to, lambda: show(contents))
-
-
-def _reports(
-    contents: Contents,
-    to: Outputs,
-    *,
-    output: Path | None,
-    html: Path | None,
-    tables: Path | None,
-    parquet: bool,
-    csv: Path | None,
-) -> None:
-    """Make the workbook, the page and the tables that are asked for."""
-    from conveyor.report import excel, files
-    from conveyor.report import html as page
-
-    if output is not None:
-        to.add("workbook", output, excel.files(contents, output))
-    if html is not None:
-        to.add("page", html, {html: page.build(contents).encode()})
-    if tables is not None:
-        to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
+    contents, draw = comparison_tables.of_comparison(comparison, system), comparison.plots
+    to.write(contents)
     if csv is not None:
         to.add("table", csv, {csv: files.csv(contents["scenes"].frame(contents.system))})
-
-
-def _figures(
-    comparison: Comparison,
-    to: Outputs,
-    system: System,
-    *,
-    plot: Path | None,
-    speed_plot: Path | None,
-    tan_delta: Path | None,
-) -> None:
-    """Draw the figures that are asked for."""
-    from conveyor.report.plots import drawn
-
-    for path, draw in (
-        (plot, comparison.plots.power_against_temperature),
-        (speed_plot, comparison.plots.power_against_speed),
-        (tan_delta, comparison.plots.loss_tangents),
-    ):
+    for path, figure in (
+        (plot, draw.power_against_temperature), (speed_plot, draw.power_against_speed), (tan_delta, draw.loss_tangents)
+    ):  # fmt: skip
         if path is not None:
-            to.add("figure", path, {path: drawn(draw(system=system), path)})
+            to.figure(figure(system=system), path)
+    from conveyor.cli.terminal import show_comparison
+
+    session.answer(comparison_tables.plain(comparison), to, lambda: show_comparison(contents))
 
 
 def _amount(given: str) -> tuple[str, float]:

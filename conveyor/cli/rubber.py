@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
-from conveyor.cli.app import Force, Quiet, Shelves, app, examples, one_of, say
-from conveyor.cli.completion import compound_names
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import Force, Quiet, Shelves, app, compound_names, examples, one_of, say
+from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
@@ -161,12 +160,10 @@ def fit(
     books = [path for path in output or () if path.suffix.lower() == ".xlsx"]
     compounds = [path for path in output or () if path not in books]
     for path in output or ():
-        to.file(
-            "--output", path, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if path in books else marks.COMPOUND
-        )
-    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+        to.file("--output", path, *SPEC, ".xlsx", kind=None if path in books else marks.COMPOUND)
+    to.file("--plot", plot, *FIGURE)
     to.file("--write-shift", write_shift, ".csv")
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.file("--html", html, *PAGE)
     said = dict(_said(words) for words in document or ())
     for path in export or ():
         to.file("--export", path, *EXPORTED)
@@ -201,9 +198,7 @@ def fit(
         fitted = compound_file.from_files(data, request)
     lines = summary.lines(fitted)
     if plot is not None:
-        from conveyor.report import plots
-
-        to.add("figure", plot, {plot: plots.drawn(summary.figure(fitted), plot)})
+        to.figure(summary.figure(fitted), plot)
     for path in compounds:
         to.add("compound file", path, {path: shelf_of.dump(fitted.compound, marks.FITTED).encode()})
     if write_shift is not None:
@@ -234,7 +229,6 @@ def _judged(
     """Lines of the verdict; add the page to sign and the workbook."""
     from conveyor.fitting import page, tables, verdict
     from conveyor.fitting.compound import Tabulated
-    from conveyor.report import excel
     from conveyor.spec import load
 
     if isinstance(rubber, Tabulated):
@@ -242,7 +236,7 @@ def _judged(
     criteria = verdict.verdict(rubber, None if spec is None else load(spec))
     for path in paths:
         if path.suffix.lower() == ".xlsx":
-            to.add("workbook", path, excel.files(tables.of_fit(rubber, criteria, said), path, {}))
+            to.report(tables.of_fit(rubber, criteria, said), path)
         else:
             to.add("page", path, {path: page.build(rubber, criteria, said).encode()})
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
@@ -297,7 +291,7 @@ def shelf(
     import math
 
     to = Outputs(name, force=force)
-    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+    to.file("--plot", plot, *FIGURE)
     for path in export or ():
         to.file("--export", path, *EXPORTED)
     if export and name is None:
@@ -374,7 +368,7 @@ def _show(
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(figure(plots), plot)})
+        to.figure(figure(plots), plot)
     written = to.save()
     console.print(table)
     if written:

@@ -150,10 +150,8 @@ def validate(quiet: Quiet = False) -> None:
     from conveyor.cli.terminal import console, table
 
     checks = validation.run()
-    made = table()
-    made.add_column("reference")
-    for heading in ("expected", "got", "deviation", "allowed", ""):
-        made.add_column(heading, no_wrap=True, justify="right")
+    heads = ("reference", "expected", "got", "deviation", "allowed", "")
+    made = table(None, heads, left=("reference",))
     for check in checks:
         made.add_row(
             f"{check.source}: {check.quantity}",

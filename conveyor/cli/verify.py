@@ -11,7 +11,6 @@ import typer
 from conveyor.cli.app import WebPage, Workbook, say, values
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import VerificationSheet
@@ -76,13 +75,10 @@ def verify_sheet(
 ) -> None:
     """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = session.outputs(spec, *compounds)
-    to.file("--output", output, ".xlsx", kind=marks.REPORT)
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.reports(output, html)
     if output is None and html is None and not session.as_json:
         raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
     import conveyor
-    from conveyor.report import excel, verification_tables
-    from conveyor.report import html as page
 
     line = None if spec is None else session.read(spec)
     given = dict(zip(_AXES, (load, temperature, roll, speed, cover), strict=True))
@@ -100,11 +96,7 @@ def verify_sheet(
             progress=None if told is None else partial(told, "compounds"),
             **axes,
         )
-    contents = sheet.contents(session.system(line))
-    if output is not None:
-        to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
-    if html is not None:
-        to.add("page", html, {html: page.build(contents, verification_tables.PARTS).encode()})
+    to.write(sheet.contents(session.system(line)))
     session.answer(sheet.to_dict(), to, lambda: _show(sheet))
 
 

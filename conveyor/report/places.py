@@ -167,13 +167,7 @@ class Page:
         return place
 
     def stacked(
-        self,
-        keys: Iterable[str],
-        row: int = 1,
-        column: int = 1,
-        *,
-        widest: int = _NAMES,
-        across: bool = True,
+        self, keys: Iterable[str], row: int = 1, column: int = 1, *, widest: int = _NAMES, across: bool = True
     ) -> dict[str, TablePlace]:
         """Write tables under one another, those that there are, each with its note; where each stands.
 

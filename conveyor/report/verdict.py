@@ -90,9 +90,9 @@ def governing_figures(
     system = a.conveyor.report.units
     loads = list(_loads(a, studies))
     columns = (
-        Column("what governs", "text", lambda row: row.subject, key="subject"),
-        Column("value", "text", lambda row: row.value),
-        Column("where and when", "text", lambda row: row.where, key="where"),
+        Column("what governs", "text", "subject", key="subject"),
+        Column("value", "text", "value"),
+        Column("where and when", "text", "where", key="where"),
     )
     rows = tuple(_rows(a, studies, loads, governing, take_up, left_open))
     heading = "What governs the design"

@@ -15,7 +15,7 @@ from conveyor.errors import InputError
 from conveyor.line.line import Line
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
-from conveyor.report.loop_plots import route_profile
+from conveyor.report.analysis_plots import route_profile
 from conveyor.report.plots import master_curve, stacked
 from conveyor.report.svg import inline, restyle
 from conveyor.units import si
