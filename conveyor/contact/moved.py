@@ -49,7 +49,8 @@ def moved(at: Stencils, weights: Array, size: int) -> Array:
     first, shares = at
     rows = first.shape[0]
     index = np.arange(POINTS)[:, None, None] + (first + size * np.arange(rows)[:, None])
-    return np.bincount(index.ravel(), (weights * shares).ravel(), rows * size).reshape(rows, size)
+    out = np.bincount(index.ravel(), (weights * shares).ravel(), rows * size)
+    return np.asarray(out, dtype=np.float64).reshape(rows, size)
 
 
 def logs() -> Array:

@@ -43,7 +43,7 @@ from conveyor.contact.short_rule import (
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, equilibrium, penetration
+from conveyor.contact.spectral import Contact, equilibrium
 from conveyor.contact.stack import Stack, kind, stacked
 from conveyor.contact.tabled import Tabled
 
@@ -58,6 +58,7 @@ ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 
 _NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last step leaves its square
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
+_PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
@@ -136,7 +137,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
             for chosen in _chunks(group, alpha, rows, grades[0]):
                 part = group[chosen]
                 rules = short_rules(part.layers, part.creeps, ROOM * alpha[chosen], grades)
-                search = Search(part, rules, alpha[chosen])
+                search = Search(part, rules, alpha[chosen], rtol)
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
                 strayed.append(chosen[search.stray])
@@ -213,8 +214,8 @@ class Search:
     contact there as soon as it is near.
     """
 
-    def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array) -> None:
-        self.group = group
+    def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
+        self.group, self.tolerance = group, _PLACE_SHARE * rtol
         self.rule, self.check = rules
         self.middle = np.log(alpha)
         ratios, transform = _points()
@@ -282,7 +283,7 @@ class Search:
         alpha = np.exp(self.middle[rows] + RANGE * t)
         matrix = Tabled(self.rule[rows], self.group.creeps[rows], alpha).matrices(n)
         start = alpha * _value(self.shift[rows], t)
-        contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
+        contact = equilibrium(matrix, alpha, self.group.rho[rows], start, self.tolerance)
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
@@ -415,12 +416,8 @@ class _Closing:
         search, group = self.search, self.search.group
         problem, creep = group.problems[row], group.given[row]
         alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
-        depth = None
-        if outside:
-            scene = Scene(problem, creep)
-            depth = float(penetration(scene.rule(alpha), creep, contact, problem.rho)[0])
-            if overlaps(scene, contact, depth):
-                return Left.STRIPS
+        if outside and overlaps(Scene(problem, creep), contact):
+            return Left.STRIPS
         return Outcome(
             Status.OK,
             Found(
@@ -432,7 +429,7 @@ class _Closing:
                 energy_error=errors[1],
                 error_estimate=errors[0],
                 edge_error=float(self.edges[row]),
-                fields=SpectralFields(problem.layer, creep, contact, problem.rho, depth),
+                fields=SpectralFields(problem.layer, creep, contact, problem.rho),
             ),
             order=int(contact.c.shape[1]),
             matrices=int(search.matrices[row]),

@@ -162,9 +162,7 @@ def cap_of(half_width: float) -> float:
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
-def short_rules(
-    layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]
-) -> list[ShortRule]:
+def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
     """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
     All scenes take as many nodes as the one that needs most: hand over like with like. Times must lie `within`.
@@ -177,30 +175,37 @@ def short_rules(
         for grade, window in zip(grades, windows, strict=True)
     ]
     terms = moved(log_stencils(1.0 / creeps.times), creeps.weights, LOGS)
-    m, j, unit = [], [], []
+    units, nodes, compliances = [], [], []
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
         known += creeps.instantaneous[:, None] * window.plain
-        nodes = _UNITS[cap == WIDEST][0]
-        unit.append(known[:, :nodes])
-        m += [np.broadcast_to(window.inner, (half_width.size, window.inner.size)), beyond]
-        inside = known[:, nodes:] if cap == WIDEST else creeps.compliance(window.inner[None])
-        j += [inside, creeps.compliance(beyond)]
-    symbol = layers.symbol(np.concatenate(m, axis=1), np.concatenate(j, axis=1))
-    rules, start = [], 0
-    for k, (window, (beyond, measure)) in enumerate(zip(windows, panels, strict=True)):
-        cut, inner = start + window.ramp.size, start + window.inner.size
-        end = inner + beyond.shape[1]
-        inside = window.measure * (window.rest * symbol[:, cut:inner] - j[2 * k][:, window.ramp.size :])
-        fine = np.concatenate([-unit[k], window.ramp * symbol[:, start:cut], inside], axis=1)
-        # complex @ real would make the real one complex first
-        parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
-        weights = parts[: half_width.size] + 1j * parts[half_width.size :]
-        rest = measure * (symbol[:, inner:end] - j[2 * k + 1]) / beyond
-        nodes = [np.broadcast_to(window.coarse, weights.shape), beyond]
-        rules.append(ShortRule(np.concatenate(nodes, axis=1), np.concatenate([weights, rest], axis=1)))
-        start = end
-    return rules
+        unit, j = np.split(known, [_UNITS[cap == WIDEST][0]], axis=1)
+        units.append(unit)
+        nodes.append(_beside(window.inner, beyond))
+        j = j if cap == WIDEST else creeps.compliance(window.inner[None])
+        compliances.append(np.concatenate([j, creeps.compliance(beyond)], axis=1))
+    symbol = layers.symbol(np.concatenate(nodes, axis=1), np.concatenate(compliances, axis=1))
+    symbols = np.split(symbol, np.cumsum([m.shape[1] for m in nodes])[:-1], axis=1)
+    return list(map(_rule, windows, panels, units, compliances, symbols))
+
+
+def _rule(
+    window: _Window, panels: tuple[Array, Array], unit: ComplexArray, j: ComplexArray, symbol: ComplexArray
+) -> ShortRule:
+    """Rule of one window and the panels beyond it, from what unit weights, j and S are at its nodes."""
+    beyond, measure = panels
+    cut, end = window.ramp.size, window.inner.size
+    inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
+    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], inside], axis=1)
+    # complex @ real would make the real one complex first
+    real, imag = np.split((np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse, 2)
+    rest = measure * (symbol[:, end:] - j[:, end:]) / beyond
+    return ShortRule(_beside(window.coarse, beyond), np.concatenate([real + 1j * imag, rest], axis=1))
+
+
+def _beside(shared: Array, own: Array) -> Array:
+    """Nodes of every scene, shape (k,), beside those of each, shape (b, l)."""
+    return np.concatenate([np.broadcast_to(shared, (own.shape[0], shared.size)), own], axis=1)
 
 
 def _count(grade: Grade, cap: float, widest: float) -> int:
@@ -237,7 +242,9 @@ def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArr
     degrees = np.arange(unit)[:, None]
     x, gauss = _gauss(plain)
     nodes = 0.5 * (x + 1.0)
-    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta)))
+    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
+        1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
+    )
     moments[:, zeta > slow] = _moments(zeta[zeta > slow], unit)
     x, gauss = _gauss(unit)
     return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))

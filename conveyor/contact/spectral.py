@@ -165,7 +165,9 @@ def _balanced(matrix: Array, slopes: Array, right: Array) -> tuple[Array, Array,
         step = -(miss + 0.5 * bend * step * step) / rise
     powers = np.empty((step.size, 3, 1))
     powers[:, 0, 0], powers[:, 1, 0], powers[:, 2, 0] = 1.0, step, 0.5 * step * step
-    return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
+    slope: Array = (slopes @ powers)[..., 0]
+    c: Array = np.asarray((answers @ powers)[..., 0], dtype=np.float64)
+    return slope, c, np.asarray(step)
 
 
 def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:

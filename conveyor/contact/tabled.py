@@ -25,15 +25,18 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _STEP = 0.2  # of the grid of u
-_HIGHEST, _LARGEST = 64, 1 << 20  # order, and entries of a table of waves, beyond which matrices are formed one by one
+_HIGHEST, _LARGEST = (
+    64,
+    1 << 20,
+)  # order, and entries of a table of waves, beyond which matrices are formed one by one
 
 
 @lru_cache(maxsize=16)
 def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
     """Pairs i ≤ v of equal and of unequal parity; where a matrix finds its entries, and their factors; of the loss."""
-    v, i = np.nonzero(np.tri(n + 1, dtype=bool))
+    v, i = (np.asarray(index, dtype=np.int_) for index in np.nonzero(np.tri(n + 1, dtype=bool)))
     even = (v - i) % 2 == 0
-    pairs = [(i[kind], v[kind]) for kind in (even, ~even)]
+    pairs: list[tuple[Index, Index]] = [(i[kind], v[kind]) for kind in (even, ~even)]
     place = np.empty((n + 1, n + 1), dtype=int)
     low, high = (np.concatenate(side) for side in zip(*pairs, strict=True))
     place[low, high] = place[high, low] = np.arange(low.size)
@@ -42,7 +45,8 @@ def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
     factor = np.where(row == 0, 1.0, 2.0) * column * np.where((q + q % 2) % 4 == 0, -1.0, 1.0)
     i, v = pairs[0]
     lost = np.where((v - i) % 4 == 0, 0.25, -0.25) * np.where(i == v, 1.0, 2.0) * (i > 0)
-    return pairs, place[:, 1:].ravel(), factor.ravel(), lost
+    signs, lost = np.asarray(factor.ravel(), dtype=np.float64), np.asarray(lost, dtype=np.float64)
+    return pairs, np.asarray(place[:, 1:].ravel()), signs, lost
 
 
 @lru_cache(maxsize=64)
@@ -100,7 +104,9 @@ class Tabled:
             return assemble(self.rule[every], self.creeps[every], alpha, n)
         _, where, factor, _ = _pairs(n)
         terms = moved(self._b, self.creeps.weights, LOGS)
-        weights = [moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)]
+        weights = [
+            moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)
+        ]
         out = np.empty((self.alpha.size, len(ratios), (n + 1) * n))
         for k, ratio in enumerate(ratios):
             waves, half_space = _waves(n, self._size, ratio), _terms(n, ratio)
