@@ -174,7 +174,7 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
         _beyond(layers.reach(grade.depth), half_width, grade, window.end)
         for grade, window in zip(grades, windows, strict=True)
     ]
-    terms = moved(log_stencils(1.0 / creeps.times), creeps.weights, LOGS)
+    (terms,) = moved(log_stencils(1.0 / creeps.times), LOGS, creeps.weights)
     units, nodes, compliances = [], [], []
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
