@@ -285,7 +285,7 @@ class _Sampler:
     def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
         """Curves by row; why there is none, or nothing where another way may have one."""
         by_row: dict[int, LoadCurve | NoSolutionError] = {}
-        n = lowest_order(rtol, several=True)
+        n = lowest_order(rtol)
         waiting = np.arange(self.rows.size)
         for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 4 if self.narrow else None]:
             if waiting.size == 0:

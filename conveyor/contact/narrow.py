@@ -261,7 +261,7 @@ class Search:
             rising = rise > 0.0
             last = t
             t = np.where(rising, t - (_value(cubic, t) - wanted) / np.where(rising, rise, 1.0), _OUTSIDE)
-            t = np.clip(t, -_OUTSIDE, _OUTSIDE)
+            t = np.minimum(np.maximum(t, -_OUTSIDE), _OUTSIDE)
             if (np.abs(t - last) <= _LAST_STEP).all():
                 break
         self.place[rows] = t

@@ -17,6 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,13 +180,14 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
         known += creeps.instantaneous[:, None] * window.plain
-        unit, j = np.split(known, [_UNITS[cap == WIDEST][0]], axis=1)
-        units.append(unit)
+        unit = _UNITS[cap == WIDEST][0]
+        units.append(known[:, :unit])
         nodes.append(_beside(window.inner, beyond))
-        j = j if cap == WIDEST else creeps.compliance(window.inner[None])
+        j = known[:, unit:] if cap == WIDEST else creeps.compliance(window.inner[None])
         compliances.append(np.concatenate([j, creeps.compliance(beyond)], axis=1))
     symbol = layers.symbol(np.concatenate(nodes, axis=1), np.concatenate(compliances, axis=1))
-    symbols = np.split(symbol, np.cumsum([m.shape[1] for m in nodes])[:-1], axis=1)
+    ends = np.cumsum([m.shape[1] for m in nodes]).tolist()
+    symbols = [symbol[:, start:end] for start, end in pairwise([0, *ends])]
     return list(map(_rule, windows, panels, units, compliances, symbols))
 
 
@@ -198,14 +200,18 @@ def _rule(
     inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
     fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], inside], axis=1)
     # complex @ real would make the real one complex first
-    real, imag = np.split((np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse, 2)
+    parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
+    weights = parts[: fine.shape[0]] + 1j * parts[fine.shape[0] :]
     rest = measure * (symbol[:, end:] - j[:, end:]) / beyond
-    return ShortRule(_beside(window.coarse, beyond), np.concatenate([real + 1j * imag, rest], axis=1))
+    return ShortRule(_beside(window.coarse, beyond), np.concatenate([weights, rest], axis=1))
 
 
 def _beside(shared: Array, own: Array) -> Array:
     """Nodes of every scene, shape (k,), beside those of each, shape (b, l)."""
-    return np.concatenate([np.broadcast_to(shared, (own.shape[0], shared.size)), own], axis=1)
+    out = np.empty((own.shape[0], shared.size + own.shape[1]))
+    out[:, : shared.size] = shared
+    out[:, shared.size :] = own
+    return out
 
 
 def _count(grade: Grade, cap: float, widest: float) -> int:
