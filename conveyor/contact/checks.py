@@ -161,17 +161,20 @@ def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool
     return np.asarray(beside | (contact.alpha + np.abs(contact.eps) > WRAPPED * rho))
 
 
-def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
+def overlaps(scene: Scene, contact: Contact, depth: float | None = None) -> bool:
     """Whether the layer's surface lies inside the roll outside the strips; one strip an entry of `contact`.
 
-    Between strips, and out to the ends of the roll's half circle.
+    Between strips, and out to the ends of the roll's half circle. Where Δ/R is not known the surface half way to
+    the first strip's edge tells it, to a tenth of the tolerance.
     """
     rho = scene.problem.rho
     rank = np.argsort(contact.eps)
     low, high = (contact.eps - contact.alpha)[rank], (contact.eps + contact.alpha)[rank]
     place = np.linspace(0.0, 1.0, _GAP_POINTS + 2)[1:-1]
     starts, ends = np.append(-rho, high), np.append(low, rho)
-    x = (starts[:, None] + place * (ends - starts)[:, None]).ravel()
-    roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0))
+    inside = contact.eps[0] + 0.5 * contact.alpha[0]
+    x = np.append((starts[:, None] + place * (ends - starts)[:, None]).ravel(), inside)
+    roll = np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0)) - 1.0
     gap = SpectralFields(scene.problem.layer, scene.creep, contact, rho).outside(x, _GAP_REACH) - roll
-    return bool(gap.min() < -_GAP_TOLERANCE * abs(depth))
+    depth = float(gap[-1]) if depth is None else depth
+    return bool(gap[:-1].min() < depth - _GAP_TOLERANCE * abs(depth))
