@@ -171,11 +171,10 @@ def test_a_batch_raises_on_request():
 
 
 def test_a_layer_too_thin_for_memory_is_a_status_not_an_exception():
-    creep = CreepSpectrum(0.1, [0.9], [1.0])
-    found = solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7), throw=False)
-    assert found.status is Status.TOO_THIN
+    thin = ContactProblem("confined", 0.1, 1e-3, CreepSpectrum(0.1, [0.9], [1.0]), 1e-7)
+    assert solve(thin, throw=False).status is Status.TOO_THIN
     with pytest.raises(NoSolutionError, match="thicker layer"):
-        solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7))
+        solve(thin)
 
 
 @pytest.mark.parametrize("value", ["x", None, True])
