@@ -33,6 +33,8 @@ _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
 _UNRESOLVED = 2.4  # power of n that they fall with before
+# of a single layer not yet resolved: friction errs by 2 to 7 times the energy where its error, rising with n, peaks
+_LAYER_OVER_ENERGY, _STEADY = 10.0, 2.0  # that multiple; power of n from which on errors are seen to fall
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -98,6 +100,7 @@ def _converged(
     tolerance = _FIRST_LOAD_TOLERANCE
     n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
     longest = _longest(scene.creep.weights.size)
+    lost: tuple[int, float] | None = None
     while True:
         state = carry(scene, search, n, tolerance, last)
         if state is None:
@@ -120,6 +123,10 @@ def _converged(
             left = error * (last / longest) ** _UNRESOLVED
             if following is not None and left > rtol and _out_of_reach(scene, contact, last, longest):
                 following = None
+            here = last, float(energy[0])
+            if last > n and not _falls(lost, here) and _out_of_reach(scene, contact, last, last):
+                error = max(error, _LAYER_OVER_ENERGY * here[1])
+            lost = here
             if (error <= rtol and decided) or following is None:
                 return state, contact, error, float(energy[0]), float(by_order.edges[0])
         n, last = following
@@ -144,6 +151,11 @@ def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: in
     if core > max(tail, rtol):
         return (2 * n, max(last, 8 * n)) if n < _WIDEST_CORE else None
     return (n, 4 * last) if 4 * last <= longest else None
+
+
+def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
+    """Whether the energy's error falls from one last order to the next as it does for layers of every width."""
+    return before is not None and now[1] * now[0] ** _STEADY <= before[1] * before[0] ** _STEADY
 
 
 def _out_of_reach(scene: Scene, contact: Contact, last: int, longest: int) -> bool:
