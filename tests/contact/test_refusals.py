@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -210,24 +211,12 @@ def test_a_load_far_beyond_the_limit_is_refused_on_a_coarse_grid():
     assert found.stats.grid == 64 * 512
 
 
-class _Own:
-    """A layer of the user's own whose symbol is a given function of m."""
-
-    reach = 1.0
-
-    def __init__(self, given):
-        self._given = given
-
-    def symbol(self, m, creep):
-        return self._given(m)
-
-
 @pytest.mark.parametrize("given", [np.zeros_like, lambda m: np.nan * m, lambda m: -1.0 / m, lambda m: m[:2]])
 def test_a_layer_that_is_none_is_refused(given):
     with pytest.raises(
         InputError, match=r"5 wave numbers must be as many finite complex numbers with a positive"
     ):
-        problem(support=_Own(given))
+        problem(support=SimpleNamespace(reach=1.0, symbol=lambda m, _: given(m)))
 
 
 @pytest.mark.parametrize("field", ["pressure", "profile"])
