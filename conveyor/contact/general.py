@@ -87,8 +87,8 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
     if not grids:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        coarse, load = Grid(scene.problem, _coarsest(scene.problem.rho)), grids[-1].mean_pressure
-        return _overloaded(grids[-1], _limit(coarse, coarse.raised(load)[1], load))
+        coarse = Grid(scene.problem, _coarsest(scene.problem.rho))
+        return _overloaded(grids[-1], _limit(coarse, None, grids[-1].mean_pressure))
     return _on_grid(scene, grids, rtol)
 
 
@@ -233,14 +233,17 @@ def _overloaded(grid: GridContact, limit: float) -> Outcome:
     return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
 
 
-def _limit(coarse: Grid, about: float, load: float) -> float:
+def _limit(coarse: Grid, about: float | None, load: float) -> float:
     """The mean pressure from which on the contact touches the last of 256 nodes on the roll, `load` at most.
 
     `about` is that of 64 nodes, the coarse grid's.
     """
-    below = coarse.contact(0.5 * min(about, load))
-    finer = Grid(coarse.problem, _LIMIT_FINER * coarse.points)
-    return min(load, finer.raised(load, below)[1])
+    try:
+        below = coarse.contact(0.5 * min(coarse.raised(load)[1] if about is None else about, load))
+        finer = Grid(coarse.problem, _LIMIT_FINER * coarse.points)
+        return min(load, finer.raised(load, below)[1])
+    except NoSolutionError:
+        return load
 
 
 def _coarsest(rho: float) -> int:

@@ -38,7 +38,7 @@ _ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
 _DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
 _PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
 _FEW = 520  # nodes on the roll whose load is raised from nothing where block exchanges do not settle
-_EXCHANGES = 40  # a node, of a load raised from nothing: 1 to 10 seen
+_EXCHANGES, _FEW_EXCHANGES = 40, 4  # a node, from nothing (1 to 20 seen) and from another load
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
 _DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
@@ -164,19 +164,23 @@ class Grid:
         That is infinite where it does not. Raised from the load of `start`, a contact on another grid, where that leads
         to one here. For some hundred nodes: each exchange of the active set costs their square.
         """
-        surface, active = self._surface, np.zeros(self.x.size, dtype=bool)
         if start is not None:
             try:
-                active = (
-                    self._contact(_inside(self.x, start.strips), start.mean_pressure, None).pressure > 0.0
-                )
+                begun = self._contact(_inside(self.x, start.strips), start.mean_pressure, None)
+                return self._lowered(begun.pressure > 0.0, begun.mean_pressure, pressure, _FEW_EXCHANGES)
             except NoSolutionError:
-                start = None
-        tableau = _Tableau(surface.dense(np.arange(self.x.size)), self._drop, active)
-        if start is not None:
-            nodes = np.flatnonzero(active)
-            tableau.height = _equations(surface, self._drop, nodes, start.mean_pressure, None)[1]
-        limit = tableau.lower(pressure * self.points) / self.points
+                pass  # what rounding makes of two nodes that touch at once may run in circles
+        return self._lowered(np.zeros(self.x.size, dtype=bool), 0.0, pressure, _EXCHANGES)
+
+    def _lowered(
+        self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int
+    ) -> tuple[GridContact, float]:
+        """`raised` from the nodes in contact under a smaller mean pressure."""
+        surface, height = self._surface, 0.0
+        if carried:
+            height = _equations(surface, self._drop, np.flatnonzero(active), carried, None)[1]
+        tableau = _Tableau(surface.dense(np.arange(self.x.size)), self._drop, active, height)
+        limit = tableau.lower(pressure * self.points, exchanges * self.x.size) / self.points
         return self._contact(tableau.active, pressure, None), limit
 
     @property
@@ -379,9 +383,9 @@ class _Tableau:
     The matrix is positive definite: its diagonal stays positive, and as the roll is lowered there is one way on.
     """
 
-    def __init__(self, matrix: Array, drop: Array, active: NDArray[np.bool_]) -> None:
+    def __init__(self, matrix: Array, drop: Array, active: NDArray[np.bool_], height: float) -> None:
         a, b = np.flatnonzero(active), np.flatnonzero(~active)
-        self.active, self.height = active.copy(), 0.0
+        self.active, self.height = active.copy(), height
         self.table, self.lines = np.array(matrix, order="F"), np.stack([drop, -np.ones(drop.size)], axis=1)
         if a.size:
             inverse, over = np.linalg.inv(matrix[np.ix_(a, a)]), matrix[np.ix_(a, b)]
@@ -391,10 +395,10 @@ class _Tableau:
             self.table[np.ix_(a, a)], self.table[np.ix_(a, b)] = inverse, -inverse @ over
             self.table[np.ix_(b, a)], self.table[np.ix_(b, b)] = under, matrix[np.ix_(b, b)] - under @ over
 
-    def lower(self, load: float) -> float:
+    def lower(self, load: float, exchanges: int) -> float:
         """Lower the roll until Σ p = `load`; the Σ p from which on an end node is in contact, infinite if none is."""
         limit = 0.0 if self._at_end() else math.inf
-        for _ in range(_EXCHANGES * self.active.size):
+        for _ in range(exchanges):
             constant, slope = self.lines.T
             ready = np.divide(-constant, slope, out=np.full(slope.size, math.inf), where=slope < 0.0)
             node = int(np.argmin(ready))
@@ -406,7 +410,7 @@ class _Tableau:
                 return limit
             self._exchange(node)
             limit = min(limit, carried) if self._at_end() else math.inf
-        raise NoSolutionError(f"the contact on the grid took more than {_EXCHANGES} exchanges a node")
+        raise NoSolutionError(f"the load on the grid did not rise within {exchanges} exchanges")
 
     def _at_end(self) -> bool:
         return bool(self.active[0] or self.active[-1])
