@@ -6,9 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import AsParquet, TablesFolder
+from conveyor.cli.app import AsParquet, TablesFolder, argument, option
 from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.cli.session import Session, command
 
@@ -31,18 +29,16 @@ _MOST = 50
 )
 def size(
     session: Session,
-    duty: Annotated[Path, typer.Argument(metavar="DUTY", help="Duty: .yaml or .json.", show_default=False)],
-    best: Annotated[
-        int, typer.Option("--best", "-n", metavar="N", help="Designs to rank.", min=1, max=_MOST)
-    ] = 3,
+    duty: Annotated[Path, argument("Duty: .yaml or .json.", "DUTY", show_default=False)],
+    best: Annotated[int, option("Designs to rank.", "N", "--best", "-n", min=1, max=_MOST)] = 3,
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
+            "(.png, .svg, .pdf); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
-            "(.png, .svg, .pdf); may be repeated.",
         ),
     ] = None,
     tables: TablesFolder = None,
