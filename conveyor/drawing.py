@@ -131,7 +131,7 @@ class AnalysisPlots:
         around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
         given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
         varied = _varied(conveyor, given, [conveyor.belt.speed])
-        return plots.power_against_temperature(varied, system=self._in(system))
+        return plots.power_over(varied, "temperature", system=self._in(system))
 
     def power_against_speed(
         self, speeds: Iterable[str | Quantity] | None = None, *, system: System | None = None
@@ -154,7 +154,7 @@ class AnalysisPlots:
         around = [scaled(conveyor.belt.speed, times) for times in _FASTER]
         given = around if speeds is None else [quantity(v, "speed") for v in speeds]
         varied = _varied(conveyor, [conveyor.ambient.belt], given)
-        return plots.power_against_speed(varied, system=self._in(system))
+        return plots.power_over(varied, "speed", system=self._in(system))
 
     def every(
         self, studies: CalculatedStudies | None = None, *, system: System | None = None
@@ -206,9 +206,9 @@ def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quant
 def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
     cases = studies.cases
     if cases is not None and len({result.temperature for result in cases.results}) > 1:
-        yield "cases-temperature", analysis_plots.case_power_against_temperature(cases, system=system)
+        yield "cases-temperature", analysis_plots.case_power(cases, "temperature", system=system)
     if cases is not None and len({result.speed for result in cases.results}) > 1:
-        yield "cases-speed", analysis_plots.case_power_against_speed(cases, system=system)
+        yield "cases-speed", analysis_plots.case_power(cases, "speed", system=system)
     if studies.uncertainty is not None:
         yield "ranges", analysis_plots.tornado(studies.uncertainty, system=system)
         exact = studies.uncertainty.monte_carlo
@@ -226,13 +226,13 @@ class ComparisonPlots:
         self, speed: float | None = None, *, system: System | None = None
     ) -> Figure:
         """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without."""
-        return plots.power_against_temperature(self.comparison, speed, system=self._in(system))
+        return plots.power_over(self.comparison, "temperature", speed, system=self._in(system))
 
     def power_against_speed(
         self, temperature: float | None = None, *, system: System | None = None
     ) -> Figure:
         """Motor power of every compound over speed at one temperature [K], that next to the spec's without."""
-        return plots.power_against_speed(self.comparison, temperature, system=self._in(system))
+        return plots.power_over(self.comparison, "speed", temperature, system=self._in(system))
 
     def loss_tangents(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
         """Loss tangents at one temperature [K], the spec's without, and the band that the rolls excite."""

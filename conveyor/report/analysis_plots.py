@@ -20,7 +20,7 @@ from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import holds
 from conveyor.report.columns import FAILS
-from conveyor.report.plots import colour, grouped, keyed, master_curve, stacked, titled
+from conveyor.report.plots import Over, colour, grouped, keyed, master_curve, placed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -188,49 +188,31 @@ def rubber_at_work(
     return figure
 
 
-def case_power_against_temperature(
-    study: CalculatedCases, speed: float | None = None, *, system: System = "SI"
+def case_power(
+    study: CalculatedCases, over: Over, at: float | None = None, *, system: System = "SI"
 ) -> Figure:
-    """Motor power [kW, hp] of every load case over temperature at one speed [m/s], the conveyor's highest without.
+    """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
+
+    Without one the one that most cases have.
 
     Raises
     ------
     InputError
-        No case was answered, or none at that speed.
+        No case was answered, or none there.
     """
-    chosen, results = _at(study, "speed", speed, "m/s")
-    figure = _power_lines(results, "temperature", system)
-    titled(figure, f"{study.conveyor.name}, {unit('speed', system).brief(chosen)}", _shaded(study))
-    return figure
-
-
-def case_power_against_speed(
-    study: CalculatedCases, temperature: float | None = None, *, system: System = "SI"
-) -> Figure:
-    """Motor power [kW, hp] of every load case over belt speed at one temperature [K], the one of most speeds without.
-
-    Raises
-    ------
-    InputError
-        No case was answered, or none at that temperature.
-    """
-    chosen, results = _at(study, "temperature", temperature, "K")
-    figure = _power_lines(results, "speed", system)
-    at = unit("temperature", system, large=True)
-    titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.sign}", _shaded(study))
-    return figure
-
-
-def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
+    name, sign = ("speed", "m/s") if over == "temperature" else ("temperature", "K")
     values = [getattr(result, name) for result in study.results]
     if not values:
         raise InputError("no load case has an answer: nothing to draw")
-    chosen = max(sorted(set(values)), key=values.count) if value is None else value
+    chosen = max(sorted(set(values)), key=values.count) if at is None else at
     results = [result for result in study.results if getattr(result, name) == chosen]
     if not results:
         listed = ", ".join(f"{known:g}" for known in sorted(set(values)))
-        raise InputError(f"{name} = {chosen!r} {unit}: no load case has it, there are {listed}")
-    return chosen, results
+        raise InputError(f"{name} = {chosen!r} {sign}: no load case has it, there are {listed}")
+    figure, (low, high) = _power_lines(results, over, system), study.friction_band
+    title = f"{study.conveyor.name}, {placed(name, chosen, system)}"
+    titled(figure, title, f"shaded: friction factor {low:g}-{high:g}")
+    return figure
 
 
 def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
@@ -261,11 +243,6 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     keyed(axis)
     grouped(axis.yaxis)
     return figure
-
-
-def _shaded(study: CalculatedCases) -> str:
-    low, high = study.friction_band
-    return f"shaded: friction factor {low:g}-{high:g}"
 
 
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:

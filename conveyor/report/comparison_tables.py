@@ -467,13 +467,13 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             lambda: plots.differences(shown, comparison.base),
             "ranking",
         )
-    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_at(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = unit("speed", system).brief(plots.drawn_speed(comparison))
+        at = unit("speed", system).brief(plots.drawn_at(comparison, "temperature") or 0.0)
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
-            lambda: plots.power_against_temperature(comparison, system=system),
+            lambda: plots.power_over(comparison, "temperature", system=system),
             "power",
         )
     if len(speeds) > 1 and warmth is not None:
@@ -483,7 +483,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
             f"{turning}",
-            lambda: plots.power_against_speed(comparison, system=system),
+            lambda: plots.power_over(comparison, "speed", system=system),
             "power",
         )
     yield Drawing(

@@ -218,14 +218,14 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         yield Drawing(
             "case-temperature",
             "Motor power of the load cases over temperature.",
-            lambda: analysis_plots.case_power_against_temperature(study, system=system),
+            lambda: analysis_plots.case_power(study, "temperature", system=system),
             "load_cases",
         )
     if len({result.speed for result in study.results}) > 1:
         yield Drawing(
             "case-speed",
             "Motor power of the load cases over belt speed.",
-            lambda: analysis_plots.case_power_against_speed(study, system=system),
+            lambda: analysis_plots.case_power(study, "speed", system=system),
             "load_cases",
         )
 
