@@ -38,7 +38,7 @@ from conveyor.laws.resistance import (
 from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.stations import Spot
-from conveyor.line.strands import Strands
+from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Calibration
 
@@ -169,20 +169,45 @@ class WithoutRubber:
     unit_main: Array
     flexure: Array | None
 
+    def joined(self, back: WithoutRubber) -> WithoutRubber:
+        """Those along the carry strand, and behind them those along the return strand."""
+
+        def both(one: Array, other: Array) -> Array:
+            return np.concatenate([one, other])
+
+        none = np.zeros_like(self.lift)
+        skewed = (self.guidance, back.guidance)
+        flexed = (self.flexure, back.flexure)
+        return WithoutRubber(
+            tilt=both(self.tilt, back.tilt),
+            guidance=None
+            if skewed[0] is skewed[1] is None
+            else both(*(none if one is None else one for one in skewed)),
+            lift=both(self.lift, back.lift),
+            unit_main=both(self.unit_main, back.unit_main),
+            flexure=None if flexed[0] is None or flexed[1] is None else both(flexed[0], flexed[1]),
+        )
+
 
 def without_rubber(strands: Strands) -> WithoutRubber:
     """Forces along the belt that depend on its load alone."""
+    carry, back = map(strand_without_rubber, strands.each)
+    return carry.joined(back)
+
+
+def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
+    """Those along one strand, shape (n,)."""
 
     def each(law: Callable[[Stretch, float], float]) -> Array:
-        return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
+        return np.array([law(stretch, strand.gravity) for stretch in strand.stretches])
 
-    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strands.stretches)
+    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strand.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
         guidance=each(_guidance) if skewed else None,
         lift=each(_lift),
         unit_main=each(_unit_main),
-        flexure=each(_flexure) if strands.flexes else None,
+        flexure=each(_flexure) if strand.flexes else None,
     )
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TypeAlias, TypeVar
@@ -20,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
-from conveyor.line.anchors import anchor
+from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
+from conveyor.line.anchors import anchors as anchors_at_tests
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
@@ -36,8 +35,9 @@ from conveyor.line.covers import (
     softened_covers,
 )
 from conveyor.line.line import Line
-from conveyor.line.strands import Strands
-from conveyor.line.stretches import STRANDS, Acting, Strand, Stretch
+from conveyor.line.roll_drags import RollDrags, roll_drags
+from conveyor.line.strands import OneStrand, Strands
+from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
@@ -58,10 +58,12 @@ from conveyor.rubber.anchor import Anchor
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
+_Known: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], T]]
+"""What was made of the very same parts and equal values."""
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
-Anchors: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]]
-"""Levels of compounds, with the very compounds they are of and whether their rubber softens; begins empty."""
+Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
+"""The very compounds, whether their rubber softens, and their levels or why there is none; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,6 +326,7 @@ def calculate_many(
         No one setting of the take-up serves all.
     """
     shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
+    shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -389,14 +392,23 @@ class _Loaded:
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
-    """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
+    """Levels of compounds as a conveyor's calculation takes them."""
     levels: Anchors = []
-    softened = conveyor.calculation.strain != "off"
-    for compound in compounds if _anchored(conveyor.calculation) else ():
-        if compound.tests:
-            with suppress(NoSolutionError, RangeError, InputError):
-                _once(levels, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    if _anchored(conveyor.calculation):
+        _add_anchors(levels, [(compound, conveyor.calculation.strain != "off") for compound in compounds])
     return levels
+
+
+def _add_anchors(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> None:
+    """Add the levels of compounds, softened or not, that are not known, side by side."""
+    new: list[tuple[RubberCompound, bool]] = []
+    for one, soft in asked:
+        if not any(one is other and soft == how for other, how, *_ in (*levels, *new)):
+            new.append((one, soft))
+    for softened in dict.fromkeys(soft for _, soft in new):
+        compounds = [one for one, soft in new if soft == softened]
+        found = anchors_at_tests(compounds, softened=softened)
+        levels += [(one, softened, level) for one, level in zip(compounds, found, strict=True)]
 
 
 def _anchored(calculation: Calculation) -> bool:
@@ -404,16 +416,20 @@ def _anchored(calculation: Calculation) -> bool:
     return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
 
 
-def _strands(conveyor: Conveyor, on_curves: Acting) -> tuple[Strands, WithoutRubber]:
-    """The strands of a conveyor and the forces that its load alone decides."""
-    strands = Strands.of(conveyor, on_curves)
-    return strands, without_rubber(strands)
+def _strand(
+    conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: Acting
+) -> tuple[OneStrand, WithoutRubber]:
+    """A strand of a conveyor and the forces that its load alone decides."""
+    made = OneStrand.of(conveyor, sections, strand, on_curves)
+    return made, strand_without_rubber(made)
 
 
-def _loaded(conveyor: Conveyor, strands: Strands, fixed: WithoutRubber) -> _Loaded:
+def _loaded(
+    conveyor: Conveyor, strands: Strands, drags: RollDrags, fixed: Sequence[WithoutRubber]
+) -> _Loaded:
     """A line, its rolls not at work yet."""
-    line = Line.of(conveyor, strands)
-    return _Loaded(line, Frame(line), fixed)
+    line, (carry, back) = Line.of(conveyor, strands, drags), fixed
+    return _Loaded(line, Frame(line), carry.joined(back))
 
 
 def _solved(
@@ -473,9 +489,11 @@ class _Shared:
     """
 
     def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
-        self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
-        self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
-        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[CoverName, PronySeries]]] = []
+        self._sections: _Known[tuple[RouteSection, ...]] = []
+        self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
+        self._drags: _Known[tuple[tuple[float, ...], ...]] = []
+        self._lines: _Known[_Loaded] = []
+        self._rubbers: _Known[dict[CoverName, PronySeries]] = []
         self._anchors = anchors
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
@@ -484,9 +502,18 @@ class _Shared:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
                 if cover.level is not None:
-                    self._anchors.append(((compound,), (known.line.softened,), cover.level.anchor))
+                    self._anchors.append((compound, known.line.softened, cover.level.anchor))
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 self._running[self._first(work)] = cover
+
+    def anchor(self, variants: Iterable[Variant]) -> None:
+        """Find the levels of all their compounds."""
+        anchored = [one.conveyor for one in variants if _anchored(one.conveyor.calculation)]
+        _add_anchors(self._anchors, [
+            (compound, conveyor.calculation.strain != "off")
+            for conveyor in anchored
+            for compound in compounds_by_strand(conveyor).values()
+        ])  # fmt: skip
 
     def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
         """The line of a variant under what acts on its curves, and its covers before its rolls work them.
@@ -514,12 +541,21 @@ class _Shared:
         )
 
     def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec; lines of one belt and load, in any air and under any drives, share their strands."""
-        parts = (given.belt, given.idlers, given.material, given.route, given.calculation)
-        scene = (on_curves, given.ambient.wind_speed)
-        strands, fixed = _once(self._strands, parts, scene, partial(_strands, given, on_curves))
+        """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
+        sections = _once(self._sections, (given.route,), (), lambda: route_sections(given))
         air = given.air_temperature if given.idlers.drag_follows_air else None
-        return _once(self._lines, (strands, given.drive), (air,), partial(_loaded, given, strands, fixed))
+        scene = (on_curves, given.ambient.wind_speed)
+        strands, drags, fixed = [], [], []
+        for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
+            parts = (given.belt, own, given.material, given.route, given.calculation)
+            made = partial(_strand, given, sections, strand, on_curves)
+            one, without = _once(self._strands, parts, (strand, *scene), made)
+            strands.append(one)
+            fixed.append(without)
+            drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
+        both = Strands(sections, (strands[0], strands[1]))
+        made_of = partial(_loaded, given, both, drags, fixed)
+        return _once(self._lines, (*strands, given.drive), (air,), made_of)
 
     def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -541,21 +577,19 @@ class _Shared:
 
     def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
         """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
-        calculation = conveyor.calculation
-        anchored = _anchored(calculation)
-        softened = calculation.strain != "off"
+        softened, anchored = conveyor.calculation.strain != "off", _anchored(conveyor.calculation)
         levels: dict[Strand, Level | None] = {}
         for strand, compound in compounds_by_strand(conveyor).items():
-            tests = None
-            if anchored and compound.tests:
-                made = partial(anchor, compound, softened=softened)
-                tests = _once(self._anchors, (compound,), (softened,), made)
+            known = (level for one, how, level in self._anchors if one is compound and how == softened)
+            tests = next(known) if anchored else None
+            if isinstance(tests, Exception):
+                raise tests
             levels[strand] = None if tests is None else Level(tests, at)
         return levels
 
 
 def _once(
-    known: list[tuple[tuple[object, ...], tuple[object, ...], T]],
+    known: _Known[T],
     parts: tuple[object, ...],
     values: tuple[object, ...],
     make: Callable[[], T],

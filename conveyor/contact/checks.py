@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.circle import slope_expansion
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, nested, of_order
+from conveyor.contact.spectral import Contact, nested, of_orders
 
 Array = NDArray[np.float64]
 
@@ -66,10 +65,8 @@ def errors_of_lower(
     OrderErrors
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
-    slopes = slope_expansion(contact.alpha, contact.eps, rho, matrices[1].shape[2] + 2)
     change = []
-    for matrix in matrices:
-        lower = of_order(matrix, slopes, contact, rho)
+    for lower in of_orders(matrices, contact, rho):
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)

@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     WRAPPED,
     by_energy,
@@ -26,8 +25,8 @@ from conveyor.contact.checks import (
     relative_difference,
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
-from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
+from conveyor.contact.moved import within
 from conveyor.contact.orders import lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene, instantly_relaxed
@@ -40,12 +39,13 @@ from conveyor.contact.short_rule import (
     cap_of,
     grades_for,
     panels_beyond,
-    short_rule,
+    short_rules,
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
+from conveyor.contact.spectral import Contact, equilibrium, penetration
 from conveyor.contact.stack import Stack, kind, stacked
+from conveyor.contact.tabled import Tabled
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
@@ -124,7 +124,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         return [None] * len(problems)
     outcomes: list[Outcome | Near | Left | None] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    grade = grades_for(rtol)[0]
+    grades = grades_for(rtol)
     for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
@@ -133,11 +133,10 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         for _ in range(_GUESSES_TRIED):
             alpha = np.minimum(alpha, widest)
             strayed = []
-            for chosen in _chunks(group, alpha, rows, grade):
+            for chosen in _chunks(group, alpha, rows, grades[0]):
                 part = group[chosen]
-                search = Search(
-                    part, short_rule(part.layers, part.creeps, ROOM * alpha[chosen], grade), alpha[chosen]
-                )
+                rules = short_rules(part.layers, part.creeps, ROOM * alpha[chosen], grades)
+                search = Search(part, rules, alpha[chosen])
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
                 strayed.append(chosen[search.stray])
@@ -154,7 +153,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
     caps = np.array([cap_of(width) for width in half_width])
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
-    order = order[panels[order] <= _MOST_PANELS]
+    order = order[(panels[order] <= _MOST_PANELS) & within(1.0 / group.creeps.times)[rows[order]]]
     for cap in np.unique(caps[order]):
         same = rows[order[caps[order] == cap]]
         step = CHUNK if cap == WIDEST else _WIDE_CHUNK
@@ -173,7 +172,8 @@ def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
-    return np.asarray((half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS))
+    slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
+    return np.asarray(slim & within(1.0 / group.creeps.times))
 
 
 def guess(group: Group) -> Array:
@@ -199,10 +199,10 @@ def guess(group: Group) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _points() -> tuple[Array, Array]:
-    """Chebyshev points of the search in units of its half range, and from values there to polynomial coefficients."""
+def _points() -> tuple[tuple[float, ...], Array]:
+    """Half widths over the guess at Chebyshev points of the search, and from values there to a cubic's coefficients."""
     t = np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))
-    return t, np.linalg.inv(np.vander(t, increasing=True)).T
+    return tuple(np.exp(RANGE * t).tolist()), np.linalg.inv(np.vander(t, increasing=True)).T
 
 
 class Search:
@@ -213,16 +213,15 @@ class Search:
     contact there as soon as it is near.
     """
 
-    def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
-        self.group, self.rule = group, rule
+    def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array) -> None:
+        self.group = group
+        self.rule, self.check = rules
         self.middle = np.log(alpha)
-        t, transform = _points()
+        ratios, transform = _points()
         size = alpha.size
-        sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
-        every = np.repeat(np.arange(size), _SAMPLES)
-        rho = group.rho[every]
-        matrix = assemble(rule[every], group.creeps[every], sampled, _SEARCH)
-        contact = equilibrium(matrix, sampled, rho, tolerance=_ROUGH)
+        sampled = np.multiply.outer(alpha, ratios).ravel()
+        matrix = Tabled(self.rule, group.creeps, alpha).matrices(_SEARCH, ratios)
+        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
         self.load = (
             np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform
@@ -277,13 +276,11 @@ class Search:
         out: Array = np.where(self.lossy[rows], slope, 0.0)
         return out
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, ProductIK]:
-        """Contacts of some rows at order n, matrices, ln p - target, Bessel products; moves on to the next places."""
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array]:
+        """Contacts of some rows at order n, their matrices, ln p - target; moves on to the next places."""
         t = self._from[rows] = self.place[rows]
         alpha = np.exp(self.middle[rows] + RANGE * t)
-        creeps = self.group.creeps[rows]
-        ik = ProductIK(n, alpha[:, None] / creeps.times)
-        matrix = assemble(self.rule[rows], creeps, alpha, n, ik)
+        matrix = Tabled(self.rule[rows], self.group.creeps[rows], alpha).matrices(n)
         start = alpha * _value(self.shift[rows], t)
         contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
         self.matrices[rows] += 1
@@ -297,7 +294,7 @@ class Search:
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, matrix, miss, ik
+        return contact, matrix, miss
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go; the friction it may miss."""
@@ -362,7 +359,7 @@ class _Closing:
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             exponent = search.exponent(rows)
-            contact, matrix, miss, ik = search.evaluate(rows, n)
+            contact, matrix, miss = search.evaluate(rows, n)
             if step == 0:
                 by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
@@ -374,7 +371,7 @@ class _Closing:
             if at.size:
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
-                self._accept(rows[at], evaluated, closed, ik[at], self.error[rows[at]] + left[at])
+                self._accept(rows[at], evaluated, closed, self.error[rows[at]] + left[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -388,13 +385,13 @@ class _Closing:
             self.search.alive[row] = False
             self.done[row] = Near(*self.search.place_and_slope(row))
 
-    def _accept(self, rows: Index, contact: Contact, closed: Contact, ik: ProductIK, error: Array) -> None:
+    def _accept(self, rows: Index, contact: Contact, closed: Contact, error: Array) -> None:
         """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
         search, group, rtol = self.search, self.search.group, self.rtol
         grade = grades_for(rtol)[1]
-        check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
         rho = group.rho[rows]
-        by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
+        checked_by = Tabled(search.check[rows], group.creeps[rows], contact.alpha)
+        by_loss = checked_by.friction_by_loss(contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)

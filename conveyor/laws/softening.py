@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_answer, to_problem
+from conveyor.indentation import RollContact, no_answer, to_problems
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 LOAD_EXPONENT = 4.0 / 3.0
 """Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
 _STRAIN_RTOL = 5e-3  # of the working strain: sweeps are repeated to a few per cent
-_CONTACT_RTOL = 1e-4
+_CONTACT_RTOL = 1e-3
 INSIDE: Final = (12, 32)
 """Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
 against 28 and 96."""
@@ -145,10 +145,10 @@ def softened_many(
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
         depths, points = next(finely)  # the first strain is but a start
-        problems = [
-            to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
-            for i, one in zip(asked, series, strict=True)
-        ]
+        problems = to_problems(
+            [replace(works[i].contact, rubber=one) for i, one in zip(asked, series, strict=True)],
+            [works[i].line_load for i in asked],
+        )
         solved = solve_many(problems, _CONTACT_RTOL)
         answered = [one for one in solved if one.status is Status.OK]
         strained = iter(working_strains(answered, depths=depths, points=points))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import starmap
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError, NoSolutionError
-from conveyor.indentation import RollContact, indentation_curves
-from conveyor.laws.softening import COARSE, WorkedCover, softened_each
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.indentation import RollContact, indentation_resistances
+from conveyor.laws.softening import COARSE, WorkedCover, softened_many
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
 from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
@@ -56,17 +58,10 @@ def anchor_rows(compound: RubberCompound, *, softened: bool) -> tuple[RollingRow
     RangeError
         The compound is not known at a test's temperature, or at its strain.
     """
-    rows: list[RollingRow] = []
-    for number, test in enumerate(compound.tests):
-        points = test.points()
-        calculated = _theory(compound, points, softened=softened)
-        rows += [
-            RollingRow(number, load, points.temperature, measured, ours)
-            for load, measured, ours in zip(
-                points.line_load.tolist(), points.resistance.tolist(), calculated.tolist(), strict=True
-            )
-        ]
-    return tuple(rows)
+    (rows,) = _rows([compound], softened=softened)
+    if not isinstance(rows, tuple):
+        raise rows
+    return rows
 
 
 def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
@@ -77,7 +72,38 @@ def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
     NoSolutionError, RangeError
         As `anchor_rows`.
     """
-    return anchor_of(compound, anchor_rows(compound, softened=softened)) if compound.tests else None
+    (level,) = anchors([compound], softened=softened)
+    if level is not None and not isinstance(level, Anchor):
+        raise level
+    return level
+
+
+def anchors(
+    compounds: Sequence[RubberCompound], *, softened: bool
+) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
+    """The levels of many compounds, each as `anchor` finds it, the theory at all their tests side by side.
+
+    Parameters
+    ----------
+    compounds : sequence of RubberCompound
+        Compounds.
+    softened : bool
+        As of `anchor`.
+
+    Returns
+    -------
+    list
+        In their order the levels, None without tests, or why there is none.
+    """
+    levels: list[Anchor | NoSolutionError | RangeError | InputError | None] = []
+    for compound, rows in zip(compounds, _rows(compounds, softened=softened), strict=True):
+        try:
+            levels.append(
+                rows if not isinstance(rows, tuple) else anchor_of(compound, rows) if rows else None
+            )
+        except InputError as error:
+            levels.append(error)
+    return levels
 
 
 def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
@@ -106,9 +132,70 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
     return level
 
 
-def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) -> Array:
-    """Calculated resistance per width at a test's loads [N/m]."""
-    contact = RollContact(
+def _rows(
+    compounds: Sequence[RubberCompound], *, softened: bool
+) -> list[tuple[RollingRow, ...] | NoSolutionError | RangeError]:
+    """Rows of the tests of each compound; or why there are none, as the first test without theory says."""
+    tests = [(compound, test.points()) for compound in compounds for test in compound.tests]
+    theory = iter(_theory(tests, softened=softened))
+    points = (points for _, points in tests)
+    rows_of: list[tuple[RollingRow, ...] | NoSolutionError | RangeError] = []
+    for compound in compounds:
+        each = [(next(points), next(theory)) for _ in compound.tests]
+        refused = next((ours for _, ours in each if isinstance(ours, NoSolutionError | RangeError)), None)
+        rows_of.append(refused or tuple(itertools.chain.from_iterable(starmap(_tested, enumerate(each)))))
+    return rows_of
+
+
+def _tested(
+    number: int, test: tuple[RollingPoints, Array | NoSolutionError | RangeError]
+) -> Iterator[RollingRow]:
+    """Rows of a test."""
+    points, calculated = test
+    for load, measured, ours in zip(points.line_load, points.resistance, np.asarray(calculated), strict=True):
+        yield RollingRow(number, float(load), points.temperature, float(measured), float(ours))
+
+
+def _theory(
+    tests: Sequence[tuple[RubberCompound, RollingPoints]], *, softened: bool
+) -> list[Array | NoSolutionError | RangeError]:
+    """Calculated resistance per width of each test at its loads [N/m], all contacts side by side."""
+    refused: dict[int, NoSolutionError | RangeError] = {}
+    asked: dict[tuple[int, float], RollContact] = {}
+    works: dict[tuple[int, float], WorkedCover] = {}
+    for i, (compound, points) in enumerate(tests):
+        try:
+            contact, swept = _contact(compound, points), compound.swept_series(points.temperature)
+        except RangeError as error:
+            refused[i] = error
+            continue
+        factors = compound.amplitude_factors() if softened else None
+        for w in _nodes(points.line_load, few=factors is not None):
+            asked[i, w] = contact
+            if factors is not None:
+                works[i, w] = WorkedCover(contact, w, factors, points.temperature, swept)
+    for (i, w), soft in zip(works, softened_many(list(works.values()), inside=COARSE), strict=True):
+        if isinstance(soft, tuple):
+            asked[i, w] = replace(asked[i, w], rubber=soft[0])
+        else:
+            refused.setdefault(i, soft)
+            del asked[i, w]
+    solved = indentation_resistances(list(asked.values()), [w for _, w in asked], RTOL)
+    there: list[dict[float, float]] = [{} for _ in tests]
+    for (i, w), one in zip(asked, solved, strict=True):
+        if isinstance(one, NoSolutionError):
+            refused.setdefault(i, NoSolutionError(f"a rolling-resistance test: {one}"))
+        else:
+            there[i][w] = one
+    return [
+        refused[i] if i in refused else _between(there[i], points.line_load)
+        for i, (_, points) in enumerate(tests)
+    ]
+
+
+def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
+    """The roll of a test on its cover."""
+    return RollContact(
         radius=points.radius,
         spacing=max(SPACING, 4.0 * points.radius),
         cover_thickness=points.cover_thickness,
@@ -116,28 +203,19 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
         rubber=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
-    factors = compound.amplitude_factors() if softened else None
-    low, high = float(points.line_load.min()), float(points.line_load.max())
-    if factors is None:
-        return _resistance([contact], [points.line_load])[0]
-    nodes = np.unique(np.geomspace(low, high, SOFT_LOADS if high > low else 1))
-    swept = compound.swept_series(points.temperature)
-    works = [WorkedCover(contact, w, factors, points.temperature, swept) for w in nodes.tolist()]
-    covers = [series for series, _ in softened_each(works, inside=COARSE)]
-    resistances = _resistance(
-        [replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes]
-    )
-    shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(resistances)), nodes.size - 1)
-    return np.asarray(np.exp(shape(np.log(points.line_load))))
 
 
-def _resistance(contacts: list[RollContact], loads: list[Array]) -> list[Array]:
-    """Resistance per width of contacts at their loads [N/m], solved side by side."""
-    lowest = [float(w.min()) * (1.0 - RTOL) for w in loads]  # a curve is solved between two loads
-    curves = indentation_curves(contacts, lowest, [float(w.max()) for w in loads], RTOL)
-    resistances = []
-    for curve, w in zip(curves, loads, strict=True):
-        if isinstance(curve, NoSolutionError):
-            raise NoSolutionError(f"a rolling-resistance test: {curve}")
-        resistances.append(curve.resistance(w))
-    return resistances
+def _nodes(loads: Array, *, few: bool) -> list[float]:
+    """Line loads at which a test is calculated [N/m]: a few of their range, or each of them."""
+    low, high = float(loads.min()), float(loads.max())
+    nodes = np.geomspace(low, high, SOFT_LOADS if high > low else 1) if few else loads
+    return [float(w) for w in np.unique(nodes)]
+
+
+def _between(resistances: Mapping[float, float], loads: Array) -> Array:
+    """Resistance at line loads by that at some [N/m]: of three a parabola in their logarithms."""
+    if set(resistances) >= set(loads.tolist()):
+        return np.array([resistances[w] for w in loads.tolist()])
+    nodes, values = np.log(list(resistances.items())).T
+    shape = np.polynomial.Polynomial.fit(nodes, values, nodes.size - 1)
+    return np.asarray(np.exp(shape(np.log(loads))))

@@ -116,7 +116,7 @@ class StrandAtWork:
     @property
     def kinds(self) -> tuple[RollKind, ...]:
         """Its rolls."""
-        return tuple(kind for kind in self.line.kinds if kind.strand == self.strand)
+        return self.line.strands.each[STRANDS.index(self.strand)].kinds
 
     @property
     def scene(self) -> tuple[object, ...]:
@@ -136,7 +136,7 @@ class StrandAtWork:
     def like(self, other: StrandAtWork) -> bool:
         """Whether it works the very same compound exactly as another strand of the same scene does."""
         return self.compound is other.compound and (
-            self.line is other.line
+            self.kinds is other.kinds
             or (
                 len(self.kinds) == len(other.kinds)
                 and all(a.bears_like(b) for a, b in zip(self.kinds, other.kinds, strict=True))

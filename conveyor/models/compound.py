@@ -123,8 +123,8 @@ class RubberCompound(Model):
     def _factors(self) -> AmplitudeFactors | None:
         return None if self.strain_dependence is None else self.strain_dependence.factors()
 
-    def swept_series(self, temperature: float) -> PronySeries:
-        """Return the series at the temperature of the sweeps nearest to one [K]: at it, where they reach it.
+    def swept_series(self, temperature: float) -> PronySeries | None:
+        """Return the series at the temperature of the sweeps nearest to one [K]; None where they reach it.
 
         Raises
         ------
@@ -132,7 +132,8 @@ class RubberCompound(Model):
             The compound is not known there.
         """
         factors = self.amplitude_factors()
-        return self.series(temperature if factors is None else factors.nearest(temperature))
+        nearest = temperature if factors is None else factors.nearest(temperature)
+        return None if nearest == temperature else self.series(nearest)
 
     def frequencies(self, temperature: float) -> tuple[float, float] | None:
         """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.

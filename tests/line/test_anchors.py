@@ -146,9 +146,9 @@ def test_without_the_confined_support_the_theory_stands_alone(line):
 
 def test_a_test_that_no_contact_answers_says_so():
     heavy = linear("low-rolling-resistance-cover").replace(
-        tests=[one_test((100.0, 1e4), roll_diameter="20 mm", cover_thickness="40 mm")]
+        tests=[one_test((100.0, 1e4), roll_diameter="20 mm", cover_thickness="100 mm", temperature="40 degC")]
     )
-    with pytest.raises(NoSolutionError, match="a rolling-resistance test: roll of 20 mm on a 40 mm cover"):
+    with pytest.raises(NoSolutionError, match="a rolling-resistance test: roll of 20 mm on a 100 mm cover"):
         anchor(heavy, softened=False)
 
 
