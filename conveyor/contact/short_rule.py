@@ -161,7 +161,9 @@ def cap_of(half_width: float) -> float:
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
-def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
+def short_rules(
+    layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]
+) -> list[ShortRule]:
     """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
     All scenes take as many nodes as the one that needs most: hand over like with like. Times must lie `within`.
@@ -232,9 +234,7 @@ def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArr
     degrees = np.arange(unit)[:, None]
     x, gauss = _gauss(plain)
     nodes = 0.5 * (x + 1.0)
-    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
-        1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
-    )
+    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta)))
     moments[:, zeta > slow] = _moments(zeta[zeta > slow], unit)
     x, gauss = _gauss(unit)
     return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))

@@ -25,10 +25,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _STEP = 0.2  # of the grid of u
-_HIGHEST, _LARGEST = (
-    64,
-    1 << 20,
-)  # order, and entries of a table of waves, beyond which matrices are formed one by one
+_HIGHEST, _LARGEST = 64, 1 << 20  # order, and entries of a table of waves, beyond which matrices are formed one by one
 
 
 @lru_cache(maxsize=16)
@@ -103,9 +100,7 @@ class Tabled:
             return assemble(self.rule[every], self.creeps[every], alpha, n)
         _, where, factor, _ = _pairs(n)
         terms = moved(self._b, self.creeps.weights, LOGS)
-        weights = [
-            moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)
-        ]
+        weights = [moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)]
         out = np.empty((self.alpha.size, len(ratios), (n + 1) * n))
         for k, ratio in enumerate(ratios):
             waves, half_space = _waves(n, self._size, ratio), _terms(n, ratio)
