@@ -20,7 +20,7 @@ from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import holds
 from conveyor.report.columns import FAILS
-from conveyor.report.plots import Over, colour, grouped, keyed, master_curve, placed, stacked, titled
+from conveyor.report.plots import Over, colour, finished, keyed, master_curve, placed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -92,10 +92,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
-    axis.set(xlabel=force.beside("force"), title="Resistances")
-    grouped(axis.xaxis)
-    keyed(axis)
-    return figure
+    return finished(figure, force.beside("force"), title="Resistances", group="x")
 
 
 def _worded(name: str) -> str:
@@ -239,10 +236,7 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
         label = "beyond the rubber data: not for design"
         axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
-    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
+    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
@@ -267,10 +261,7 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.grid(visible=False, axis="y")
-    axis.set_xlabel(power.beside("change of the motor power"))
-    titled(figure, study.conveyor.name)
-    keyed(axis)
-    return figure
+    return finished(figure, power.beside("change of the motor power"), title=study.conveyor.name)
 
 
 def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
@@ -289,10 +280,7 @@ def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: Sys
     axis.plot([], [], ":", color="0.3", label="first order")
     axis.set_xscale("log", base=2)
     axis.set_xticks(draws, [f"{n:,}" for n in draws], minor=False)
-    axis.set(xlabel="draws", ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
+    return finished(figure, "draws", power.beside("motor power"), group="y")
 
 
 Array = NDArray[np.float64]
@@ -300,6 +288,7 @@ _HEIGHT = 4.4
 _MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
 """How what stands along the route is drawn: marker, its size, its colour."""
 _FAILS = "#B3261E"
+_WAY = "distance from the head along the belt, return strand first"
 _PIECES = 24  # chords of a curve in plan
 _BEYOND = 1.5  # of the room on the rolls, to where a drift without end is drawn
 _ROOM = 0.05  # of the length, above and below a level route
@@ -356,11 +345,8 @@ def route_profile(
         axis.set_ylim(-_ROOM * np.ptp(x), _ROOM * np.ptp(x))
     elif np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("horizontal distance"), ylabel=length.beside("height over the tail"))
-    titled(figure, conveyor.name)
-    grouped(axis.xaxis)
-    keyed(axis)
-    return figure
+    across, up = length.beside("horizontal distance"), length.beside("height over the tail")
+    return finished(figure, across, up, conveyor.name, group="x")
 
 
 def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
@@ -390,12 +376,8 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
         at = points[-1]
     axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("along, from the tail"), ylabel=length.beside("across"))
-    titled(figure, "Plan of the route")
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    keyed(axis)
-    return figure
+    along, across = length.beside("along, from the tail"), length.beside("across")
+    return finished(figure, along, across, "Plan of the route", group="xy")
 
 
 def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
@@ -422,10 +404,8 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     axis.axvline(0.0, color="0.5", linewidth=0.8)
     axis.set_yticks(range(len(bends)), [f"{bend.section}, {bend.strand}" for bend in bends])
     axis.invert_yaxis()
-    axis.set(xlabel=size.beside("drift, outside negative, inside positive"))
-    titled(figure, "Drift in the horizontal curves")
-    keyed(axis)
-    return figure
+    words = size.beside("drift, outside negative, inside positive")
+    return finished(figure, words, title="Drift in the horizontal curves")
 
 
 def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
@@ -452,15 +432,9 @@ def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: 
     axis.annotate(
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
     )
-    axis.set(
-        xlabel=length.beside("distance from the head along the belt, return strand first"),
-        ylabel=force.beside("tension"),
+    return finished(
+        figure, length.beside(_WAY), force.beside("tension"), "Tension round the loop", group="xy"
     )
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    titled(figure, "Tension round the loop")
-    keyed(axis)
-    return figure
 
 
 def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
@@ -489,11 +463,5 @@ def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure
     for label, (ink, line, ways, values) in lines.items():
         axis.plot(ways, values, line, color=ink, label=label)
     axis.set_ylim(bottom=0.0)
-    axis.set(
-        xlabel=length.beside("distance from the head along the belt, return strand first"),
-        ylabel=frequency.beside("frequency"),
-    )
-    grouped(axis.xaxis)
-    titled(figure, "Belt between the idlers and rotation of the rolls")
-    keyed(axis)
-    return figure
+    title = "Belt between the idlers and rotation of the rolls"
+    return finished(figure, length.beside(_WAY), frequency.beside("frequency"), title, group="x")

@@ -16,7 +16,7 @@ from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
 from conveyor.report.animation import Panel, moving
 from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, noted, slug
-from conveyor.report.plots import colour, grouped, keyed, stacked, titled
+from conveyor.report.plots import colour, named, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
@@ -299,15 +299,16 @@ def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: Sys
 def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Five figures a scenario, the first of which moves."""
     for one in dynamics.followed:
-        for draw, words in (
-            (profile, "tension and speed round the loop; the tail is dashed, shaded what occurs"),
-            (tension_map, "tension over place and time; the tail is white, slack belt red"),
-            (envelope, "highest and lowest tension round the loop"),
-            (speeds, "speeds at drives and tail"),
-            (forces, "tensions at drives, tail and take-up, forces of the motors"),
+        for name, words in (
+            ("profile", "tension and speed round the loop; the tail is dashed, shaded what occurs"),
+            ("tension_map", "tension over place and time; the tail is white, slack belt red"),
+            ("envelope", "highest and lowest tension round the loop"),
+            ("speeds", "speeds at drives and tail"),
+            ("forces", "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            name = f"{slug(one.name)}_{draw.__name__}"
-            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "through-time")
+            draw = partial(profile, one) if name == "profile" else partial(picture, one, name)
+            draw = partial(draw, system=system)
+            yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
 def of_scenarios(dynamics: CalculatedDynamics) -> dict[str, Any]:
@@ -335,35 +336,8 @@ def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
 _LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
 _FRAMES, _PLACES = 45, 60  # of what moves
+_WHERE: Final = "distance from the head, return strand first"
 _HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
-
-
-def tension_map(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Tension over place and time."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _map(figure, axis, scenario, system)
-    return figure
-
-
-def envelope(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Highest and lowest tension over the place, and that at the start."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _envelope(axis, scenario, system)
-    return figure
-
-
-def speeds(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Speeds at drives and tail over time."""
-    figure, (axis,) = stacked(1, _LOW)
-    _speeds(axis, scenario, system)
-    return figure
-
-
-def forces(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Tensions at drives, tail and take-up, and forces of the motors, over time."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _forces(axis, scenario, system)
-    return figure
 
 
 def profile(scenario: Followed, *, system: System = "SI") -> Html:
@@ -380,7 +354,7 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     ends = record.lowest[order][cells], record.highest[order][cells]
     tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
     going = record.speeds[:, order[cells]].astype(float)
-    where = length.beside("distance from the head, return strand first")
+    where = length.beside(_WHERE)
     return moving(
         f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
         (unit("duration", system).beside("time"), record.times[kept]),
@@ -390,18 +364,20 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     )  # fmt: skip
 
 
-def picture(scenario: Followed, *, system: System = "SI") -> Figure:
-    """All of them on one sheet."""
-    figure, axes = stacked(4, _WHOLE)
-    _map(figure, axes[0], scenario, system)
-    _envelope(axes[1], scenario, system)
-    _speeds(axes[2], scenario, system)
-    _forces(axes[3], scenario, system)
-    titled(figure, scenario.name)
+def picture(scenario: Followed, *names: str, system: System = "SI") -> Figure:
+    """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
+    drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
+             "forces": (_forces, _HEIGHT)}  # fmt: skip
+    shown = [drawn[name] for name in names or drawn]
+    figure, axes = stacked(len(shown), sum(height for _, height in shown) if names else _WHOLE)
+    for axis, (draw, _) in zip(axes, shown, strict=True):
+        draw(axis, scenario, system)
+    if not names:
+        titled(figure, scenario.name)
     return figure
 
 
-def _map(figure: Figure, axis: Axes, scenario: Followed, system: System) -> None:
+def _map(axis: Axes, scenario: Followed, system: System) -> None:
     force, length = unit("force", system, large=True), unit("length", system, large=True)
     order, distance = scenario.round_loop
     record = scenario.record
@@ -418,13 +394,9 @@ def _map(figure: Figure, axis: Axes, scenario: Followed, system: System) -> None
         )
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    axis.set(
-        xlabel=length.beside("distance from the head, return strand first"),
-        ylabel=unit("duration", system).beside("time"),
-    )
-    grouped(axis.xaxis)
+    named(axis, length.beside(_WHERE), unit("duration", system).beside("time"), group="x")
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
-    figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
+    axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
 
 
 def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
@@ -440,12 +412,7 @@ def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
         axis.plot(x, force(values[order]), color=colour(k), label=name)
     axis.axhline(0.0, color="0.6", linewidth=0.8)
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="0.8", zorder=0)
-    axis.set(
-        xlabel=length.beside("distance from the head, return strand first"), ylabel=force.beside("tension")
-    )
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    keyed(axis)
+    named(axis, length.beside(_WHERE), force.beside("tension"), group="xy")
 
 
 def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
@@ -466,8 +433,7 @@ def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
             )
     tail = speed(scenario.record.speeds[:, _tail(scenario)])
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
-    axis.set(xlabel=time.beside("time"), ylabel=speed.beside("speed"))
-    keyed(axis)
+    named(axis, time.beside("time"), speed.beside("speed"))
 
 
 def _forces(axis: Axes, scenario: Followed, system: System) -> None:
@@ -487,9 +453,7 @@ def _forces(axis: Axes, scenario: Followed, system: System) -> None:
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
     held = force(scenario.record.take_up["tension"][kept])
     axis.plot(times, held, color=colour(6), linewidth=0.9, label="at the take-up")
-    axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
-    grouped(axis.yaxis)
-    keyed(axis)
+    named(axis, time.beside("time"), force.beside("tension, force"), group="y")
 
 
 def _tail(scenario: Followed) -> int:

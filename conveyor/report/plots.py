@@ -94,6 +94,24 @@ def keyed(axis: Axes) -> None:
             text.set_parse_math(False)
 
 
+def finished(
+    figure: Figure, x: str = "", y: str = "", title: str = "", *, note: str = "", group: str = ""
+) -> Figure:
+    """Name the axes of a figure as `named`, and title it; the figure."""
+    named(figure.axes[0], x, y, group=group)
+    if title:
+        titled(figure, title, note)
+    return figure
+
+
+def named(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
+    """Name both axes, group the thousands of "x" and "y", key the curves."""
+    axis.set(xlabel=x, ylabel=y)
+    for name in group:
+        grouped(axis.xaxis if name == "x" else axis.yaxis)
+    keyed(axis)
+
+
 def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure; the ending of the name chooses the format (.png, .svg, .pdf).
 
@@ -242,10 +260,7 @@ def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, syste
             )
     if dotted:
         axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
-    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
+    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
