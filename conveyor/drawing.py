@@ -162,18 +162,12 @@ class AnalysisPlots:
         """All of these by name, and those of the studies where they are given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
+        drawn = [self.resistances, self.tensions, self.profile]
+        drawn += [self.plan, self.drift] if result.horizontal else []
+        drawn += [] if result.trajectory is None else [self.trajectory]
+        drawn += [self.pressure, *([self.flap] if result.set_duty else [])]
         made = {
-            "resistances": self.resistances(system=system),
-            "tensions": self.tensions(system=system),
-            "profile": self.profile(system=system),
-            **(
-                {"plan": self.plan(system=system), "drift": self.drift(system=system)}
-                if result.horizontal
-                else {}
-            ),
-            **({} if result.trajectory is None else {"trajectory": self.trajectory(system=system)}),
-            "pressure": self.pressure(system=system),
-            **({"flap": self.flap(system=system)} if result.set_duty else {}),
+            **{draw.__name__: draw(system=system) for draw in drawn},
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),

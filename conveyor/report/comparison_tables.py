@@ -15,12 +15,13 @@ from conveyor.markup import Html
 from conveyor.report import plots, what_if
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Remark, Table, figures
 from conveyor.report.page import notebook
+from conveyor.report.point_tables import priced
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, NEVER, unit
+from conveyor.units.presentation import NEVER, unit
 from conveyor.units.sentences import celsius, degrees
 
 if TYPE_CHECKING:
@@ -66,11 +67,10 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
         ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
         ("savings against", comparison.base),
         ("cover", comparison.cover),
-        (
-            "belt temperatures",
-            _span([scene.temperature for scene in comparison.scenes], "temperature", system),
+        *(
+            (f"belt {name}s", _span([getattr(scene, name) for scene in comparison.scenes], name, system))
+            for name in ("temperature", "speed")
         ),
-        ("belt speeds", _span([scene.speed for scene in comparison.scenes], "speed", system)),
     )
     about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
     return Contents(about, parts, system, tuple(drawings(comparison, system)), PARTS, "comparison")
@@ -81,16 +81,12 @@ def _span(values: list[float], kind: str, system: System) -> str:
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
-def _money(comparison: CalculatedComparison) -> str:
-    operation = comparison.conveyor.operation
-    return MONEY + ("-" if operation is None or operation.price is None else operation.price.currency)
-
-
 def scenes(comparison: CalculatedComparison) -> Table:
     """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
+    money = priced("money", comparison.conveyor)
     covered = {_key(scene) for scene in comparison.covered}
 
-    def priced(row: ComparedScene, figure: float | None) -> float | None:
+    def known(row: ComparedScene, figure: float | None) -> float | None:
         return figure if _key(row) in covered else None
 
     columns = (
@@ -105,8 +101,8 @@ def scenes(comparison: CalculatedComparison) -> Table:
         Column("motor power, high", "power", "motor_high", sparse=True),
         Column("largest tension", "force", "largest_tension"),
         Column("energy", "specific energy", "energy_per_tonne_km", sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(priced(row, row.energy_per_year)), None, sparse=True),
-        Column("cost per year", _money(comparison), lambda row: priced(row, row.cost_per_year), None, sparse=True),
+        Column("energy per year", "energy", lambda row: _joule(known(row, row.energy_per_year)), None, sparse=True),
+        Column("cost per year", money, lambda row: known(row, row.cost_per_year), None, sparse=True),
         Column("error estimate", "error", "error"),
         Column("covered", "verdict", lambda row: "yes" if _key(row) in covered else "NO"),
     )  # fmt: skip
@@ -234,7 +230,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
 def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) -> Iterator[Column]:
     """Energy, cost, saving, carbon dioxide, payback: calculated again where a reader changes hours or prices."""
     money, bases = (
-        _money(comparison),
+        priced("money", comparison.conveyor),
         {row.speed: i for i, row in enumerate(rows) if row.compound == comparison.base},
     )
     of = "[energy_drawn]", "[energy_fed_back]"
