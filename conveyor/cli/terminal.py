@@ -99,7 +99,7 @@ def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str
 
 def show_notes(screen: Console, notes: Sequence[str]) -> None:
     """Print notes as two short lists, their lines no wider than the terminal."""
-    from conveyor.report.notes import HEADINGS, ordered
+    from conveyor.report.columns import HEADINGS, ordered
 
     for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
         if listed:
@@ -401,7 +401,7 @@ def _sizes(screen: Console, contents: Contents) -> None:
 
 def show_sizing(contents: Contents) -> None:
     """Print the designs, what tells them apart, and remarks."""
-    from conveyor.report.notes import merged
+    from conveyor.report.columns import merged
 
     every = contents["designs"]
     title = f"{contents.document.title}: designs"

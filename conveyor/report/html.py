@@ -11,8 +11,7 @@ from typing import Final
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
-from conveyor.report.columns import Contents, Drawing, Table
-from conveyor.report.notes import HEADINGS, ordered
+from conveyor.report.columns import HEADINGS, Contents, Drawing, Table, ordered
 from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
 from conveyor.units import System

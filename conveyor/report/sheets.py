@@ -14,8 +14,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, lines_of, put
-from conveyor.report.columns import FAILS
-from conveyor.report.notes import HEADINGS, ordered
+from conveyor.report.columns import FAILS, HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
