@@ -243,8 +243,7 @@ def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
 def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
     settled = result.balance.settled
-    governing = settled.condition_name(settled.governed_by)
-    for name, asked in (settled.short or {governing: settled.needed}).items():
+    for name, asked in (settled.short or {settled.governing: settled.needed}).items():
         yield compared(
             "take_up_tension", "take-up tension", settled.setting, "at least", asked, "force", holds=not settled.short,
             why=f"the take-up holds {{calculated}}, {quoted(name)} requires {{required}}", where=name,
