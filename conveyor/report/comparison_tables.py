@@ -15,7 +15,6 @@ from conveyor.markup import Html
 from conveyor.report import plots, what_if
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Remark, Table, figures
 from conveyor.report.page import notebook
-from conveyor.report.point_tables import priced
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
@@ -81,9 +80,14 @@ def _span(values: list[float], kind: str, system: System) -> str:
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
+def _money(comparison: CalculatedComparison) -> str:
+    operation = comparison.conveyor.operation
+    return MONEY + ("-" if operation is None or operation.price is None else operation.price.currency)
+
+
 def scenes(comparison: CalculatedComparison) -> Table:
     """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
-    money = priced("money", comparison.conveyor)
+    money = _money(comparison)
     covered = {_key(scene) for scene in comparison.covered}
 
     def known(row: ComparedScene, figure: float | None) -> float | None:
@@ -230,7 +234,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
 def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) -> Iterator[Column]:
     """Energy, cost, saving, carbon dioxide, payback: calculated again where a reader changes hours or prices."""
     money, bases = (
-        priced("money", comparison.conveyor),
+        _money(comparison),
         {row.speed: i for i, row in enumerate(rows) if row.compound == comparison.base},
     )
     of = "[energy_drawn]", "[energy_fed_back]"
