@@ -99,9 +99,8 @@ class Column:
         Words without unit.
     kind : str
         Of quantity, `OF_ROW` or `NAMED`.
-    get : str or callable
-        Where its value is in a row, as a path, or what makes it of a row: an SI value, words, or None where it is not
-        known.
+    get : callable
+        What takes its value off a row: an SI value, words, or None where it is not known; may be given as a path.
     page : str or None
         Which of its table's places on the page it stands in: all without a name; None: in none.
     sheet : bool
@@ -123,7 +122,7 @@ class Column:
 
     label: str
     kind: str
-    get: str | Getter
+    get: Any
     page: str | None = ""
     sheet: bool = True
     json: str = ""
@@ -135,15 +134,12 @@ class Column:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
-
-    def value(self, row: Any) -> Any:
-        """Value in a row."""
-        return at(self.get)(row) if isinstance(self.get, str) else self.get(row)
+        object.__setattr__(self, "get", at(self.get) if isinstance(self.get, str) else self.get)
 
     def of(self, path: str) -> Column:
         """The same column of rows that hold the former ones at a path."""
-        inner = at(path)
-        return replace(self, get=lambda row: self.value(inner(row)))
+        get, inner = self.get, at(path)
+        return replace(self, get=lambda row: get(inner(row)))
 
 
 @dataclass(frozen=True)
@@ -243,7 +239,7 @@ class Table:
 
     def __post_init__(self) -> None:
         kept = tuple(
-            c for c in self.columns if not c.sparse or any(c.value(row) is not None for row in self.rows)
+            c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows)
         )
         shown_first = tuple(sorted(kept, key=lambda column: column.page is None))
         object.__setattr__(self, "columns", shown_first)
@@ -301,9 +297,9 @@ class Table:
         if column.kind == NAMED:
             return [headed(row.called(system), row.kind, system) for row in self.rows]
         if column.kind == OF_ROW:
-            return [unit(row.kind, system).shown(column.value(row)) for row in self.rows]
+            return [unit(row.kind, system).shown(column.get(row)) for row in self.rows]
         written = unit(column.kind, system)
-        return [written.shown(column.value(row)) for row in self.rows]
+        return [written.shown(column.get(row)) for row in self.rows]
 
     def names(self, system: System) -> list[str]:
         """Names of its figures as people read them."""
@@ -312,8 +308,7 @@ class Table:
     def totals(self) -> tuple[Any, ...]:
         """The line of totals, SI: words in the first column, sums where columns have them."""
         sums = (
-            sum(column.value(row) for row in self.rows) if column.total else None
-            for column in self.columns[1:]
+            sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:]
         )
         return (self.foot, *sums)
 

@@ -20,7 +20,7 @@ from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import NEVER, unit
+from conveyor.units.presentation import MONEY, NEVER, unit
 from conveyor.units.sentences import celsius, degrees
 
 if TYPE_CHECKING:

@@ -205,7 +205,7 @@ class Part:
 def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") -> Html:
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell(shown, column, row, system) for row in shown.rows] for column in shown.columns]
-    values = [[column.value(row) for row in shown.rows] for column in shown.columns]
+    values = [[column.get(row) for row in shown.rows] for column in shown.columns]
     empty = [
         column.asked and all(map(_missing, given))
         for column, given in zip(shown.columns, values, strict=True)
@@ -281,12 +281,12 @@ def _with_unit(words: str, sign: str) -> Html:
 
 
 def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
-    value = column.value(row)
+    value = column.get(row)
     if column.kind == NAMED:
         return _with_unit(value, row.unit(system).sign)
     if _missing(value):
         return escaped(
-            "" if column.asked and all(_missing(column.value(one)) for one in shown.rows) else _NOTHING
+            "" if column.asked and all(_missing(column.get(one)) for one in shown.rows) else _NOTHING
         )
     if column.kind == "verdict" and value in _MARKS:
         return verdict(value)

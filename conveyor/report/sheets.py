@@ -151,7 +151,7 @@ def to_compare(page: Page) -> None:
     (key,) = page.keys
     part = page.contents[key].on_sheet()
     place = page.headed(key, frozen=f"{get_column_letter(part.named + 1)}3", widest=44)
-    names = [part.columns[0].value(row) for row in part.rows]
+    names = [part.columns[0].get(row) for row in part.rows]
     for i, (before, after) in enumerate(pairwise(names), start=place.header + 1):
         if before != after and len(names) > _NEW_PAGE:
             page.sheet.row_breaks.append(Break(id=i))

@@ -511,7 +511,7 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
     every, by_look = rolls(a), dict[tuple[str, ...], list[Any]]()
     shown = tuple(column for column in every.columns if column.page is not None)
     for row in every.rows:
-        look = tuple(unit(column.kind).short(column.value(row)) for column in shown[1:])
+        look = tuple(unit(column.kind).short(column.get(row)) for column in shown[1:])
         by_look.setdefault(look, []).append(row)
     columns = (
         Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
