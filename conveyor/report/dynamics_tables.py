@@ -1,35 +1,43 @@
-"""Every table of starts and stops, declared once."""
+"""Every table and figure of starts and stops, declared once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from conveyor.checks import Check, deciding
 from conveyor.dynamics.criteria import at_pulley, checks_of, peaks
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
-from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
 from conveyor.report.animation import Panel, moving
-from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, noted, slug
+from conveyor.report.columns import (
+    NAMED,
+    OF_ROW,
+    Column,
+    Contents,
+    Drawing,
+    Figure,
+    OnPage,
+    Table,
+    noted,
+    slug,
+)
 from conveyor.report.plots import colour, named, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import Unit, unit
+from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Picture
 
-    from conveyor.dynamics.follow import Followed
     from conveyor.markup import Html
-
 
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),
@@ -114,42 +122,18 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
     return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
-class SizeRow(NamedTuple):
-    """A figure that was sought, as a row that has a unit of its own."""
-
-    size: Size
-
-    @property
-    def label(self) -> str:
-        """What was sought."""
-        return self.size.label
-
-    @property
-    def kind(self) -> str:
-        """Of the figure."""
-        return self.size.kind
-
-    def unit(self, system: System) -> Unit:
-        """How it is written."""
-        return unit(self.kind, system)
-
-    def called(self, _: System) -> str:
-        """What was sought, in any system."""
-        return self.label
-
-
 def sizes(dynamics: CalculatedDynamics) -> Table:
     """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
     columns = (
         Column("sought", NAMED, "label", json="sought"),
-        Column("scenario", "text", "size.scenario", json="scenario"),
-        Column("found", OF_ROW, "size.value", json="value"),
-        Column("to", "share", "size.error", json="error"),
-        Column("serves up to", OF_ROW, "size.most", json="most"),
-        Column("governing check", "text", "size.governs", json="governs"),
-        Column("what fails with less", "text", "size.why", json="fails_with_less"),
+        Column("scenario", "text", "value.scenario", json="scenario"),
+        Column("found", OF_ROW, "value.value", json="value"),
+        Column("to", "share", "value.error", json="error"),
+        Column("serves up to", OF_ROW, "value.most", json="most"),
+        Column("governing check", "text", "value.governs", json="governs"),
+        Column("what fails with less", "text", "value.why", json="fails_with_less"),
     )
-    rows = [SizeRow(size) for size in dynamics.sized]
+    rows = [Figure(size.label, size.kind, size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
     return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
 
@@ -364,7 +348,7 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     )  # fmt: skip
 
 
-def picture(scenario: Followed, *names: str, system: System = "SI") -> Figure:
+def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
     """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
     drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
              "forces": (_forces, _HEIGHT)}  # fmt: skip

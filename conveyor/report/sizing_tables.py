@@ -1,4 +1,4 @@
-"""Every table of a sizing, declared once."""
+"""Every table and figure of a sizing, declared once."""
 
 from __future__ import annotations
 
@@ -22,10 +22,6 @@ from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from conveyor.sizing.around import VariedChoice
-    from conveyor.sizing.designs import CalculatedSizing
-
 
 PARTS: Final = (
     ("designs", "Designs"),
