@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,15 +72,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
     for k, (label, rows, values) in enumerate(columns):
         at = [row + (width * k if row in sums else 0.0) for row in rows]
-        bars = axis.barh(
-            at,
-            values,
-            height=width,
-            label=label,
-            color=colour(0) if k == 0 else "white",
-            edgecolor=colour(k),
-            hatch=_HATCH[k],
-        )
+        bars = axis.barh(at, values, height=width, label=label, **_bar_look(k))
         axis.bar_label(bars, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
     middle = 0.5 * width * len(estimates)
     axis.set_yticks(
@@ -93,6 +85,11 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
     return finished(figure, force.beside("force"), title="Resistances", group="x")
+
+
+def _bar_look(k: int) -> dict[str, Any]:
+    """Of the bars of the k-th column: the first ones full, the others hatched."""
+    return {"color": colour(0) if k == 0 else "white", "edgecolor": colour(k), "hatch": _HATCH[k]}
 
 
 def _worded(name: str) -> str:
@@ -172,16 +169,9 @@ def rubber_at_work(
         if band is None:
             continue
         for axis in figure.axes:
-            axis.axvspan(
-                *band,
-                facecolor=_BAND,
-                hatch=_HATCH[k + 1][:2],
-                edgecolor=_BAND_LINES,
-                linewidth=0,
-                label=f"{strand} rolls: 90 % loss band",
-            )
-    below = figure.axes[-1]
-    keyed(below)
+            shaded = axis.axvspan(*band, facecolor=_BAND, hatch=_HATCH[k + 1][:2], edgecolor=_BAND_LINES)
+            shaded.set(linewidth=0, label=f"{strand} rolls: 90 % loss band")
+    keyed(figure.axes[-1])
     return figure
 
 
@@ -221,14 +211,8 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     for k, case in enumerate(lines or dict.fromkeys(names)):
         rows = sorted((r for r in covered if r.case.name == case), key=lambda r: float(getattr(r, over)))
         at = along([getattr(r, over) for r in rows])
-        axis.plot(
-            at,
-            power([r.found.balance.power.motor for r in rows]),
-            color=colour(k),
-            marker="o",
-            markersize=4,
-            label=case,
-        )
+        motor = power([r.found.balance.power.motor for r in rows])
+        axis.plot(at, motor, color=colour(k), marker="o", markersize=4, label=case)
         low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
     beyond = [result for result in cases if not result.covered]
@@ -248,15 +232,8 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
         ("at the low end", 0, [effect.motor_low for effect in effects]),
         ("at the high end", 1, [effect.motor_high for effect in effects]),
     ):
-        axis.barh(
-            rows,
-            power([end - study.motor for end in ends]),
-            label=label,
-            color=colour(0) if k == 0 else "white",
-            edgecolor=colour(k),
-            hatch=_HATCH[k],
-            height=0.6,
-        )
+        changes = power([end - study.motor for end in ends])
+        axis.barh(rows, changes, label=label, height=0.6, **_bar_look(k))
     axis.set_yticks(list(rows), [effect.name for effect in effects], parse_math=False)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()

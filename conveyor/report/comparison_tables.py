@@ -209,21 +209,15 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("mean motor power", "power", "motor", sparse=True),
         Column("mean motor power, low", "power", "low", sparse=True),
         Column("mean motor power, high", "power", "high", sparse=True),
-        Column(
-            "difference to base",
-            "share",
-            "change",
-            json="motor power against base",
-            sparse=True,
-            key="motor_power_against_base",
-        ),
+        Column("difference to base", "share", "change", json="motor power against base", sparse=True,
+               key="motor_power_against_base"),
         Column("difference, low", "share", "band.0", sparse=True),
         Column("difference, high", "share", "band.1", sparse=True),
         Column("peak motor power", "power", "peak", sparse=True),
         Column("at temperature", "temperature", "temperature", sparse=True),
         *_year_columns(comparison, rows),
         Column("not compared", "text", "why", sparse=True),
-    )
+    )  # fmt: skip
     heading, page = (
         "Ranking by mean motor power, lowest first at each speed",
         (OnPage("ranking", "Ranking by mean motor power, lowest first"),),

@@ -66,13 +66,8 @@ def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
 
 def further(dynamics: CalculatedDynamics, system: System) -> Further:
     """What a conveyor's own report takes over."""
-    return Further(
-        checks_of(dynamics),
-        tuple(tables(dynamics)),
-        tuple(drawings(dynamics, system)),
-        dynamics.assumptions,
-        of_scenarios(dynamics),
-    )
+    shown, drawn = tuple(tables(dynamics)), tuple(drawings(dynamics, system))
+    return Further(checks_of(dynamics), shown, drawn, dynamics.assumptions, of_scenarios(dynamics))
 
 
 def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
@@ -404,12 +399,8 @@ def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives = scenario.record.drives
     for d, drive in enumerate(scenario.ride.drives):
-        axis.plot(
-            scenario.times[kept],
-            speed(drives["belt"][kept, d]),
-            color=colour(2 * d),
-            label=f"belt at {drive.name}",
-        )
+        belt = speed(drives["belt"][kept, d])
+        axis.plot(scenario.times[kept], belt, color=colour(2 * d), label=f"belt at {drive.name}")
         if scenario.record.slipped[d]:
             rim = speed(drives["rim"][kept, d])
             axis.plot(

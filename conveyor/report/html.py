@@ -54,15 +54,9 @@ def build(contents: Contents) -> Html:
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = facts(about.said.items(), "facts document") if about.said else Html("")
-    filled = [_part(contents, *named) for named in contents.page]
-    return page(
-        about.title,
-        f"{about.kind}, {date.today().isoformat()}",
-        joined([document, _top(contents)]),
-        [part for part in filled if part.content],
-        made,
-        paper=about.paper,
-    )
+    parts = [part for named in contents.page if (part := _part(contents, *named)).content]
+    kind, top = f"{about.kind}, {date.today().isoformat()}", joined([document, _top(contents)])
+    return page(about.title, kind, top, parts, made, paper=about.paper)
 
 
 def _top(contents: Contents) -> Html:

@@ -70,15 +70,10 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
     axis = figure.axes[0]
     axis.set_title(title, parse_math=False, pad=20.0 if note else None)
     if note:
-        axis.annotate(
-            note,
-            (0.5, 1.02),
-            xycoords="axes fraction",
-            fontsize=9,
-            color="0.3",
-            ha="center",
-            parse_math=False,
+        words = axis.annotate(
+            note, (0.5, 1.02), xycoords="axes fraction", fontsize=9, color="0.3", ha="center"
         )
+        words.set_parse_math(False)
 
 
 def keyed(axis: Axes) -> None:

@@ -1340,18 +1340,10 @@ def checked(checks: tuple[Check, ...], system: System) -> Table:
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
     """Every criterion in every load case; those that fail on the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
-    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Failed checks by case"
-    yield Table(
-        "case_checks",
-        "Case checks",
-        "Every criterion in every load case",
-        columns,
-        rows,
-        named=2,
-        printed=False,
-    )
+    columns, heading = (_OF_CASE, *_CHECK, _VERDICT), "Every criterion in every load case"
+    yield Table("case_checks", "Case checks", heading, columns, rows, named=2, printed=False)
     failed = tuple(row for row in rows if row.verdict == "FAIL")
-    yield Table("case_failures", "", caption, columns, failed, "load-cases", named=2)
+    yield Table("case_failures", "", "Failed checks by case", columns, failed, "load-cases", named=2)
 
 
 def remarks(

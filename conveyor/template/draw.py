@@ -203,12 +203,8 @@ class Book:
         row = _HEAD
         if sheets.called:
             row += 1
-            told = Leaf(
-                key="Referred to by",
-                kind="text",
-                required=True,
-                doc="Write this where a compound is to be given.",
-            )
+            doc = "Write this where a compound is to be given."
+            told = Leaf(key="Referred to by", kind="text", required=True, doc=doc)
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         sheet.sheet_properties.outlinePr.summaryBelow = False
         closed: tuple[str, ...] = ()
