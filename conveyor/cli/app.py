@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
@@ -221,10 +222,10 @@ def say(*lines: str) -> None:
 
 
 @contextmanager
-def progress(*, silent: bool) -> Iterator[Progress | None]:
+def progress(what: str = "", *, silent: bool) -> Iterator[Progress | None]:
     """A bar with the time left on stderr, for what takes longer than a second; none where output is piped.
 
-    It is called with words, what is done, the whole, and what else to say.
+    It is called with words, if not `what` says them, what is done, the whole, and what else to say.
     """
     if silent or not sys.stderr.isatty():
         yield None
@@ -242,7 +243,7 @@ def progress(*, silent: bool) -> Iterator[Progress | None]:
                 bars[what] = bars[""].add_task(what, total=whole, note="")
             bars[""].update(bars[what], completed=done, total=whole, note=note)
 
-        yield told
+        yield partial(told, what) if what else told
 
 
 def _bar() -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -65,14 +64,9 @@ def calibrate(
 
     line = session.read(spec)
     system = session.system(line)
-    with session.progress() as told:
-        calibration = conveyor.calibrate(
-            line,
-            measured,
-            error=None if error is None else _share(error),
-            factors=factors,
-            progress=None if told is None else partial(told, "runs"),
-        )
+    share = None if error is None else _share(error)
+    with session.progress("runs") as told:
+        calibration = conveyor.calibrate(line, measured, error=share, factors=factors, progress=told)
     if output is not None and output.suffix.lower() == ".xlsx":
         to.report(calibration.contents(system), output)
     elif output is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -88,7 +87,7 @@ def compare(
 
     line = session.read(spec)
     system = session.system(line)
-    with session.progress() as told:
+    with session.progress("compounds") as told:
         comparison = compare_compounds(
             line,
             compounds,
@@ -100,7 +99,7 @@ def compare(
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
             shelves=session.shelf or (),
-            progress=None if told is None else partial(told, "compounds"),
+            progress=told,
         )
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))

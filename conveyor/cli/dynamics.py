@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from enum import StrEnum
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -72,10 +71,9 @@ def dynamics(
     system = session.system(line)
     chosen = _chosen(line, scenario)
     with ExitStack() as stack:
-        told = stack.enter_context(session.progress())
+        told = stack.enter_context(session.progress("scenarios"))
         executor = stack.enter_context(executor_of(None, workers)) if workers > 1 else None
-        how: Any = {"executor": executor, "workers": workers,
-                    "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
+        how: Any = {"executor": executor, "workers": workers, "progress": told}
         if size is None:
             followed = follow(line, chosen, error=error, **how)
         else:

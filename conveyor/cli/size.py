@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -60,8 +59,8 @@ def size(
     from conveyor.study_file import read_duty
 
     read = read_duty(duty, shelves=session.shelf or ())
-    with session.progress() as told:
-        designs = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
+    with session.progress("designs") as told:
+        designs = sizing.size(read, best=best, progress=told)
     pictured = session.as_json or tables is not None or any(ending not in SPEC for _, ending in asked)
     contents = of_sizing(designs, session.system(read), vary=pictured)
     for path, ending in asked:

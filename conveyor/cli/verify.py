@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -73,14 +72,9 @@ def verify_sheet(
         for option, text in given.items()
         if text is not None
     }
-    with session.progress() as told:
+    with session.progress("compounds") as told:
         sheet = conveyor.verify_sheet(
-            compounds,
-            conveyor=line,
-            softened=softened,
-            shelves=session.shelf or (),
-            progress=None if told is None else partial(told, "compounds"),
-            **axes,
+            compounds, conveyor=line, softened=softened, shelves=session.shelf or (), progress=told, **axes
         )
     to.write(sheet.contents(session.system(line)))
     session.answer(sheet.to_dict(), to, lambda: _show(sheet))

@@ -361,11 +361,8 @@ class Book:
         for other in self.book.worksheets[1:]:
             row += 1
             shown = other.sheet_state == "visible"
-            put(
-                sheet.cell(row, 1),
-                other.title if shown else f"{other.title} (hidden)",
-                LINK if shown else GREY,
-            )
+            name = other.title if shown else f"{other.title} (hidden)"
+            put(sheet.cell(row, 1), name, LINK if shown else GREY)
             if shown:
                 sheet.cell(row, 1).hyperlink = Hyperlink(ref=f"A{row}", location=f"'{other.title}'!A1")
             put(sheet.cell(row, 4), docs[other.title])
