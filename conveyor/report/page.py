@@ -205,7 +205,7 @@ class Part:
 def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") -> Html:
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell(shown, column, row, system) for row in shown.rows] for column in shown.columns]
-    values = [[column.value(row) for row in shown.rows] for column in shown.columns]
+    values = [[column.get(row) for row in shown.rows] for column in shown.columns]
     empty = [
         column.asked and all(map(_missing, given))
         for column, given in zip(shown.columns, values, strict=True)
@@ -214,14 +214,10 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         "asked" if empty[j] else None if kind else _class(given, named=j < shown.named)
         for j, given in enumerate(values)
     ]
+    names = [_with_unit(column.label, _unit(column, system)) for column in shown.columns]
     heads = [
-        element(
-            "th",
-            _with_unit(column.label, _unit(column, system)),
-            scope="col",
-            class_=None if how == "asked" else how,
-        )
-        for column, how in zip(shown.columns, classes, strict=True)
+        element("th", name, scope="col", class_=None if how == "asked" else how)
+        for name, how in zip(names, classes, strict=True)
     ]
 
     def line(cells: Iterable[Html]) -> Html:
@@ -243,14 +239,8 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         sums = zip(shown.columns, shown.totals(), strict=True)
         cells = (escaped("" if v is None else unit(c.kind, system).written(v)) for c, v in sums)
         parts.append(element("tfoot", line(cells)))
-    short = len(shown.rows) <= _SHORT
-    return scrolling(
-        element("table", *parts),
-        caption,
-        wide=len(shown.columns) > _WIDE,
-        keep=short,
-        kind=f"rows {kind}".rstrip(),
-    )
+    wide, short = len(shown.columns) > _WIDE, len(shown.rows) <= _SHORT
+    return scrolling(element("table", *parts), caption, wide=wide, keep=short, kind=f"rows {kind}".rstrip())
 
 
 def _class(values: Sequence[object], *, named: bool) -> str | None:
@@ -281,12 +271,12 @@ def _with_unit(words: str, sign: str) -> Html:
 
 
 def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
-    value = column.value(row)
+    value = column.get(row)
     if column.kind == NAMED:
         return _with_unit(value, row.unit(system).sign)
     if _missing(value):
         return escaped(
-            "" if column.asked and all(_missing(column.value(one)) for one in shown.rows) else _NOTHING
+            "" if column.asked and all(_missing(column.get(one)) for one in shown.rows) else _NOTHING
         )
     if column.kind == "verdict" and value in _MARKS:
         return verdict(value)
@@ -351,12 +341,8 @@ def _listed(rows: Sequence[Figure], caption: str, system: System, *, named: bool
         )
         for row in rows
     ]
-    head = element(
-        "tr",
-        element("th", "quantity", scope="col"),
-        element("th", "value", scope="col", class_="n"),
-        element("th", "unit", scope="col"),
-    )
+    heads = (("quantity", None), ("value", "n"), ("unit", None))
+    head = element("tr", *(element("th", words, scope="col", class_=how) for words, how in heads))
     above = element("caption", caption, class_=None if named else "further")
     whole = element("table", above, element("thead", head), element("tbody", *lines))
     return scrolling(whole, caption, wide=False, keep=len(lines) <= _SHORT)
@@ -370,11 +356,8 @@ def verdict(word: str) -> Html:
 
 def facts(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
     """Return names and values side by side."""
-    return element(
-        "dl",
-        *(element("div", element("dt", name), element("dd", value)) for name, value in pairs),
-        class_=kind,
-    )
+    named = (element("div", element("dt", name), element("dd", value)) for name, value in pairs)
+    return element("dl", *named, class_=kind)
 
 
 def tiles(shown: Iterable[Figure], system: System = "SI") -> Html:

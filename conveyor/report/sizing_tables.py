@@ -1,4 +1,4 @@
-"""Every table of a sizing, declared once."""
+"""Every table and figure of a sizing, declared once."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from conveyor.checks import checks
 from conveyor.remarks import assumptions
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
-from conveyor.report.plots import colour, grouped, keyed, stacked, titled
+from conveyor.report.plots import colour, finished, grouped, keyed, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
@@ -22,10 +22,6 @@ from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from conveyor.sizing.around import VariedChoice
-    from conveyor.sizing.designs import CalculatedSizing
-
 
 PARTS: Final = (
     ("designs", "Designs"),
@@ -239,12 +235,9 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
         cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in sizing.designs]))
         axis.barh(ranks, cost, left=start, color=colour(k), label=name)
         start = start + cost
-    axis.set(yticks=ranks, ylabel="rank", xlabel=money.beside("cost of a year"))
+    axis.set(yticks=ranks)
     axis.invert_yaxis()
-    grouped(axis.xaxis)
-    keyed(axis)
-    titled(figure, sizing.duty.name)
-    return figure
+    return finished(figure, money.beside("cost of a year"), "rank", sizing.duty.name, group="x")
 
 
 def cost_lines(

@@ -10,7 +10,7 @@ import numpy as np
 
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, at, figures
-from conveyor.report.plots import colour, keyed, stacked, titled
+from conveyor.report.plots import colour, finished, stacked
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -213,7 +213,5 @@ def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
         length(booth.across), length(booth.up), color=colour(1), linestyle="--", label="lower edge (Booth)"
     )
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("forward of the axis"), ylabel=length.beside("over the axis"))
-    titled(sheet, "Discharge over the head pulley")
-    keyed(axis)
-    return sheet
+    across, up = length.beside("forward of the axis"), length.beside("over the axis")
+    return finished(sheet, across, up, "Discharge over the head pulley")
