@@ -13,8 +13,8 @@ from conveyor.line.stretches import Acting
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
 from conveyor.loop.curves import drifts, pressing_masses
 from conveyor.pipeline import calculate
-from conveyor.report.loop_plots import drift as drift_drawn
-from conveyor.report.loop_plots import plan
+from conveyor.report.analysis_plots import drift as drift_drawn
+from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, data
