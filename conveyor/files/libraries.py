@@ -20,7 +20,7 @@ from conveyor.units import in_si
 if TYPE_CHECKING:
     import pandas as pd
 
-Library = Literal["belts", "rolls", "materials", "spacing", "sizes", "prices"]
+Library = Literal["belts", "rolls", "materials", "spacing", "sizes", "sizes_us", "prices"]
 
 ROLL_DIAMETERS: Final = (63, 76, 89, 102, 108, 127, 133, 152, 159, 168, 178, 194, 219, 245)
 """Outer diameters that rolls are made in [mm]: makers' lists."""

@@ -7,7 +7,7 @@ figures below are general knowledge, not read in the standard: an analysis that 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final, Literal
 
 from conveyor.errors import RangeError
@@ -34,6 +34,10 @@ _GROUP_STEPS: Final[tuple[tuple[float, Mapping[Group, int]], ...]] = (
 PULLEY_DIAMETERS: Final = (
     0.200, 0.250, 0.315, 0.400, 0.500, 0.630, 0.800, 1.000, 1.250, 1.400, 1.600, 1.800, 2.000,
 )  # fmt: skip
+# [m], CEMA B105.1 as commonly listed, 66 and 72 in engineered ones; general knowledge
+CEMA_PULLEYS: Final = tuple(
+    0.0254 * inches for inches in (8, 10, 12, 14, 16, 18, 20, 24, 30, 36, 42, 48, 54, 60, 66, 72)
+)
 # [m], DIN 22101 as a belt maker prints it (scribd 134461858): of the steps, in the order of the sizes of group A
 _STANDARD: Final = (
     PULLEY_DIAMETERS,
@@ -264,13 +268,15 @@ def standard_pulley_diameter(drive_diameter: float, *, group: Group, utilisation
     return _STANDARD[_step(group, utilisation)][PULLEY_DIAMETERS.index(size)]
 
 
-def next_pulley_diameter(least_diameter: float) -> float:
-    """Smallest diameter of the series that is large enough (ISO 3684).
+def next_pulley_diameter(least_diameter: float, *, series: Sequence[float] = PULLEY_DIAMETERS) -> float:
+    """Smallest diameter of the series that is large enough (ISO 3684; CEMA B105.1).
 
     Parameters
     ----------
     least_diameter : float
         Asked for by the belt [m], positive.
+    series : sequence of float
+        Diameters, the least first [m], shape (n,): those of ISO 3684, or `CEMA_PULLEYS`.
 
     Returns
     -------
@@ -282,7 +288,7 @@ def next_pulley_diameter(least_diameter: float) -> float:
     InputError
         The diameter is not positive.
     RangeError
-        Larger than the largest of the series, 2 m.
+        Larger than the largest of the series, 2 m of ISO.
 
     Examples
     --------
@@ -291,10 +297,10 @@ def next_pulley_diameter(least_diameter: float) -> float:
     """
     require_positive(least_diameter=least_diameter)
     needed = round(least_diameter, 6)  # products of decimals: 0.63 · 0.5 is 0.315, not the next size
-    for diameter in PULLEY_DIAMETERS:
+    for diameter in series:
         if diameter >= needed:
             return diameter
     raise RangeError(
-        f"{least_diameter:.4g} m is more than the largest pulley of the series, {PULLEY_DIAMETERS[-1]:g} m: "
+        f"{least_diameter:.4g} m is more than the largest pulley of the series, {series[-1]:.4g} m: "
         "choose a thinner carcass or give the diameter"
     )

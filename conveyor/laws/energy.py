@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from conveyor.errors import RangeError
+from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.power import JOULE_PER_KWH, TONNE_KM
 from conveyor.require import require, require_finite, require_not_negative, require_positive
 
@@ -23,6 +24,11 @@ MOTOR_SERIES: Final = tuple(1e3 * kilowatt for kilowatt in (
     0.37, 0.55, 0.75, 1.1, 1.5, 2.2, 3.0, 4.0, 5.5, 7.5, 11.0, 15.0, 18.5, 22.0, 30.0, 37.0, 45.0, 55.0, 75.0,
     90.0, 110.0, 132.0, 160.0, 200.0, 250.0, 315.0, 355.0, 400.0, 450.0, 500.0, 560.0, 630.0, 710.0, 800.0,
     900.0, 1000.0,
+))
+# [W], NEMA: to 500 hp the motors of NFPA 70, table 430.250 (wiresizecalculator.net), beyond general knowledge (MG 1)
+NEMA_MOTORS: Final = tuple(HORSEPOWER * horses for horses in (
+    0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 75.0, 100.0, 125.0, 150.0,
+    200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0, 600.0, 700.0, 800.0, 900.0, 1000.0, 1250.0,
 ))
 # fmt: on
 
@@ -214,7 +220,7 @@ def duty_specific_energy(duty: Duty, *, length: float) -> float:
     return duty.net_kwh / (duty.mass * length) * TONNE_KM
 
 
-def next_motor(shaft_power: float, *, reserve: float = 1.0) -> float:
+def next_motor(shaft_power: float, *, reserve: float = 1.0, series: Sequence[float] = MOTOR_SERIES) -> float:
     """Smallest motor of the series that gives the power with its reserve (IEC 60072-1, customary steps).
 
     Parameters
@@ -223,6 +229,8 @@ def next_motor(shaft_power: float, *, reserve: float = 1.0) -> float:
         Needed at the motor's shaft [W], of either sign: a generator is sized by its amount.
     reserve : float
         Rated power over needed [-], at least 1.
+    series : sequence of float
+        Rated outputs, the least first [W], shape (n,): those of IEC 60072-1, or `NEMA_MOTORS`.
 
     Returns
     -------
@@ -234,7 +242,7 @@ def next_motor(shaft_power: float, *, reserve: float = 1.0) -> float:
     InputError
         An argument is outside its range.
     RangeError
-        More than the largest of the series, 1000 kW: share it or take a motor made to order.
+        More than the largest of the series, 1000 kW of IEC: share it or take a motor made to order.
 
     Notes
     -----
@@ -248,10 +256,10 @@ def next_motor(shaft_power: float, *, reserve: float = 1.0) -> float:
     require_finite(shaft_power=shaft_power)
     require(1.0 <= reserve < math.inf, "reserve", reserve, "at least 1 is needed")
     needed = round(abs(shaft_power) * reserve, 3)  # products of decimals: 100 kW · 1.1 is 110 kW
-    for rated in MOTOR_SERIES:
+    for rated in series:
         if rated >= needed:
             return rated
     raise RangeError(
-        f"{needed / 1e3:.6g} kW is more than the largest motor of the series, {MOTOR_SERIES[-1] / 1e3:g} kW: "
+        f"{needed / 1e3:.6g} kW is more than the largest motor of the series, {series[-1] / 1e3:.4g} kW: "
         "share it between more drives or give the rated power"
     )

@@ -1,15 +1,25 @@
-"""What a conveyor is sized from, in SI, and the spec of a choice of its parts."""
+"""What a conveyor is sized from, in SI, and the spec of a choice of its parts, in the units of its series."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, Final
 
+from conveyor.errors import RangeError
 from conveyor.files import libraries
-from conveyor.laws.belt import PULLEY_DIAMETERS, least_cover, next_pulley_diameter, pulley_group_diameter
+from conveyor.laws.belt import (
+    CEMA_PULLEYS,
+    CLASSIC_SAFETY,
+    PULLEY_DIAMETERS,
+    least_cover,
+    next_pulley_diameter,
+    pulley_group_diameter,
+)
+from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
+from conveyor.laws.idlers import CemaClass, rated_set_load
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.sizing import (
     PULLEY_MASS,
@@ -23,23 +33,23 @@ from conveyor.laws.sizing import (
 from conveyor.laws.tension import least_pulley_diameter
 from conveyor.line.defaults import SHAFT
 from conveyor.models import Conveyor
-from conveyor.models.sizing import DriveLayout, SiteRules, SizingDuty, sizes
+from conveyor.models.sizing import CarcassRow, DriveLayout, SiteRules, Sizes, SizingDuty, same_width, sizes
 from conveyor.units import from_si, in_si, si
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
-_STEP: Final = 0.5e-3  # [m], of cover thicknesses
 _V_ANGLE: Final = math.radians(10.0)
-_V_FROM: Final = 1.2  # [m], belt width from which return sets are Vs of two rolls; general knowledge
 
 
 @dataclass(frozen=True)
 class CarcassClass:
-    """A class of belts: kind, strength [N/m], thickness [m], mass [kg/m²], least covers [m]."""
+    """A class of belts: kind, strength [N/m], thickness [m]; mass [kg/m²] and rated tension [N/m] where it lists them."""
 
     kind: str
     strength: float
     thickness: float
+    listed_mass: float | None = None
+    rating: float | None = None
 
     @property
     def steel_cord(self) -> bool:
@@ -49,47 +59,44 @@ class CarcassClass:
     @property
     def mass(self) -> float:
         """Per area [kg/m²]."""
+        if self.listed_mass is not None:
+            return self.listed_mass
         return carcass_mass(self.strength, thickness=self.thickness, steel_cord=self.steel_cord)
+
+    @property
+    def safety(self) -> float:
+        """Strength over the tension it is used for in steady running [-]."""
+        if self.rating is not None:
+            return self.strength / self.rating
+        return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
+
+    @property
+    def name(self) -> str:
+        """As makers call it."""
+        if self.rating is not None:
+            return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
+        return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
 
     @property
     def least_cover(self) -> float:
         """Least thickness of a cover [m]."""
         return least_cover(self.thickness, steel_cord=self.steel_cord)
 
-    def covers(self, addition: float) -> tuple[float, float]:
-        """Top and bottom cover with an addition against wear, on steps of half a millimetre; at most 3 to 1 [m]."""
-        top = _stepped(self.least_cover + addition)
-        return top, _stepped(max(self.least_cover, top / 3.0))
-
     @property
-    def drive_diameter(self) -> float:
-        """Least diameter of a drive pulley of the series [m]; beyond the series what the carcass asks for."""
-        least = least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
-        return _pulley(least)
-
-    @property
-    def bend_diameter(self) -> float:
-        """The same of tail and take-up."""
-        least = least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
-        return _pulley(pulley_group_diameter(least, group="B"))
-
-
-def _stepped(thickness: float) -> float:
-    return _STEP * math.ceil(thickness / _STEP - 1e-9)  # decimals: 6.5 mm is a step
-
-
-def _pulley(least: float) -> float:
-    return next_pulley_diameter(least) if least <= PULLEY_DIAMETERS[-1] else least
+    def least_pulley(self) -> float:
+        """Least diameter of a drive pulley [m]."""
+        return least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
 
 
 @dataclass(frozen=True)
 class RollSize:
-    """Rolls of a diameter [m]: wall [m], ends [kg], rating C of a bearing [N]."""
+    """Rolls of a diameter [m]: wall [m], ends [kg], rating C of a bearing [N], class of their sets."""
 
     diameter: float
     wall: float
     ends: float
     rating: float
+    cema_class: CemaClass | None = None
 
     def mass(self, length: float) -> float:
         """What turns [kg]."""
@@ -98,17 +105,18 @@ class RollSize:
 
 @dataclass(frozen=True)
 class WidthSize:
-    """A belt width and lengths of its rolls [m]."""
+    """A belt width and lengths of its rolls [m]; whether its return sets are Vs of two."""
 
     belt: float
     one: float
     two: float
     three: float
+    vee: bool
 
     @property
     def return_rolls(self) -> tuple[int, float, float]:
         """Number, length [m] and angle [rad] of the rolls of a return set."""
-        return (2, self.two, _V_ANGLE) if self.belt >= _V_FROM else (1, self.one, 0.0)
+        return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
 
 
 @dataclass(frozen=True)
@@ -247,10 +255,24 @@ class SizingTask:
         """[-]."""
         return si(self.rules.efficiency)
 
+    @cached_property
+    def sizes(self) -> Sizes:
+        """Series that parts are chosen from."""
+        return sizes(self.duty.series)
+
+    @property
+    def _motors(self) -> tuple[float, ...]:
+        """[W]."""
+        return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
+
     @property
     def largest_motor(self) -> float:
-        """[W]."""
-        return si(self.rules.largest_motor)
+        """That the rules allow and the series has [W]."""
+        return min(si(self.rules.largest_motor), self._motors[-1])
+
+    def motor(self, power: float) -> float:
+        """Smallest one with the reserve of the rules [W]."""
+        return next_motor(power, reserve=self.rules.motor_reserve, series=self._motors)
 
     @property
     def take_up_travel(self) -> float:
@@ -271,16 +293,18 @@ class SizingTask:
     @cached_property
     def speeds(self) -> tuple[float, ...]:
         """To choose from [m/s]."""
-        return tuple(map(si, self.rules.speeds or sizes().speeds))
+        return tuple(map(si, self.rules.speeds or self.sizes.speeds))
 
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """To choose from, of carry and return sets [m]."""
-        rules, wide = self.rules, ", overland" if self.length >= _OVERLAND else ""
+        rules, wide = self.rules, ", US" if self.duty.series == "US" else ""
+        if self.length >= _OVERLAND:
+            wide = ", overland"
         pairs = []
         for strand, asked, series in (
-            ("carry", rules.carry_spacings, sizes().carry_spacings),
-            ("return", rules.return_spacings, sizes().return_spacings),
+            ("carry", rules.carry_spacings, self.sizes.carry_spacings),
+            ("return", rules.return_spacings, self.sizes.return_spacings),
         ):
             widest = in_si(libraries.entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
             pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if a <= widest))
@@ -303,11 +327,14 @@ class SizingTask:
         lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
         least = max([lumps, *self._fitted])
         shapes = []
-        for row in sizes().widths:
-            width = WidthSize(si(row.belt), si(row.one), si(row.two), si(row.three))
-            if width.belt < least or (asked and not any(map(partial(math.isclose, width.belt), asked))):
+        for row in self.sizes.widths:
+            belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
+            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
+            if belt < least and not same_width(belt, least):
                 continue
-            for angle in map(si, rules.trough_angles):
+            if asked and not any(same_width(belt, one) for one in asked):
+                continue
+            for angle in map(si, rules.trough_angles or self.sizes.trough_angles):
                 section = cross_section(
                     usable_width(width.belt),
                     middle_roll_length=width.three,
@@ -340,9 +367,20 @@ class SizingTask:
     def rolls(self) -> tuple[RollSize, ...]:
         """Of the library."""
         return tuple(
-            RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating))
-            for row in sizes().rolls
+            RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
+            for row in self.sizes.rolls
         )
+
+    def set_ratings(self, roll: RollSize, trough: Trough) -> tuple[float, float]:
+        """What carry and return sets of a roll's class bear [N]; infinite without a class, 0 where it has none."""
+        if roll.cema_class is None:
+            return math.inf, math.inf
+        count, _, vee = trough.width.return_rolls
+        carry, back = (
+            _class_load(roll.cema_class, trough.width.belt, angle, rolls)
+            for rolls, angle in ((3, trough.angle), (count, vee))
+        )
+        return carry, back
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """Whether a roll keeps the rule of rotation."""
@@ -351,11 +389,8 @@ class SizingTask:
     @cached_property
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
         """Classes of each kind, the weakest first."""
-        rows = {"EP": sizes().textile, "steel cord": sizes().steel_cord}
-        return {
-            kind: tuple(CarcassClass(kind, si(row.strength), si(row.thickness)) for row in rows[kind])
-            for kind in self.rules.carcasses
-        }
+        rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
+        return {kind: tuple(_carcass(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
     def wear(self, speed: float) -> float:
         """Cover to be added against wear at a belt speed [m]."""
@@ -370,8 +405,31 @@ class SizingTask:
 
     def covers(self, choice: Choice, carcass: CarcassClass) -> tuple[float, float]:
         """Top and bottom cover of a candidate with a class of belt [m]."""
-        top, bottom = carcass.covers(self.wear(choice.speed))
+        top, bottom = self.worn_covers(carcass, self.wear(choice.speed))
         return top, bottom + choice.thicker
+
+    @property
+    def cover_step(self) -> float:
+        """Of the thickness of covers [m]."""
+        return si(self.sizes.cover_step)
+
+    def worn_covers(self, carcass: CarcassClass, addition: float) -> tuple[float, float]:
+        """Top and bottom cover with an addition against wear, on steps of the series; at most 3 to 1 [m]."""
+        step, least = self.cover_step, carcass.least_cover
+        top = _stepped(least + addition, step)
+        return top, _stepped(max(least, top / 3.0), step)
+
+    def drive_diameter(self, carcass: CarcassClass) -> float:
+        """Least diameter of a drive pulley of the series [m]; beyond the series what the carcass asks for."""
+        return self._pulley_diameter(carcass.least_pulley)
+
+    def bend_diameter(self, carcass: CarcassClass) -> float:
+        """The same of tail and take-up."""
+        return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group="B"))
+
+    def _pulley_diameter(self, least: float) -> float:
+        series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS
+        return next_pulley_diameter(least, series=series) if least <= series[-1] else least
 
     def spec(self, choice: Choice, chosen: Chosen, name: str) -> Conveyor:
         """The complete spec of a candidate.
@@ -381,20 +439,17 @@ class SizingTask:
         InputError
             The spec is refused: what the duty gives does not fit the choice.
         """
-        duty, carcass = self.duty, chosen.carcass
+        duty, carcass, written = self.duty, chosen.carcass, self._written
+        drive_diameter, bend_diameter = self.drive_diameter(carcass), self.bend_diameter(carcass)
         route = duty.sized_route.as_data()
         for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
-            section["carry_spacing"] = _written(spacing, "m")
+            section["carry_spacing"] = written(spacing, "m")
         route["pulleys"] = [
             self._pulley(name, place, size, choice.trough.width.belt)
             for name, place, size in (
-                ("head", "head", carcass.drive_diameter),
-                ("take-up", "take-up", carcass.bend_diameter),
-                (
-                    "tail",
-                    "tail",
-                    carcass.drive_diameter if "tail" in choice.drives else carcass.bend_diameter,
-                ),
+                ("head", "head", drive_diameter),
+                ("take-up", "take-up", bend_diameter),
+                ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
             )
         ]
         route["take_up"] = {"kind": "gravity"}
@@ -402,15 +457,19 @@ class SizingTask:
         return Conveyor.from_data({
             "name": name,
             "belt": {
-                "width": _written(choice.trough.width.belt, "mm"),
-                "speed": _written(choice.speed, "m/s"),
-                "top_cover": {"thickness": _written(chosen.top, "mm"), "compound": covers[0]},
-                "bottom_cover": {"thickness": _written(chosen.bottom, "mm"), "compound": covers[choice.cover]},
+                "width": written(choice.trough.width.belt, "mm"),
+                "speed": written(choice.speed, "m/s"),
+                "top_cover": {"thickness": written(chosen.top, "mm"), "compound": covers[0]},
+                "bottom_cover": {"thickness": written(chosen.bottom, "mm"), "compound": covers[choice.cover]},
                 "carcass": {
                     "kind": carcass.kind,
-                    "strength": _written(carcass.strength, "N/mm"),
-                    "thickness": _written(carcass.thickness, "mm"),
-                    "mass": f"{carcass.mass:.3g} kg/m^2",
+                    **(
+                        {"strength": written(carcass.strength, "N/mm")}
+                        if carcass.rating is None
+                        else {"rating": written(carcass.rating, "PIW")}
+                    ),
+                    "thickness": written(carcass.thickness, "mm"),
+                    "mass": written(carcass.mass, "kg/m^2", 3),
                 },
             },
             "idlers": self._idlers(choice),
@@ -429,48 +488,55 @@ class SizingTask:
 
     def pulley_mass(self, carcass: CarcassClass, width: float) -> float:
         """Of head, take-up and tail pulley together [kg]."""
-        sizes = (carcass.drive_diameter, carcass.bend_diameter, carcass.bend_diameter)
-        return math.fsum(PULLEY_MASS * size**2 * width for size in sizes)
+        bend = self.bend_diameter(carcass)
+        return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
 
-    @staticmethod
-    def _pulley(name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
+    def _written(self, value: float, unit: str, digits: int = 6) -> str:
+        """Number and unit as specs have them, the unit that of the series for a metric one."""
+        own = _US_UNITS.get(unit, unit) if self.duty.series == "US" else unit
+        return f"{float(from_si(value, _KINDS[unit], own).magnitude):.{digits}g} {own}"
+
+    def _pulley(self, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
         return {
             "name": name,
             "position": place,
-            "diameter": _written(diameter, "mm"),
-            "shaft_diameter": _written(SHAFT * diameter, "mm"),
-            "mass": f"{PULLEY_MASS * diameter**2 * width:.3g} kg",
+            "diameter": self._written(diameter, "mm"),
+            "shaft_diameter": self._written(SHAFT * diameter, "mm"),
+            "mass": self._written(PULLEY_MASS * diameter**2 * width, "kg", 3),
         }
 
     def _idlers(self, choice: Choice) -> dict[str, Any]:
         carry_sag, return_sag = self.sags
         count, length, angle = choice.trough.width.return_rolls
+        rated = {} if choice.roll.cema_class is None else {"cema_class": choice.roll.cema_class}
         return {
             "carry": {
                 "rolls": 3,
-                "spacing": _written(choice.carry, "m"),
-                "trough_angle": _written(choice.trough.angle, "deg"),
-                "roll": _roll(choice.roll, choice.trough.width.three),
+                "spacing": self._written(choice.carry, "m"),
+                "trough_angle": self._written(choice.trough.angle, "deg"),
+                "roll": self._roll(choice.roll, choice.trough.width.three),
                 "sag": f"{100.0 * carry_sag:.6g} %",
+                **rated,
             },
             "return": {
                 "rolls": count,
-                "spacing": _written(choice.back, "m"),
-                "trough_angle": _written(angle, "deg"),
-                "roll": _roll(choice.roll, length),
+                "spacing": self._written(choice.back, "m"),
+                "trough_angle": self._written(angle, "deg"),
+                "roll": self._roll(choice.roll, length),
                 "sag": f"{100.0 * return_sag:.6g} %",
+                **rated,
             },
         }
 
     def _drive(self, choice: Choice, chosen: Chosen) -> dict[str, Any]:
         rules, motors = self.rules, chosen.motors
-        one = {"wrap_angle": _written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
-        brake = {"brake_force": f"{chosen.brake / 1e3:.4g} kN"} if chosen.brake > 0.0 else {}
+        one = {"wrap_angle": self._written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
+        brake = {"brake_force": self._written(chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
         first = {
             **one,
             **brake,
             "position": "tail" if choice.drives == "tail" else "head",
-            "installed_power": _written(motors[0], "kW"),
+            "installed_power": self._written(motors[0], "kW"),
             "efficiency": f"{100.0 * self.efficiency:.6g} %",
             "start_factor": rules.start_factor,
         }
@@ -478,30 +544,50 @@ class SizingTask:
         for number, motor in enumerate(motors[1:], start=2):
             tail = "tail" in choice.drives and number == len(motors)
             place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
-            further.append({**one, **place, "installed_power": _written(motor, "kW")})
+            further.append({**one, **place, "installed_power": self._written(motor, "kW")})
         return {**first, "further_drives": further} if further else first
 
-
-def _roll(roll: RollSize, length: float) -> dict[str, Any]:
-    return {
-        "diameter": _written(roll.diameter, "mm"),
-        "length": _written(length, "mm"),
-        "rotating_mass": f"{roll.mass(length):.3g} kg",
-        "bearing": {
-            "dynamic_rating": _written(roll.rating, "kN"),
-            "distance": _written(length - 2.0 * _BEARING_INSET, "mm"),
-        },
-    }
+    def _roll(self, roll: RollSize, length: float) -> dict[str, Any]:
+        return {
+            "diameter": self._written(roll.diameter, "mm"),
+            "length": self._written(length, "mm"),
+            "rotating_mass": self._written(roll.mass(length), "kg", 3),
+            "bearing": {
+                "dynamic_rating": self._written(roll.rating, "kN"),
+                "distance": self._written(length - 2.0 * _BEARING_INSET, "mm"),
+            },
+        }
 
 
 _KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power", "N/mm": "line force",
-                 "kN": "force"}  # fmt: skip
+                 "PIW": "line force", "kN": "force", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
+_US_UNITS: Final = {
+    "m": "ft",
+    "mm": "in",
+    "m/s": "fpm",
+    "kW": "hp",
+    "kN": "lbf",
+    "kg": "lb",
+    "kg/m^2": "lb/ft^2",
+}
+"""ST classes are named by their strength in N/mm in the US, too."""
 
 
-def _written(value: float, unit: str) -> str:
-    """Number and unit as specs have them."""
-    number = float(from_si(value, _KINDS[unit], unit).magnitude)
-    return f"{number:.6g} {unit}"
+def _carcass(kind: str, row: CarcassRow) -> CarcassClass:
+    mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
+    return CarcassClass(kind, si(row.strength), si(row.thickness), mass, rating)
+
+
+def _class_load(cema_class: CemaClass, width: float, angle: float, rolls: int) -> float:
+    """What a set of a class bears [N]; 0 where the class has no such set."""
+    try:
+        return rated_set_load(cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
+    except RangeError:
+        return 0.0
+
+
+def _stepped(thickness: float, step: float) -> float:
+    return step * math.ceil(thickness / step - 1e-9)  # decimals: 6.5 mm is a step
 
 
 def spread(power: float, layout: DriveLayout) -> Sequence[float]:

@@ -11,13 +11,20 @@ from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, mo
 from pydantic_core import PydanticCustomError
 
 from conveyor.files import libraries
+from conveyor.laws.drives import HORSEPOWER
+from conveyor.laws.resistance.cema import FOOT, POUND, POUND_FORCE
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.listed import merged
 from conveyor.units import Bounds, Duration, Fraction, Length, si
 
 _WRITTEN: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})(?:\s*/\s*(\S+))?\s*")
-_SCALES: Final = {"kW": 1e-3, "kN": 1e-3, "MN*m": 1e-6}
+_SCALES: Final = {
+    "kW": 1e-3, "kN": 1e-3, "MN*m": 1e-6, "hp": 1.0 / HORSEPOWER, "lbf": 1.0 / POUND_FORCE, "lb": 1.0 / POUND,
+    "ft": 1.0 / FOOT, "ft^2": FOOT**-2, "ft^3": FOOT**-3,
+}  # fmt: skip
 """Of a price per unit to that per SI unit."""
+_US: Final = {"kg": "lb", "m": "ft", "m^2": "ft^2", "m^3": "ft^3", "kW": "hp", "kN": "lbf"}
+"""In which a price may be given, too."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +53,11 @@ def _per(unit: str) -> tuple[Any, ...]:
         if isinstance(value, UnitPrice):
             return value
         match = _WRITTEN.fullmatch(value) if isinstance(value, str) and len(value) <= 80 else None
-        if match is None or (match[3] or "").strip("()") != unit:
+        written = "" if match is None else (match[3] or "").strip("()")
+        if match is None or written not in {unit, _US.get(unit)}:
             message = f'got "{str(value)[:80]}", expected a price such as "{example}"'
             raise PydanticCustomError("price", "{message}", {"message": message})
-        return UnitPrice(float(match[1]), match[2], unit)
+        return UnitPrice(float(match[1]), match[2], written)
 
     schema = WithJsonSchema({"type": "string", "examples": [example]})
     return BeforeValidator(read), PlainSerializer(str, when_used="json"), schema
@@ -69,6 +77,8 @@ Years = Annotated[Number, Field(gt=0, le=100)]
 class Prices(Model):
     """Prices, lives and rates; what is not given is that of the library of prices."""
 
+    euro: _Once | None = None
+    """What a euro costs in the currency of the duty, for the library's prices; of a duty in euros it is left out."""
     textile: _PerArea
     """Textile belt, without its strength and covers."""
     textile_strength: _PerStrength
@@ -121,15 +131,20 @@ class Prices(Model):
     @model_validator(mode="before")
     @classmethod
     def _from_library(cls, data: Any) -> Any:
-        return merged(library_prices(), data) if isinstance(data, dict) else data
+        if not isinstance(data, dict):
+            return data
+        euro = _WRITTEN.fullmatch(str(data.get("euro")))
+        return merged({name: _exchanged(price, euro) for name, price in library_prices().items()}, data)
 
     @model_validator(mode="after")
     def _one_currency(self) -> Self:
         given = {name: value for name, value in self if isinstance(value, UnitPrice)}
         known = {value.currency for value in given.values()}
+        if self.euro is not None and self.euro.number == 0.0:
+            refuse("Prices", [Problem(("euro",), f"got {self.euro}, allowed: > 0")])
         if len(known) > 1:
             own = {name for name in self.model_fields_set if name in given}
-            own = {name for name in own if str(given[name]) != library_prices()[name]} or set(given)
+            own = {name for name in own if str(given[name]) != library_prices().get(name)} or set(given)
             message = f"got {', '.join(sorted(known))}; give every price in one currency: {', '.join(sorted(given))}"
             refuse("Prices", [Problem((min(own),), message)])
         return self
@@ -149,6 +164,7 @@ class Prices(Model):
             if isinstance(value, float)
             else si(value)
             for name, value in self
+            if value is not None
         }
 
 
@@ -157,3 +173,11 @@ def library_prices() -> dict[str, Any]:
     return {
         name: value for entry in libraries.entries("prices").values() for name, value in entry.fields.items()
     }
+
+
+def _exchanged(written: Any, euro: re.Match[str] | None) -> Any:
+    """A field of the library, a price in the currency of what a euro costs where that is given."""
+    price = _WRITTEN.fullmatch(str(written))
+    if euro is None or price is None:
+        return written
+    return str(UnitPrice(float(price[1]) * float(euro[1]), euro[2], (price[3] or "").strip("()")))

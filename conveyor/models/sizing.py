@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.files import libraries
+from conveyor.laws.idlers import CemaClass
 from conveyor.laws.sizing import Severity
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.compound import CompoundReference
@@ -22,6 +23,7 @@ from conveyor.models.route import Route
 from conveyor.models.wording import Location
 from conveyor.units import (
     Angle,
+    AreaMass,
     Bounds,
     Duration,
     Force,
@@ -39,14 +41,21 @@ from conveyor.units import (
 )
 
 Carcasses = Literal["EP", "steel cord"]
+Series = Literal["metric", "US"]
 DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two pulleys, and tail", "tail"]
 Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+Trough = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
 Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
 
 
 _SAME_WIDTH: Final = 1e-9
 """Widths are typed as decimals: a larger difference is another width."""
+
+
+def same_width(one: float, other: float) -> bool:
+    """Whether two widths are one [m]."""
+    return math.isclose(one, other, rel_tol=_SAME_WIDTH)
 
 
 class WidthRow(Model):
@@ -75,6 +84,8 @@ class RollRow(Model):
     """Its bearings."""
     dynamic_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")]
     """Rating C of one."""
+    cema_class: CemaClass | None = None
+    """Class of their sets, which bear no more than it is rated for."""
 
 
 class CarcassRow(Model):
@@ -84,14 +95,21 @@ class CarcassRow(Model):
     """Nominal."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
     """Of the carcass."""
+    rating: Annotated[LineForce, Bounds(gt="0 N/mm", le="5000 N/mm")] | None = None
+    """Working tension that it is sold by, in the US."""
+    mass: Annotated[AreaMass, Bounds(gt="0 kg/m^2", le="200 kg/m^2")] | None = None
+    """Of the carcass; by its strength and thickness without it."""
 
 
 class Sizes(Model):
     """The series that parts are chosen from."""
 
     speeds: tuple[Fast, ...]
+    trough_angles: tuple[Trough, ...]
     carry_spacings: tuple[Apart, ...]
     return_spacings: tuple[Apart, ...]
+    cover_step: Annotated[Thickness, Bounds(gt="0 mm", le="5 mm")]
+    vee_from: Wide
     widths: tuple[WidthRow, ...]
     rolls: tuple[RollRow, ...]
     textile: tuple[CarcassRow, ...]
@@ -99,15 +117,17 @@ class Sizes(Model):
 
 
 @cache
-def sizes() -> Sizes:
-    """The series of the library."""
-    entries = libraries.entries("sizes").values()
+def sizes(series: Series) -> Sizes:
+    """The series of a library."""
+    entries = libraries.entries("sizes_us" if series == "US" else "sizes").values()
     return Sizes.from_data({name: value for entry in entries for name, value in entry.fields.items()})
 
 
 class SiteRules(Model):
     """What a design has to keep; everything has a default, those without a source are general knowledge."""
 
+    series: Series | None = None
+    """Library of sizes that parts are chosen from; that of report.units without it."""
     widths: tuple[Wide, ...] = ()
     """Belt widths to choose from; all of the library without."""
     speeds: tuple[Fast, ...] = ()
@@ -118,10 +138,8 @@ class SiteRules(Model):
     """Most of the cross-section of ISO 5048 that the bulk may take."""
     least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
     """Least of it, but for the narrowest belt that takes the lumps: emptier ones are not looked at."""
-    trough_angles: Annotated[
-        tuple[Annotated[Angle, Bounds(ge="0 deg", le="60 deg")], ...], Field(min_length=1)
-    ] = (quantity("35 deg"), quantity("45 deg"))
-    """Of sets of three rolls."""
+    trough_angles: tuple[Trough, ...] = ()
+    """Of sets of three rolls; all of the library without."""
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
     carry_spacings: tuple[Apart, ...] = ()
@@ -160,17 +178,6 @@ class SiteRules(Model):
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed."""
-
-    @model_validator(mode="after")
-    def _of_the_series(self) -> Self:
-        known = [si(row.belt) for row in sizes().widths]
-        listed = ", ".join(text(row.belt) for row in sizes().widths)
-        refuse("SiteRules", [
-            Problem(("widths", i), f"got {text(width)}, the series has {listed}")
-            for i, width in enumerate(self.widths)
-            if not any(math.isclose(si(width), each, rel_tol=_SAME_WIDTH) for each in known)
-        ])  # fmt: skip
-        return self
 
 
 class SizingDuty(Model):
@@ -222,6 +229,14 @@ class SizingDuty(Model):
             yield from self._sized_problems(self.route)
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
+        rows = sizes(self.series).widths
+        listed = ", ".join(text(row.belt) for row in rows)
+        for i, width in enumerate(self.rules.widths):
+            if not any(same_width(si(width), si(row.belt)) for row in rows):
+                place = ("rules", "widths", i)
+                yield Problem(
+                    place, f"got {text(width)}, the series has {listed} (rules.series {self.series})"
+                )
         yield from self._price_problems()
 
     @staticmethod
@@ -248,10 +263,16 @@ class SizingDuty(Model):
         if price is None:
             yield Problem(("operation", "price"), "missing: designs are ranked by what their energy costs")
         elif price.currency != self.prices.currency:
-            message = f"got {price.currency}, but the prices are in {self.prices.currency}; give both in one currency"
+            message = f"got {price.currency}, but the prices are in {self.prices.currency}; give both in one currency, "
+            message += f"or the library's theirs: prices.euro 1.1 {price.currency}"
             yield Problem(("operation", "price"), message)
         if self.operation.duty:
             yield Problem(("operation", "duty"), "designs are ranked at their full load; give hours_per_year")
+
+    @property
+    def series(self) -> Series:
+        """Library of sizes that parts are chosen from."""
+        return self.rules.series or ("US" if self.report.units == "US" else "metric")
 
     @property
     def sized_route(self) -> Route:

@@ -80,6 +80,7 @@ def designs(sizing: CalculatedSizing) -> Table:
         Column("bottom cover", "size", "1.chosen.bottom", json="bottom_cover_mm"),
         Column("compound", "text", "1.conveyor.carry_compound.name", json="compound"),
         Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
+        Column("CEMA class", "text", "1.choice.roll.cema_class", json="cema_class", sparse=True),
         Column("carry sets", "spacing", lambda row: _widest(row[1]), json="carry_spacing_m"),
         Column("return sets", "spacing", "1.choice.back", json="return_spacing_m"),
         Column("drives", "text", "1.choice.drives", json="drives"),
@@ -102,8 +103,7 @@ def designs(sizing: CalculatedSizing) -> Table:
 
 
 def _belt(design: SizedDesign) -> str:
-    carcass = design.chosen.carcass
-    return f"{'ST' if carcass.steel_cord else 'EP'}{carcass.strength / 1e3:.0f}"
+    return design.chosen.carcass.name
 
 
 def _widest(design: SizedDesign) -> float:

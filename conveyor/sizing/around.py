@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
-from conveyor.line.task import Choice, SizingTask
+from conveyor.line.task import Choice, RollSize, SizingTask, Trough
 from conveyor.sizing.designs import settled
 from conveyor.sizing.sized import SizedDesign
 
 _Point: TypeAlias = tuple[float, "Choice | None"]
-_THICKER: Final = (0.0, 1e-3, 2e-3, 4e-3)  # [m], of the bottom cover
+_THICKER: Final = (0, 2, 4, 8)  # steps of the bottom cover
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, 
         base.back,
         [(a, replace(base, back=a)) for a in back if a >= base.carry],
     )
-    rolls = [roll for roll in task.rolls if task.turns_slowly(roll, base.speed)]
+    rolls = [one for one in _rolls(task, base, base.trough) if task.turns_slowly(one, base.speed)]
     yield (
         "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
     )  # fmt: skip
@@ -97,7 +97,8 @@ def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, 
         base.speed,
         [(speed, _at_speed(task, base, speed)) for speed in task.speeds],
     )
-    thicker: list[_Point] = [(bottom + more, replace(base, thicker=base.thicker + more)) for more in _THICKER]
+    more = [steps * task.cover_step for steps in _THICKER]
+    thicker: list[_Point] = [(bottom + one, replace(base, thicker=base.thicker + one)) for one in more]
     yield "bottom cover", "size", bottom, thicker
 
 
@@ -108,8 +109,16 @@ def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
     )
     fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
     rolls = [
-        roll for roll in task.rolls if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter
+        roll
+        for roll in (_rolls(task, base, fits[0][0]) if fits else ())
+        if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter
     ]
-    if not fits or not rolls:
+    if not rolls:
         return None
     return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])
+
+
+def _rolls(task: SizingTask, base: Choice, trough: Trough) -> list[RollSize]:
+    """Rolls of the class that the design has, which has sets for the trough."""
+    alike = [one for one in task.rolls if one.cema_class == base.roll.cema_class]
+    return [one for one in alike if min(task.set_ratings(one, trough)) > 0.0]

@@ -16,8 +16,6 @@ import numpy as np
 
 from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.laws.belt import CLASSIC_SAFETY
-from conveyor.laws.energy import next_motor
 from conveyor.line.roll_lives import shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
@@ -242,9 +240,7 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(
-        next_motor(each, reserve=task.rules.motor_reserve) for each in spread(power, choice.drives)
-    )
+    motors = tuple(map(task.motor, spread(power, choice.drives)))
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
@@ -365,7 +361,7 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
     most = max(needed)
     if most * task.rules.motor_reserve > task.largest_motor:
         raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor)")
-    motor = next_motor(most, reserve=task.rules.motor_reserve)
+    motor = task.motor(most)
     brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
     brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
@@ -386,9 +382,8 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
     for of in one.stretches[: one.line.count]:
         bulk = of.stretch.bulk_mass / of.stretch.line_mass
         more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
-    motor = next_motor(
-        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve),
-        reserve=task.rules.motor_reserve,
+    motor = task.motor(
+        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve)
     )
     needed = partial(_needed, choice=design.choice, tension=highest_tension([one]) + more)
     carcass = next(
@@ -400,9 +395,7 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
 
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
     """Strength that a tension asks of a class [N/m]."""
-    return (
-        CLASSIC_SAFETY["steel cord" if carcass.steel_cord else "textile"] * tension / choice.trough.width.belt
-    )
+    return carcass.safety * tension / choice.trough.width.belt
 
 
 def _powers(one: CalculatedConveyor) -> list[float]:

@@ -16,7 +16,6 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.loading import middle_share_belt, middle_share_bulk
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
@@ -99,7 +98,7 @@ class Candidates:
             for trough, speed in itertools.product(task.troughs, task.speeds)
             if (filling := task.filling(trough, speed)) is not None
             for roll in task.rolls
-            if task.turns_slowly(roll, speed)
+            if task.turns_slowly(roll, speed) and min(task.set_ratings(roll, trough)) > 0.0
         )
         carry, back = task.spacings
         series = (running, carry, back, task.duty.covers, task.kinds, task.rules.drives)
@@ -131,6 +130,11 @@ class Candidates:
     def runs(self, get: Callable[[Running], float]) -> Array:
         """A figure of trough, speed and rolls, of each candidate."""
         return np.array([get(one) for one in self.running])[self.numbers[:, 0]]
+
+    def ratings(self) -> Array:
+        """What carry and return sets of each candidate bear by their class, shape (2, n) [N]."""
+        rated = np.array([self.task.set_ratings(on.roll, on.trough) for on in self.running])
+        return np.asarray(rated[self.numbers[:, 0]].T)
 
     def driven(self, get: Callable[[DriveLayout], float]) -> Array:
         """A figure of the place of the drives, of each candidate."""
@@ -190,7 +194,9 @@ class _Series(NamedTuple):
             np.array(strengths),
             np.array([[one.mass for one in row] for row in filled]),
             np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
-            np.array([[[one.covers(addition) for addition in wear] for one in row] for row in filled]),
+            np.array(
+                [[[task.worn_covers(one, addition) for addition in wear] for one in row] for row in filled]
+            ),
             np.array([len(each) - 1 for each in kinds]),
         )
 
@@ -203,12 +209,13 @@ def _stretch(kind: str) -> float:
 class _Loop(NamedTuple):
     """Candidates with a class of belt each.
 
-    Covers [m], load of the middle roll, indentation, force on all drives, tension behind the head [N]; the class that
-    the tensions ask for, and whether there is one.
+    Covers [m], load of the middle roll and of carry and return sets, indentation, force on all drives, tension behind
+    the head [N]; the class that the tensions ask for, and whether there is one.
     """
 
     covers: Array
     middle: Array
+    sets: Array
     indentation: Array
     force: Array
     slack: Array
@@ -244,6 +251,8 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         & (power * task.rules.motor_reserve <= drives * task.largest_motor)
         & (life >= task.roll_life)
     )
+    for load, rating in zip(around.sets.T, every.ratings(), strict=True):
+        possible &= load <= rating
     possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
     first = cover == 0
     parts = Parts(
@@ -275,9 +284,7 @@ def _around(
     of_bulk = every.runs(lambda on: middle_share_bulk(on.trough.angle))
     of_belt = every.runs(lambda on: middle_share_belt(on.trough.width.three, belt_width=on.trough.width.belt))
     on_wing, wide = np.minimum(three, 0.5 * (width - three)), np.minimum(width, count * flat)
-    safety = np.array([CLASSIC_SAFETY["steel cord" if k == "steel cord" else "textile"] for k in task.kinds])[
-        kind
-    ]
+    safety = np.array([task.carcasses[one][0].safety for one in task.kinds])[kind]
     top, bottom = (covers := series.covers[kind, carcass, ran]).T
     belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
     middle = (of_bulk * bulk + of_belt * belt) * g * carry
@@ -299,7 +306,8 @@ def _around(
     slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
     asked = (series.strengths[kind] < (safety * largest / width)[:, None]).sum(axis=1)
     last = series.last[kind]
-    return _Loop(covers, middle, indentation.T, force, slack, np.minimum(asked, last), asked <= last)
+    sets = np.array([spans[1], spans[0]]).T
+    return _Loop(covers, middle, sets, indentation.T, force, slack, np.minimum(asked, last), asked <= last)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:
