@@ -43,7 +43,7 @@ _V_ANGLE: Final = math.radians(10.0)
 
 @dataclass(frozen=True)
 class CarcassClass:
-    """A class of belts: kind, strength [N/m], thickness [m]; mass [kg/m²] and rated tension [N/m] where it lists them."""
+    """A class of belts: kind, strength [N/m], thickness [m]; where listed mass [kg/m²] and rated tension [N/m]."""
 
     kind: str
     strength: float
