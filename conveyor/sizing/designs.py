@@ -49,8 +49,9 @@ BRAKE_RESERVE: Final = 1.3
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
 _TOO_MUCH: Final = (
-    "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses or drives "
-    "(rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel), or split the conveyor"
+    "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses, drives, "
+    "closer sets (rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel, rules.carry_spacings), or "
+    "split the conveyor"
 )
 _NO_LIFE: Final = 1e12  # [s], of rolls without load
 

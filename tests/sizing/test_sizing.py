@@ -15,6 +15,8 @@ import conveyor
 from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.energy import NEMA_MOTORS
+from conveyor.laws.roll_life import rating_life_hours
 from conveyor.line.task import SizingTask
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
@@ -24,6 +26,7 @@ from conveyor.sizing.designs import settled
 from conveyor.sizing.screen import Candidates, first_levels, screen
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
 from conveyor.study_file import read_duty
+from conveyor.units import si, text
 from tests.command_line import run
 
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
@@ -213,6 +216,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
         ("lump: 100 mm", "lump: 100 mm\nlength: 5 m", r"route: give either route, or length"),
         ("lumps: mixed", "prices: {drive: 10 EUR/kg}", r'prices.drive: got "10 EUR/kg"'),
         ("widths: [650 mm, 800 mm]", "widths: [650 mm, 810 mm]", r"rules.widths\[1\]: got 810 mm, the series has"),
+        ("  widths: [650 mm, 800 mm]", "  widths: [36 in, 800 mm]\n  series: US", r"rules.widths\[1\]: got 800 mm, .*36 in"),
         ("  drives: [head]", "  drives: [middle]", r"rules.drives\[0\]: "),
     ],
 )  # fmt: skip
@@ -245,6 +249,64 @@ def test_prices_are_those_of_the_library_but_for_what_is_given():
         Prices.from_data({"roll": "20 USD"})
 
 
+def test_prices_of_the_library_count_at_what_a_euro_costs():
+    dollars = Prices.from_data({"euro": "1.25 USD", "roll_mass": "2 USD/lb", "drive_power": "300 USD/hp"})
+    usual, lives = Prices.from_data({}), {"roll_of_belt", "textile_life", "steel_cord_life", "roll_life"}
+    own = {"euro": 1.25, "roll_mass": 2.0 / 0.45359237, "drive_power": 300.0 / 745.69987158227}
+    rates = {
+        name: value
+        for name, value in usual.amounts.items()
+        if name in {*lives, "interest", "years", "upkeep"}
+    }
+    at_it = {name: 1.25 * value for name, value in usual.amounts.items()}
+    assert dollars.currency == "USD"
+    assert dollars.amounts == pytest.approx({**at_it, **rates, **own}, rel=1e-12)
+    for wrong, message in (
+        ("0 USD", "euro: got 0 USD, allowed: > 0"),
+        ("1.1", 'euro: got "1.1", expected a price'),
+    ):
+        with pytest.raises(InputError, match=message):
+            Prices.from_data({"euro": wrong})
+
+
+def test_a_design_in_us_units_is_of_the_us_trade(small):
+    """Every part is one of the series to the printed digits, and no set bears more than CEMA rates its class for."""
+    rules = {
+        "carcasses": ["EP"],
+        "drives": ["head"],
+        "speeds": ["400 fpm", "500 fpm"],
+        "trough_angles": ["35 deg"],
+    }
+    american = small.replace(rules=rules, report={"units": "US"})
+    spec = size(american, best=1).best.conveyor
+    belt, drums = spec.belt, {str(pulley.diameter) for pulley in spec.route.pulleys}
+    assert text(belt.width) in {f"{inches} in" for inches in (18, 24, 30, 36, 42, 48)}
+    assert text(belt.carcass.rating).endswith(" PIW")
+    assert belt.carcass.strength is None
+    assert text(spec.drive.installed_power).endswith(" hp")
+    assert si(spec.drive.installed_power) == pytest.approx(
+        min(NEMA_MOTORS, key=lambda each: abs(each - si(spec.drive.installed_power))), rel=1e-6
+    )
+    assert drums <= {f"{inches} inch" for inches in (8, 10, 12, 14, 16, 18, 20, 24, 30, 36)}
+    judged = [check for check in checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}]
+    assert len(judged) == 4  # both strands; steady and all states
+    assert not [check for check in judged if check.failed]
+    assert SizingDuty.from_data(american.as_data()).series == "US"
+    assert american.replace(rules={**rules, "series": "metric"}).series == "metric"
+
+
+def test_bearings_of_a_class_live_as_long_as_cema_rates_it(small):
+    """At its rating, 70 % of it on the middle roll, 500 rpm: 30,000 h of B and C, 60,000 h of D and E (CEMA 502)."""
+    task = SizingTask(small.replace(rules={"series": "US"}))
+    for roll in task.rolls:
+        rated = max(task.set_ratings(roll, trough)[0] for trough in task.troughs)
+        life = rating_life_hours(0.35 * rated, dynamic_rating=roll.rating, rotation=500.0 / 60.0)
+        assert life >= (30e3 if roll.cema_class in {"B", "C"} else 60e3)
+    assert {
+        task.set_ratings(roll, trough) for roll in SizingTask(small).rolls for trough in task.troughs
+    } == {(math.inf, math.inf)}
+
+
 def test_the_narrowest_belt_that_takes_the_lumps_may_be_as_empty_as_it_is(small):
     """A tenth of the flow: by its filling no belt would do, the narrowest one does."""
     material = small.material.replace(flow="20 t/h")
@@ -263,7 +325,7 @@ def test_the_duty_to_begin_with_is_read_and_leaves_a_choice(tmp_path, units):
     assert np.isfinite(screen(task, every, first_levels(2)).year).sum() > 1000
 
 
-@pytest.mark.parametrize("name", ["overland", "in_plant", "downhill"])
+@pytest.mark.parametrize("name", ["overland", "in_plant", "downhill", "in_plant_us"])
 def test_duties_of_the_examples_are_read(name):
     task = SizingTask(read_duty(DUTIES / f"{name}.yaml"))
     assert len(Candidates.of(task)) >= 2000
