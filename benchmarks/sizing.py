@@ -28,6 +28,7 @@ HAND_MADE = {
     "overland": lambda: conveyor.load(DUTIES.parent / "specs" / "overland.yaml"),
     "in_plant": lambda: from_data(values("in-plant")),
     "downhill": lambda: from_data(values("downhill")),
+    "in_plant_us": lambda: conveyor.load(DUTIES.parent / "specs" / "in_plant_us.yaml"),
 }
 T = TypeVar("T")
 
@@ -39,7 +40,7 @@ def timed(work: Callable[[], T]) -> tuple[T, float]:
 
 def main() -> None:
     print(
-        f"{'':<10} {'hand-made':>10} {'sized':>8} {'over':>7}   {'candidates':>10} {'exact':>6} {'s':>6} {'s/exact':>8}"
+        f"{'':<12} {'hand-made':>10} {'sized':>8} {'over':>7}   {'candidates':>10} {'exact':>6} {'s':>6} {'s/exact':>8}"
     )
     for name, spec in HAND_MADE.items():
         line = spec()
@@ -47,12 +48,12 @@ def main() -> None:
         found, seconds = timed(lambda name=name: size(read_duty(DUTIES / f"{name}.yaml"), best=1))
         best = found.best
         powers = [each.balance.power.motor / 1e3 for each in (hand, best.found)]
-        choice, carcass = best.choice, best.chosen.carcass
+        choice = best.choice
         print(
-            f"{name:<10} {powers[0]:>7.1f} kW {powers[1]:>8.1f} {powers[1] / powers[0] - 1.0:>+7.1%}   "
+            f"{name:<12} {powers[0]:>7.1f} kW {powers[1]:>8.1f} {powers[1] / powers[0] - 1.0:>+7.1%}   "
             f"{found.candidates:>10,} {found.calculated:>6} {seconds:>6.1f} {seconds / one:>8.1f}\n"
-            f"  {choice.trough.width.belt * 1e3:.0f} mm, {choice.speed:g} m/s, {carcass.kind} "
-            f"{carcass.strength / 1e3:.0f}, rolls {choice.roll.diameter * 1e3:.0f} mm every "
+            f"  {choice.trough.width.belt * 1e3:.0f} mm, {choice.speed:g} m/s, {best.chosen.carcass.name}, "
+            f"rolls {choice.roll.diameter * 1e3:.0f} mm every "
             f"{choice.carry:g} and {choice.back:g} m, {choice.drives}"
         )
 

@@ -298,7 +298,7 @@ def next_pulley_diameter(least_diameter: float, *, series: Sequence[float] = PUL
     require_positive(least_diameter=least_diameter)
     needed = round(least_diameter, 6)  # products of decimals: 0.63 · 0.5 is 0.315, not the next size
     for diameter in series:
-        if diameter >= needed:
+        if round(diameter, 6) >= needed:
             return diameter
     raise RangeError(
         f"{least_diameter:.4g} m is more than the largest pulley of the series, {series[-1]:.4g} m: "

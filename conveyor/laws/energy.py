@@ -257,7 +257,7 @@ def next_motor(shaft_power: float, *, reserve: float = 1.0, series: Sequence[flo
     require(1.0 <= reserve < math.inf, "reserve", reserve, "at least 1 is needed")
     needed = round(abs(shaft_power) * reserve, 3)  # products of decimals: 100 kW · 1.1 is 110 kW
     for rated in series:
-        if rated >= needed:
+        if round(rated, 3) >= needed:
             return rated
     raise RangeError(
         f"{needed / 1e3:.6g} kW is more than the largest motor of the series, {series[-1] / 1e3:.4g} kW: "

@@ -37,9 +37,10 @@ def test_groups_are_steps_of_the_r10_series():
 
 
 def test_next_pulley_is_the_first_that_is_large_enough():
-    for small, large in pairwise(belt_check.PULLEY_DIAMETERS):
-        assert belt_check.next_pulley_diameter(large) == large
-        assert belt_check.next_pulley_diameter(small + 1e-5) == large
+    for series in (belt_check.PULLEY_DIAMETERS, belt_check.CEMA_PULLEYS):
+        for small, large in pairwise(series):
+            assert belt_check.next_pulley_diameter(large, series=series) == large
+            assert belt_check.next_pulley_diameter(small + 1e-5, series=series) == large
     # a step of the series taken from the drive pulley stays in the series: 0.63 · 0.5 is 0.315
     assert belt_check.next_pulley_diameter(belt_check.pulley_group_diameter(0.5, group="C")) == 0.315
     with pytest.raises(RangeError, match=r"2\.1 m is more than the largest pulley of the series, 2 m"):

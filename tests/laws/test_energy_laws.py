@@ -62,10 +62,11 @@ def test_a_leap_year_is_the_longest():
 
 
 def test_motor_is_the_next_of_the_series():
-    for small, large in pairwise(energy.MOTOR_SERIES):
-        assert small < large
-        assert energy.next_motor(large) == large
-        assert energy.next_motor(small + 1.0) == large
+    for series in (energy.MOTOR_SERIES, energy.NEMA_MOTORS):
+        for small, large in pairwise(series):
+            assert small < large
+            assert energy.next_motor(large, series=series) == large
+            assert energy.next_motor(small + 1.0, series=series) == large
     # 100 kW · 1.1 is 110.00000000000001 in binary
     assert energy.next_motor(100e3, reserve=1.1) == 110e3
     assert energy.next_motor(0.0) == energy.MOTOR_SERIES[0]

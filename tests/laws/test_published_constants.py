@@ -26,6 +26,15 @@ def test_motors_of_the_printed_powers():
     assert pytest.approx([1e3 * float(word) for word in MOTORS.split()], rel=1e-15) == energy.MOTOR_SERIES
 
 
+# rated powers of motors [hp], NFPA 70, table 430.250, up to 500 hp
+HORSES = "0.5 0.75 1 1.5 2 3 5 7.5 10 15 20 25 30 40 50 60 75 100 125 150 200 250 300 350 400 450 500"
+
+
+def test_nema_motors_of_the_printed_powers():
+    printed = [745.69987158227 * float(word) for word in HORSES.split()]
+    assert printed == pytest.approx(energy.NEMA_MOTORS[: len(printed)], rel=1e-12)
+
+
 def test_exponents_of_rating_life():
     # ISO 281: balls 3, rollers 10/3
     assert pytest.approx((3.0, 10.0), rel=1e-15) == (roll_life.BALL_EXPONENT, 3.0 * roll_life.ROLLER_EXPONENT)
