@@ -166,7 +166,10 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     >>> loads.friction.round(6).tolist()
     [0.086769, 0.192195]
     """
-    p = np.asarray(pressures, dtype=float)
+    try:
+        p = np.asarray(pressures, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("pressures: give numbers, one or more finite positive mean pressures") from None
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
     try:
@@ -308,10 +311,11 @@ class _Sampler:
         """Contacts of order n of some rows at places t of their half width."""
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
         every = np.repeat(rows, t.size)
-        matrix = Tabled(self.rule[every], self.group.creeps[every], alpha).matrices(n)
+        tabled = Tabled.of(self.group.creeps[every], alpha)
+        matrix = tabled.matrices(self.rule[every], n)
         contact = equilibrium(matrix, alpha, self.group.rho[every])
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
-        return _Batch(rows, t.size, contact, matrix, np.asarray(valid))
+        return _Batch(rows, t.size, contact, matrix, tabled, np.asarray(valid))
 
     def _enclosed(self, first: _Batch) -> NDArray[np.bool_]:
         """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
@@ -372,8 +376,7 @@ class _Sampler:
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
         by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
-        checked_by = Tabled(self.check[every], self.group.creeps[every], batch.contact.alpha)
-        by_loss = checked_by.friction_by_loss(batch.contact, rho)
+        by_loss = batch.tabled.friction_by_loss(self.check[every], batch.contact, rho)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
         each = (by_order.friction, energy, by_energy(energy, by_order.most))
         error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
@@ -408,6 +411,7 @@ class _Batch:
     count: int
     contact: Contact
     matrix: Array
+    tabled: Tabled
     valid: NDArray[np.bool_]
 
     @property
@@ -420,6 +424,7 @@ class _Batch:
             count,
             chosen_rows(self.contact, at),
             self.matrix[at],
+            self.tabled[at],
             self.valid[rows],
         )
 

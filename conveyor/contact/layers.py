@@ -128,7 +128,8 @@ def free_symbol(q: Array) -> Array:
     decay = root * root
     numerator = -0.5 * np.expm1(-4.0 * q) + 2.0 * q * decay
     grown = -0.5 * np.expm1(-2.0 * q) + q * root
-    return numerator / (2.0 * sinh_minus_scaled(q, root) * grown)
+    symbol: Array = numerator / (2.0 * sinh_minus_scaled(q, root) * grown)
+    return symbol
 
 
 def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:

@@ -44,12 +44,14 @@ def stencils(place: Array) -> Stencils:
     return first.astype(int), shares.reshape(powers.shape)
 
 
-def moved(at: Stencils, weights: Array, size: int) -> Array:
-    """Weights of shape (b, k) on a grid of `size` points, shape (b, size)."""
+def moved(at: Stencils, size: int, *weights: Array) -> list[Array]:
+    """Each of some weights, shape (b, k), on a grid of `size` points, shape (b, size)."""
     first, shares = at
     rows = first.shape[0]
     index = np.arange(POINTS)[:, None, None] + (first + size * np.arange(rows)[:, None])
-    return np.bincount(index.ravel(), (weights * shares).ravel(), rows * size).reshape(rows, size)
+    index = index.ravel()
+    grids = (np.bincount(index, (each * shares).ravel(), rows * size) for each in weights)
+    return [np.asarray(grid, dtype=np.float64).reshape(rows, size) for grid in grids]
 
 
 def logs() -> Array:

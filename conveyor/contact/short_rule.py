@@ -17,6 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,7 +96,7 @@ class _Window:
     end: float
     coarse: Array
     spread: Array  # (unit + inner, K)
-    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner)
+    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner) of narrow contacts
     terms: ComplexArray  # the same of single terms with 1/ζ on the grid of logarithms
 
 
@@ -134,9 +135,10 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
     unit_x, unit_gauss = _gauss(unit)
     inner = np.concatenate([integers, panels])
     zeta = 1.0 / logs()
-    terms = np.empty((zeta.size, unit + inner.size), dtype=complex)
-    terms[:, :unit] = _unit_weights(zeta, unit, slow, plain)
-    terms[:, unit:] = 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))
+    terms, ones = _unit_weights(zeta, unit, slow, plain), 0.5 * unit_gauss
+    if cap == WIDEST:  # wide windows have too many nodes for a table
+        terms = np.concatenate([terms, 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))], axis=1)
+        ones = np.concatenate([ones, np.ones(inner.size)])
     coarse_x, coarse_gauss = _gauss(count)
     fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
@@ -151,7 +153,7 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
         end=end,
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
-        plain=np.concatenate([0.5 * unit_gauss, np.ones(inner.size)]),
+        plain=ones,
         terms=terms,
     )
 
@@ -161,9 +163,7 @@ def cap_of(half_width: float) -> float:
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
-def short_rules(
-    layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]
-) -> list[ShortRule]:
+def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
     """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
     All scenes take as many nodes as the one that needs most: hand over like with like. Times must lie `within`.
@@ -175,29 +175,43 @@ def short_rules(
         _beyond(layers.reach(grade.depth), half_width, grade, window.end)
         for grade, window in zip(grades, windows, strict=True)
     ]
-    outside = creeps.compliance(np.concatenate([beyond for beyond, _ in panels], axis=1))
-    terms = moved(log_stencils(1.0 / creeps.times), creeps.weights, LOGS)
-    m, j, unit, start = [], [], [], 0
+    (terms,) = moved(log_stencils(1.0 / creeps.times), LOGS, creeps.weights)
+    units, nodes, compliances = [], [], []
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
         known += creeps.instantaneous[:, None] * window.plain
-        unit.append(known[:, : -window.inner.size])
-        m += [np.broadcast_to(window.inner, (half_width.size, window.inner.size)), beyond]
-        j += [known[:, -window.inner.size :], outside[:, start : start + beyond.shape[1]]]
-        start += beyond.shape[1]
-    symbol = layers.symbol(np.concatenate(m, axis=1), np.concatenate(j, axis=1))
-    rules, start = [], 0
-    for k, (window, (beyond, measure)) in enumerate(zip(windows, panels, strict=True)):
-        cut, inner = start + window.ramp.size, start + window.inner.size
-        end = inner + beyond.shape[1]
-        inside = window.measure * (window.rest * symbol[:, cut:inner] - j[2 * k][:, window.ramp.size :])
-        fine = np.concatenate([-unit[k], window.ramp * symbol[:, start:cut], inside], axis=1)
-        weights = (fine @ window.spread) / window.coarse
-        rest = measure * (symbol[:, inner:end] - j[2 * k + 1]) / beyond
-        nodes = [np.broadcast_to(window.coarse, weights.shape), beyond]
-        rules.append(ShortRule(np.concatenate(nodes, axis=1), np.concatenate([weights, rest], axis=1)))
-        start = end
-    return rules
+        unit = _UNITS[cap == WIDEST][0]
+        units.append(known[:, :unit])
+        nodes.append(_beside(window.inner, beyond))
+        j = known[:, unit:] if cap == WIDEST else creeps.compliance(window.inner[None])
+        compliances.append(np.concatenate([j, creeps.compliance(beyond)], axis=1))
+    symbol = layers.symbol(np.concatenate(nodes, axis=1), np.concatenate(compliances, axis=1))
+    ends = np.cumsum([m.shape[1] for m in nodes]).tolist()
+    symbols = [symbol[:, start:end] for start, end in pairwise([0, *ends])]
+    return list(map(_rule, windows, panels, units, compliances, symbols))
+
+
+def _rule(
+    window: _Window, panels: tuple[Array, Array], unit: ComplexArray, j: ComplexArray, symbol: ComplexArray
+) -> ShortRule:
+    """Rule of one window and the panels beyond it, from what unit weights, j and S are at its nodes."""
+    beyond, measure = panels
+    cut, end = window.ramp.size, window.inner.size
+    inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
+    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], inside], axis=1)
+    # complex @ real would make the real one complex first
+    parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
+    weights = parts[: fine.shape[0]] + 1j * parts[fine.shape[0] :]
+    rest = measure * (symbol[:, end:] - j[:, end:]) / beyond
+    return ShortRule(_beside(window.coarse, beyond), np.concatenate([weights, rest], axis=1))
+
+
+def _beside(shared: Array, own: Array) -> Array:
+    """Nodes of every scene, shape (k,), beside those of each, shape (b, l)."""
+    out = np.empty((own.shape[0], shared.size + own.shape[1]))
+    out[:, : shared.size] = shared
+    out[:, shared.size :] = own
+    return out
 
 
 def _count(grade: Grade, cap: float, widest: float) -> int:
@@ -234,7 +248,9 @@ def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArr
     degrees = np.arange(unit)[:, None]
     x, gauss = _gauss(plain)
     nodes = 0.5 * (x + 1.0)
-    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta)))
+    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
+        1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
+    )
     moments[:, zeta > slow] = _moments(zeta[zeta > slow], unit)
     x, gauss = _gauss(unit)
     return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))

@@ -26,7 +26,8 @@ from conveyor.contact.short_rule import ShortRule
 Array = NDArray[np.float64]
 
 _SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.7  # (a + |e|)/R up to which one step may find it
+_NEAR = 0.7  # (a + |e|)/R up to which a step or two find it
+_STEPS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,16 +129,20 @@ def equilibrium(
         unit = np.zeros((n, 1))
         unit[0] = 1.0
         eps = alpha * (matrix[:, :1] @ np.linalg.solve(matrix[:, 1:], unit))[:, 0, 0]
-    reach = (alpha + np.abs(eps)) / radius
-    near = reach < _NEAR
-    near_eps = np.where(near, eps, 0.0)
-    near_alpha = np.where(near, alpha, 0.5 * radius)
-    slopes = slope_expansion(near_alpha, near_eps, radius, n + 2)
-    slope, c, step = _balanced(matrix, slopes, slopes[:, 1 : n + 1])
-    place = near_eps + step
-    # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
-    left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
-    settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
+    for _ in range(_STEPS):
+        reach = (alpha + np.abs(eps)) / radius
+        near = reach < _NEAR
+        near_eps = np.where(near, eps, 0.0)
+        near_alpha = np.where(near, alpha, 0.5 * radius)
+        slopes = slope_expansion(near_alpha, near_eps, radius, n + 2)
+        slope, c, step = _balanced(matrix, slopes, slopes[:, 1 : n + 1])
+        place = near_eps + step
+        # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
+        left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
+        settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
+        if (settled | ~near).all():
+            break
+        eps = np.where(np.abs(step) < 0.5 * (radius - near_alpha), place, eps)
     contact = pressed(c, slope, (near_alpha, place), radius)
     if settled.all():
         return contact
@@ -160,7 +165,9 @@ def _balanced(matrix: Array, slopes: Array, right: Array) -> tuple[Array, Array,
         step = -(miss + 0.5 * bend * step * step) / rise
     powers = np.empty((step.size, 3, 1))
     powers[:, 0, 0], powers[:, 1, 0], powers[:, 2, 0] = 1.0, step, 0.5 * step * step
-    return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
+    slope: Array = (slopes @ powers)[..., 0]
+    c: Array = np.asarray((answers @ powers)[..., 0], dtype=np.float64)
+    return slope, c, np.asarray(step)
 
 
 def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:

@@ -9,6 +9,7 @@ large the tables are of r u and r b. A node's matrix is that of `spectral.assemb
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.creep import Creeps
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.moved import BEFORE, LOGS, POINTS, log_stencils, logs, moved, stencils, within
+from conveyor.contact.moved import BEFORE, LOGS, POINTS, Stencils, log_stencils, logs, moved, stencils, within
 from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.spectral import Contact, assemble
 
@@ -25,15 +26,18 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _STEP = 0.2  # of the grid of u
-_HIGHEST, _LARGEST = 64, 1 << 20  # order, and entries of a table of waves, beyond which matrices are formed one by one
+_HIGHEST, _LARGEST = (
+    64,
+    1 << 20,
+)  # order, and entries of a table of waves, beyond which matrices are formed one by one
 
 
 @lru_cache(maxsize=16)
 def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
     """Pairs i ≤ v of equal and of unequal parity; where a matrix finds its entries, and their factors; of the loss."""
-    v, i = np.nonzero(np.tri(n + 1, dtype=bool))
+    v, i = (np.asarray(index, dtype=np.int_) for index in np.nonzero(np.tri(n + 1, dtype=bool)))
     even = (v - i) % 2 == 0
-    pairs = [(i[kind], v[kind]) for kind in (even, ~even)]
+    pairs: list[tuple[Index, Index]] = [(i[kind], v[kind]) for kind in (even, ~even)]
     place = np.empty((n + 1, n + 1), dtype=int)
     low, high = (np.concatenate(side) for side in zip(*pairs, strict=True))
     place[low, high] = place[high, low] = np.arange(low.size)
@@ -42,7 +46,8 @@ def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
     factor = np.where(row == 0, 1.0, 2.0) * column * np.where((q + q % 2) % 4 == 0, -1.0, 1.0)
     i, v = pairs[0]
     lost = np.where((v - i) % 4 == 0, 0.25, -0.25) * np.where(i == v, 1.0, 2.0) * (i > 0)
-    return pairs, place[:, 1:].ravel(), factor.ravel(), lost
+    signs, lost = np.asarray(factor.ravel(), dtype=np.float64), np.asarray(lost, dtype=np.float64)
+    return pairs, np.asarray(place[:, 1:].ravel()), signs, lost
 
 
 @lru_cache(maxsize=64)
@@ -67,57 +72,71 @@ def _terms(n: int, ratio: float) -> list[Array]:
     ]
 
 
+@dataclass(frozen=True, eq=False)
 class Tabled:
-    """Contacts of given half widths, their weights on the grids: matrices of any order, and the loss.
+    """Contacts of given half widths: matrices of any order, and the loss.
 
-    Parameters
+    Attributes
     ----------
-    rule : ShortRule
-        Nodes and weights of each contact.
     creeps : Creeps
         Spectrum of each.
     alpha : ndarray, shape (b,)
         Half widths [-].
+    b : tuple, optional
+        Stencils of their terms; none where one lies beyond the tables.
     """
 
-    def __init__(self, rule: ShortRule, creeps: Creeps, alpha: Array) -> None:
-        self.rule, self.creeps, self.alpha = rule, creeps, alpha
-        u = (alpha / _STEP)[:, None] * rule.nodes
+    creeps: Creeps
+    alpha: Array
+    b: Stencils | None
+
+    @classmethod
+    def of(cls, creeps: Creeps, alpha: Array) -> Tabled:
+        """Contacts of half widths α, shape (b,)."""
         b = alpha[:, None] / creeps.times
-        self._size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
-        self._fits = bool(within(b).all())
-        if self._fits:
-            self._u, self._b = stencils(u), log_stencils(b)
+        return cls(creeps, alpha, log_stencils(b) if within(b).all() else None)
 
-    def _tabled(self, n: int) -> bool:
-        return self._fits and n <= _HIGHEST and self._size * n * n <= _LARGEST
+    def __getitem__(self, chosen: Index) -> Tabled:
+        b = None if self.b is None else (self.b[0][chosen], self.b[1][:, chosen])
+        return Tabled(self.creeps[chosen], self.alpha[chosen], b)
 
-    def matrices(self, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
+    def _stencils(self, rule: ShortRule, n: int) -> tuple[Stencils, int, Stencils] | None:
+        """Of nodes, with the size of the grid of u, and of terms; none where tables do not serve."""
+        u = (self.alpha / _STEP)[:, None] * rule.nodes
+        size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
+        served = n <= _HIGHEST and size * n * n <= _LARGEST
+        return (stencils(u), size, self.b) if served and self.b else None
+
+    def matrices(self, rule: ShortRule, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
         """`spectral.assemble` of order n at α times each ratio, one contact's after the other, (b · r, n+1, n)."""
-        if not self._tabled(n):
+        grids = self._stencils(rule, n)
+        if grids is None:
             every = np.repeat(np.arange(self.alpha.size), len(ratios))
             alpha = np.multiply.outer(self.alpha, ratios).ravel()
-            return assemble(self.rule[every], self.creeps[every], alpha, n)
+            return assemble(rule[every], self.creeps[every], alpha, n)
+        nodes, size, b = grids
         _, where, factor, _ = _pairs(n)
-        terms = moved(self._b, self.creeps.weights, LOGS)
-        weights = [moved(self._u, part, self._size) for part in (self.rule.weights.real, self.rule.weights.imag)]
+        (terms,) = moved(b, LOGS, self.creeps.weights)
+        weights = moved(nodes, size, rule.weights.real, rule.weights.imag)
         out = np.empty((self.alpha.size, len(ratios), (n + 1) * n))
         for k, ratio in enumerate(ratios):
-            waves, half_space = _waves(n, self._size, ratio), _terms(n, ratio)
-            packed = [weights[parity] @ waves[parity] + terms @ half_space[parity] for parity in (0, 1)]
+            tables = zip(weights, _waves(n, size, ratio)[:2], _terms(n, ratio), strict=True)
+            packed = [weight @ wave + terms @ half_space for weight, wave, half_space in tables]
             np.multiply(np.concatenate(packed, axis=1).take(where, axis=1), factor, out=out[:, k])
         out[..., n :: n + 1] -= self.creeps.instantaneous[:, None, None]
         return out.reshape(-1, n + 1, n)
 
-    def friction_by_loss(self, contact: Contact, rho: Array) -> Array:
+    def friction_by_loss(self, rule: ShortRule, contact: Contact, rho: Array) -> Array:
         """`energy.friction_by_loss` of the contacts, shape (b,)."""
         n = contact.c.shape[1]
-        if not self._tabled(n):
-            return friction_by_loss(self.rule, self.creeps, contact, rho)
+        grids = self._stencils(rule, n)
+        if grids is None:
+            return friction_by_loss(rule, self.creeps, contact, rho)
+        nodes, size, b = grids
         ((i, v), _), _, _, factor = _pairs(n)
-        lossy = self.rule.weights.imag * self.rule.nodes * (self.alpha * self.alpha)[:, None]
-        power = moved(self._u, lossy, self._size) @ _waves(n, self._size, 1.0)[2]
-        power += moved(self._b, self.creeps.weights * self.creeps.times, LOGS) @ _terms(n, 1.0)[0]
+        (lossy,) = moved(nodes, size, rule.weights.imag * rule.nodes * (self.alpha * self.alpha)[:, None])
+        (terms,) = moved(b, LOGS, self.creeps.weights * self.creeps.times)
+        power = lossy @ _waves(n, size, 1.0)[2] + terms @ _terms(n, 1.0)[0]
         x = np.zeros((self.alpha.size, n + 1))
         np.multiply(contact.c, np.arange(1.0, n + 1.0), out=x[:, 1:])
         power *= x[:, i]

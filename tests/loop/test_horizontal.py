@@ -57,7 +57,7 @@ def straight():
 def test_a_straight_conveyor_has_nothing_of_it(straight):
     assert straight.horizontal == ()
     assert straight.convergence is None
-    assert horizontal_curves(straight).empty
+    assert not horizontal_curves(straight).rows
     assert "guidance" not in {force.key for force in straight.balance.along}
 
 
