@@ -112,7 +112,35 @@ def oil_viscosity(
 def walther(
     first: float, first_viscosity: float, second: float, second_viscosity: float
 ) -> tuple[float, float]:
-    """A and B of log log(ν + 0.7) = A - B log T through two points [K, m²/s]."""
+    """A and B of log log(ν + 0.7) = A - B log T through two points (ASTM D341).
+
+    Parameters
+    ----------
+    first : float
+        A temperature [K], positive.
+    first_viscosity : float
+        ν there [m²/s], above 0.3 mm²/s.
+    second : float
+        Another temperature [K].
+    second_viscosity : float
+        ν there [m²/s], above 0.3 mm²/s.
+
+    Returns
+    -------
+    A, B : float
+        Of natural logarithms of T and of log10(ν + 0.7) [-].
+
+    Raises
+    ------
+    ZeroDivisionError
+        Both temperatures are the same; ranges are checked by those who call.
+
+    Examples
+    --------
+    >>> turn, slope = walther(313.0, 32e-6, 373.0, 5.4e-6)
+    >>> round(turn, 2), round(slope, 2)
+    (21.93, 3.74)
+    """
     thick, thin = (
         math.log(math.log10(viscosity / CENTISTOKES + WALTHER_OFFSET))
         for viscosity in (first_viscosity, second_viscosity)
