@@ -238,7 +238,7 @@ def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
 def _nodes(loads: Array, *, few: bool) -> list[float]:
     """Line loads at which a test is calculated [N/m]: a few of their range, or each of them."""
     low, high = float(loads.min()), float(loads.max())
-    nodes = np.geomspace(low, high, SOFT_LOADS if high > low else 1) if few else loads
+    nodes = np.geomspace(low, high, SOFT_LOADS) if few and high > low else loads
     return [float(w) for w in np.unique(nodes)]
 
 
