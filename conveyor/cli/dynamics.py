@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from enum import StrEnum
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from conveyor.cli.app import Spec
+from conveyor.cli.app import Spec, option
 from conveyor.cli.outputs import FIGURE, PAGE, Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import executor_of
@@ -46,28 +43,22 @@ def dynamics(
     session: Session,
     spec: Spec,
     scenario: Annotated[
-        list[str] | None,
-        typer.Option("--scenario", "-s", metavar="NAME", help="Only this one; may be repeated."),
+        list[str] | None, option("Only this one; may be repeated.", "NAME", "--scenario", "-s")
     ] = None,
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
         ),
     ] = None,
-    error: Annotated[
-        float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
-    ] = 0.01,
+    error: Annotated[float, option("Error of the highest and lowest tension asked for.", "SHARE")] = 0.01,
     size: Annotated[
-        Sought | None,
-        typer.Option(
-            help="Find the least of it with which each scenario keeps every criterion.", case_sensitive=False
-        ),
+        Sought | None, option("Find the least of it with which each scenario keeps every criterion.")
     ] = None,
-    workers: Annotated[int, typer.Option(metavar="N", help="Processes.", min=1, max=64)] = 1,
+    workers: Annotated[int, option("Processes.", "N", min=1, max=64)] = 1,
 ) -> None:
     """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
     to = session.outputs(spec)
@@ -80,10 +71,9 @@ def dynamics(
     system = session.system(line)
     chosen = _chosen(line, scenario)
     with ExitStack() as stack:
-        told = stack.enter_context(session.progress())
+        told = stack.enter_context(session.progress("scenarios"))
         executor = stack.enter_context(executor_of(None, workers)) if workers > 1 else None
-        how: Any = {"executor": executor, "workers": workers,
-                    "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
+        how: Any = {"executor": executor, "workers": workers, "progress": told}
         if size is None:
             followed = follow(line, chosen, error=error, **how)
         else:

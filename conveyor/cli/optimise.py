@@ -6,9 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import say
+from conveyor.cli.app import argument, option, say
 from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.cli.study import said, spec_of
@@ -28,14 +26,9 @@ if TYPE_CHECKING:
 )
 def optimise(
     session: Session,
-    plan_file: Annotated[
-        Path, typer.Argument(metavar="SEARCH", help="Search: .yaml or .json.", show_default=False)
-    ],
+    plan_file: Annotated[Path, argument("Search: .yaml or .json.", "SEARCH", show_default=False)],
     output: Annotated[
-        Path,
-        typer.Option(
-            "-o", "--output", metavar="FILE", help="Write the best spec (.yaml).", show_default=False
-        ),
+        Path, option("Write the best spec (.yaml).", "FILE", "-o", "--output", show_default=False)
     ],
     workers: Workers = 1,
     scheduler: Scheduler = None,

@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from conveyor.cli.app import AsParquet, ImageKind, Spec, TablesFolder, WebPage, Workbook
+from conveyor.cli.app import AsParquet, ImageKind, Spec, TablesFolder, WebPage, Workbook, option
 from conveyor.cli.session import Session, command
 
 
@@ -29,12 +27,8 @@ def power(
     html: WebPage = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
-    plots: Annotated[
-        Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it.")
-    ] = None,
-    plot_kind: Annotated[
-        ImageKind, typer.Option("--plot-kind", help="Format of the figures.", case_sensitive=False)
-    ] = ImageKind.PNG,
+    plots: Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")] = None,
+    plot_kind: Annotated[ImageKind, option("Format of the figures.", None, "--plot-kind")] = ImageKind.PNG,
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     to = session.outputs(spec)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import AsParquet, TablesFolder
+from conveyor.cli.app import AsParquet, TablesFolder, argument, option
 from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.cli.session import Session, command
 
@@ -31,18 +28,16 @@ _MOST = 50
 )
 def size(
     session: Session,
-    duty: Annotated[Path, typer.Argument(metavar="DUTY", help="Duty: .yaml or .json.", show_default=False)],
-    best: Annotated[
-        int, typer.Option("--best", "-n", metavar="N", help="Designs to rank.", min=1, max=_MOST)
-    ] = 3,
+    duty: Annotated[Path, argument("Duty: .yaml or .json.", "DUTY", show_default=False)],
+    best: Annotated[int, option("Designs to rank.", "N", "--best", "-n", min=1, max=_MOST)] = 3,
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
+            "(.png, .svg, .pdf); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
-            "(.png, .svg, .pdf); may be repeated.",
         ),
     ] = None,
     tables: TablesFolder = None,
@@ -64,8 +59,8 @@ def size(
     from conveyor.study_file import read_duty
 
     read = read_duty(duty, shelves=session.shelf or ())
-    with session.progress() as told:
-        designs = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
+    with session.progress("designs") as told:
+        designs = sizing.size(read, best=best, progress=told)
     pictured = session.as_json or tables is not None or any(ending not in SPEC for _, ending in asked)
     contents = of_sizing(designs, session.system(read), vary=pictured)
     for path, ending in asked:

@@ -9,9 +9,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import WebPage, say
+from conveyor.cli.app import WebPage, argument, option, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
@@ -42,29 +40,21 @@ _SHOWN = 3
 )
 def study(
     session: Session,
-    plan_file: Annotated[
-        Path, typer.Argument(metavar="STUDY", help="Study: .yaml or .json.", show_default=False)
-    ],
+    plan_file: Annotated[Path, argument("Study: .yaml or .json.", "STUDY", show_default=False)],
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
             show_default=False,
         ),
     ],
-    designs: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the designs (.csv, .parquet).")
-    ] = None,
+    designs: Annotated[Path | None, option("Write the designs (.csv, .parquet).", "FILE")] = None,
     html: WebPage = None,
-    plots: Annotated[
-        Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it (.png).")
-    ] = None,
-    specs: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Write the best ten designs into it as specs.")
-    ] = None,
+    plots: Annotated[Path | None, option("Draw every figure into it (.png).", "FOLDER", "--plots")] = None,
+    specs: Annotated[Path | None, option("Write the best ten designs into it as specs.", "FOLDER")] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
 ) -> None:

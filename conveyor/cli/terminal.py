@@ -87,7 +87,7 @@ def grid(part: Table, system: System, title: str | None = None, *, large: bool =
             for column in part.columns
         )
         made.add_row(*(
-            words(cell.written(column.value(row))) for cell, column in zip(cells, part.columns, strict=True)
+            words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
         ))  # fmt: skip
     return made
 
@@ -99,7 +99,7 @@ def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str
 
 def show_notes(screen: Console, notes: Sequence[str]) -> None:
     """Print notes as two short lists, their lines no wider than the terminal."""
-    from conveyor.report.notes import HEADINGS, ordered
+    from conveyor.report.columns import HEADINGS, ordered
 
     for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
         if listed:
@@ -272,17 +272,15 @@ def _states(states: Table, system: System) -> Grid:
     made = table("load states", (*text, *figures.values()), left=text)
     columns = {column.key: column for column in states.columns}
     for row in states.rows:
-        said = [unit(columns[key].kind, system, large=True).said(columns[key].value(row)) for key in figures]
-        at = unit("temperature", system).brief(columns["temperature"].value(row))
-        made.add_row(
-            words(columns["state"].value(row)), words(columns["sections_loaded"].value(row)), at, *said
-        )
+        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
+        at = unit("temperature", system).brief(columns["temperature"].get(row))
+        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
     return made
 
 
 def _cases(cases: Table, system: System) -> Grid:
     made = table("governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at"))
-    get = {column.key: column.value for column in cases.columns}
+    get = {column.key: column.get for column in cases.columns}
     for row in cases.rows:
         at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
         value = unit(row.kind, system, large=True).said(get["value"](row))
@@ -301,13 +299,13 @@ def _year(figures: Iterable[Figure], system: System) -> Grid:
 
 def _ranges(screen: Console, contents: Contents) -> None:
     power, band = unit("power", contents.system, large=True), contents["power_band"]
-    ends = [band.columns[band.index(key)].value for key in ("motor_power_low", "motor_power_high")]
+    ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
     said = " to ".join(power.said(end(band.rows[0])) for end in ends)
     exact = [
         f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER:]
     ]
     inputs = contents["sensitivity"]
-    first = ", ".join(inputs.columns[0].value(row) for row in inputs.rows[:_MATTERS])
+    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
     screen.print(words("\nuncertainty", style="bold"))
     said = f"motor power {said} (90 % interval){''.join(exact)}; most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))
@@ -390,18 +388,18 @@ def _sizes(screen: Console, contents: Contents) -> None:
     by_key = {column.key: column for column in shown.columns}
     for row in shown.rows:
         written = row.unit(contents.system)
-        error, most = by_key["to"].value(row), by_key["serves_up_to"].value(row)
-        said = f"{by_key['scenario'].value(row)}: {row.label} {written.said(by_key['found'].value(row))}"
+        error, most = by_key["to"].get(row), by_key["serves_up_to"].get(row)
+        said = f"{by_key['scenario'].get(row)}: {row.label} {written.said(by_key['found'].get(row))}"
         said += "" if error is None else f", to {percent(error, 1)}"
         said += "" if most is None else f"; up to {written.said(most)} serves"
-        governs, why = by_key["governing_check"].value(row), by_key["what_fails_with_less"].value(row)
+        governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
         said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"
         screen.print(words(said))
 
 
 def show_sizing(contents: Contents) -> None:
     """Print the designs, what tells them apart, and remarks."""
-    from conveyor.report.notes import merged
+    from conveyor.report.columns import merged
 
     every = contents["designs"]
     title = f"{contents.document.title}: designs"
@@ -409,7 +407,7 @@ def show_sizing(contents: Contents) -> None:
     screen.print(grid(every.only(*_DESIGN), contents.system, title, large=True))
     why = next(column for column in every.columns if column.key == "why")
     for rank, row in enumerate(every.rows, start=1):
-        screen.print(words(f"{rank}: {why.value(row)}"))
+        screen.print(words(f"{rank}: {why.get(row)}"))
     screen.print(words("\nbasis and limitations", style="bold"))
     for line in merged(contents.lines("assumption")):
         screen.print(words(wrapped(line, screen.width, first="  - ", further="    ")))

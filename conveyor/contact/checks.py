@@ -17,6 +17,7 @@ from conveyor.contact.spectral import Contact, nested, of_orders
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
+_MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING = 16  # samples: a ripple of the highest order changes sign after four
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
@@ -46,8 +47,9 @@ def errors_of_lower(
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
     and δ(3n/4) the error at n is δ(3n/4)²/δ(n/2) for geometric convergence; four times that covers n^-3, and δ(3n/4)
-    is the most. Twice that bounds it down to n^-1.4. Edges shift with ε and with the half width that another load
-    takes, |δp/p| of it at most; they converge more slowly, so twice their shift from 3n/4 is taken.
+    is the most. 2.3 times that bounds it down to n^-1.25, and where an unresolved edge layer makes it grow like n².
+    Edges shift with ε and with the half width that another load takes, |δp/p| of it at most; they converge more
+    slowly, so twice their shift from 3n/4 is taken.
 
     Parameters
     ----------
@@ -76,7 +78,7 @@ def errors_of_lower(
     left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
-    return OrderErrors(left, 2.0 * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
+    return OrderErrors(left, _MOST * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
 
 
 def by_energy(energy: Array, most: Array) -> Array:

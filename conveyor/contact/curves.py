@@ -167,7 +167,10 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     >>> loads.friction.round(6).tolist()
     [0.086769, 0.192195]
     """
-    p = np.asarray(pressures, dtype=float)
+    try:
+        p = np.asarray(pressures, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("pressures: give numbers, one or more finite positive mean pressures") from None
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
     try:

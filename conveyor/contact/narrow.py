@@ -71,7 +71,7 @@ _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.1, 1.5  # d ln p over the search's half range; ln of half widths
-CHUNK = 100  # scenes whose tables stay in the processor's cache
+CHUNK = 200  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
 _GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
 

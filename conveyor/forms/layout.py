@@ -180,13 +180,8 @@ def _built(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[Ba
     if items is not None:
         inner = _built(_About(key=about.key), *_unwrapped(items, ()), seen)
         if isinstance(inner, FieldGroup):
-            return FieldTable(
-                key=about.key,
-                doc=about.doc or inner.doc,
-                required=about.required,
-                item=inner,
-                allowed=_lengths(marks, "row"),
-            )
+            doc, allowed = about.doc or inner.doc, _lengths(marks, "row")
+            return FieldTable(key=about.key, doc=doc, required=about.required, item=inner, allowed=allowed)
         if isinstance(inner, Leaf) and inner.kind in _LISTABLE:
             allowed = ", ".join(filter(None, (inner.allowed, _lengths(marks, "value"))))
             return _leaf(about, "list", item=inner, allowed=allowed, choices=inner.choices)

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.indentation import RollContact, indentation_resistances
-from conveyor.laws.softening import COARSE, WorkedCover, softened_many
+from conveyor.indentation import RollContact, felt, indentation_resistances
+from conveyor.laws.softening import COARSE, SoftCover, WorkedCover, softened_many
+from conveyor.line.covers import FELT
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
 from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
@@ -58,7 +59,8 @@ def anchor_rows(compound: RubberCompound, *, softened: bool) -> tuple[RollingRow
     RangeError
         The compound is not known at a test's temperature, or at its strain.
     """
-    (rows,) = _rows([compound], softened=softened)
+    theory = Theory([compound], softened=softened)
+    (rows,) = theory.rows(softened_many(theory.works))
     if not isinstance(rows, tuple):
         raise rows
     return rows
@@ -95,15 +97,8 @@ def anchors(
     list
         In their order the levels, None without tests, or why there is none.
     """
-    levels: list[Anchor | NoSolutionError | RangeError | InputError | None] = []
-    for compound, rows in zip(compounds, _rows(compounds, softened=softened), strict=True):
-        try:
-            levels.append(
-                rows if not isinstance(rows, tuple) else anchor_of(compound, rows) if rows else None
-            )
-        except InputError as error:
-            levels.append(error)
-    return levels
+    theory = Theory(compounds, softened=softened)
+    return theory.levels(softened_many(theory.works))
 
 
 def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
@@ -132,21 +127,6 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
     return level
 
 
-def _rows(
-    compounds: Sequence[RubberCompound], *, softened: bool
-) -> list[tuple[RollingRow, ...] | NoSolutionError | RangeError]:
-    """Rows of the tests of each compound; or why there are none, as the first test without theory says."""
-    tests = [(compound, test.points()) for compound in compounds for test in compound.tests]
-    theory = iter(_theory(tests, softened=softened))
-    points = (points for _, points in tests)
-    rows_of: list[tuple[RollingRow, ...] | NoSolutionError | RangeError] = []
-    for compound in compounds:
-        each = [(next(points), next(theory)) for _ in compound.tests]
-        refused = next((ours for _, ours in each if isinstance(ours, NoSolutionError | RangeError)), None)
-        rows_of.append(refused or tuple(itertools.chain.from_iterable(starmap(_tested, enumerate(each)))))
-    return rows_of
-
-
 def _tested(
     number: int, test: tuple[RollingPoints, Array | NoSolutionError | RangeError]
 ) -> Iterator[RollingRow]:
@@ -156,46 +136,92 @@ def _tested(
         yield RollingRow(number, float(load), points.temperature, float(measured), float(ours))
 
 
-def _theory(
-    tests: Sequence[tuple[RubberCompound, RollingPoints]], *, softened: bool
-) -> list[Array | NoSolutionError | RangeError]:
-    """Calculated resistance per width of each test at its loads [N/m], all contacts side by side."""
-    refused: dict[int, NoSolutionError | RangeError] = {}
-    asked: dict[tuple[int, float], RollContact] = {}
-    works: dict[tuple[int, float], WorkedCover] = {}
-    for i, (compound, points) in enumerate(tests):
-        try:
-            contact, swept = _contact(compound, points), compound.swept_series(points.temperature)
-        except RangeError as error:
-            refused[i] = error
-            continue
-        factors = compound.amplitude_factors() if softened else None
-        for w in _nodes(points.line_load, few=factors is not None):
-            asked[i, w] = contact
-            if factors is not None:
-                works[i, w] = WorkedCover(contact, w, factors, points.temperature, swept)
-    for (i, w), soft in zip(works, softened_many(list(works.values()), inside=COARSE), strict=True):
-        if isinstance(soft, tuple):
-            asked[i, w] = replace(asked[i, w], rubber=soft[0])
-        else:
-            refused.setdefault(i, soft)
-            del asked[i, w]
-    solved = indentation_resistances(list(asked.values()), [w for _, w in asked], RTOL)
-    there: list[dict[float, float]] = [{} for _ in tests]
-    for (i, w), one in zip(asked, solved, strict=True):
-        if isinstance(one, NoSolutionError):
-            refused.setdefault(i, NoSolutionError(f"a rolling-resistance test: {one}"))
-        else:
-            there[i][w] = one
-    return [
-        refused[i] if i in refused else _between(there[i], points.line_load)
-        for i, (_, points) in enumerate(tests)
-    ]
+class Theory:
+    """The theory at the tests of compounds, on its way: first the covers at the strain of each, then their contacts.
+
+    Attributes
+    ----------
+    compounds : tuple of RubberCompound
+        Whose tests.
+    softened : bool
+        Whether their rubber is taken at the strain of the test.
+    works : list of WorkedCover
+        Covers to be softened.
+    """
+
+    def __init__(self, compounds: Sequence[RubberCompound], *, softened: bool) -> None:
+        self.compounds, self.softened = tuple(compounds), softened
+        self._tests = [(compound, test.points()) for compound in compounds for test in compound.tests]
+        self._refused: dict[int, NoSolutionError | RangeError] = {}
+        self._asked: dict[tuple[int, float], RollContact] = {}
+        works: dict[tuple[int, float], WorkedCover] = {}
+        for i, (compound, points) in enumerate(self._tests):
+            try:
+                contact, swept = _contact(compound, points), compound.swept_series(points.temperature)
+            except RangeError as error:
+                self._refused[i] = error
+                continue
+            factors = compound.amplitude_factors() if softened else None
+            for w in _nodes(points.line_load, few=factors is not None):
+                self._asked[i, w] = contact
+                if factors is not None:
+                    works[i, w] = WorkedCover(contact, w, factors, points.temperature, swept, COARSE)
+        self._worked, self.works = list(works), list(works.values())
+
+    def levels(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
+        """Levels of the compounds, as `anchors`, from the softened covers in the order of `works`."""
+        levels: list[Anchor | NoSolutionError | RangeError | InputError | None] = []
+        for compound, rows in zip(self.compounds, self.rows(covers), strict=True):
+            try:
+                levels.append(
+                    rows if not isinstance(rows, tuple) else anchor_of(compound, rows) if rows else None
+                )
+            except InputError as error:
+                levels.append(error)
+        return levels
+
+    def rows(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[tuple[RollingRow, ...] | NoSolutionError | RangeError]:
+        """Rows of the tests of each compound; or why there are none, as the first test without theory says."""
+        theory = iter(self._resistances(covers))
+        points = (points for _, points in self._tests)
+        rows_of: list[tuple[RollingRow, ...] | NoSolutionError | RangeError] = []
+        for compound in self.compounds:
+            each = [(next(points), next(theory)) for _ in compound.tests]
+            refused = next((ours for _, ours in each if isinstance(ours, NoSolutionError | RangeError)), None)
+            rows_of.append(refused or tuple(itertools.chain.from_iterable(starmap(_tested, enumerate(each)))))
+        return rows_of
+
+    def _resistances(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[Array | NoSolutionError | RangeError]:
+        """Calculated resistance per width of each test at its loads [N/m], all contacts side by side."""
+        refused, asked = dict(self._refused), dict(self._asked)
+        for (i, w), soft in zip(self._worked, covers, strict=True):
+            if isinstance(soft, tuple):
+                asked[i, w] = replace(asked[i, w], rubber=soft[0])
+            else:
+                refused.setdefault(i, soft)
+                del asked[i, w]
+        solved = indentation_resistances(list(asked.values()), [w for _, w in asked], RTOL)
+        there: list[dict[float, float]] = [{} for _ in self._tests]
+        for (i, w), one in zip(asked, solved, strict=True):
+            if isinstance(one, NoSolutionError):
+                refused.setdefault(i, NoSolutionError(f"a rolling-resistance test: {one}"))
+            else:
+                there[i][w] = one
+        return [
+            refused[i] if i in refused else _between(there[i], points.line_load)
+            for i, (_, points) in enumerate(self._tests)
+        ]
 
 
 def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
     """The roll of a test on its cover."""
-    return RollContact(
+    contact = RollContact(
         radius=points.radius,
         spacing=max(SPACING, 4.0 * points.radius),
         cover_thickness=points.cover_thickness,
@@ -203,12 +229,16 @@ def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
         rubber=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
+    if contact.poisson != 0.5:
+        return contact
+    fastest, slowest = felt(contact, float(points.line_load.min()), FELT * RTOL)
+    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
 
 
 def _nodes(loads: Array, *, few: bool) -> list[float]:
     """Line loads at which a test is calculated [N/m]: a few of their range, or each of them."""
     low, high = float(loads.min()), float(loads.max())
-    nodes = np.geomspace(low, high, SOFT_LOADS if high > low else 1) if few else loads
+    nodes = np.geomspace(low, high, SOFT_LOADS) if few and high > low else loads
     return [float(w) for w in np.unique(nodes)]
 
 

@@ -238,23 +238,34 @@ class RubberCompound(Model):
             for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
 
-    def _at(
-        self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
-    ) -> tuple[PronySeries, ...]:
-        """Shift series of the reference temperature to another [K], each by its shift."""
+    def check_temperature(self, temperature: float) -> None:
+        """Refuse a temperature at which the compound is not known [K].
+
+        Raises
+        ------
+        RangeError
+            As `series`.
+        """
         self._refuse_extrapolation(temperature)
-        if self.shift is not None:
-            return tuple(
-                self._shifted(series, shift, temperature)
-                for series, shift in zip(reference, shifts, strict=True)
-            )
-        if not math.isclose(temperature, si(self.reference_temperature), rel_tol=CONVERSION_ROUNDING):
+        law = self.shift_law()
+        if law is not None:
+            law.log10_a_T(temperature)
+        elif not math.isclose(temperature, self.reference, rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '
                 f"{text(self.reference_temperature)} only, not at {display(temperature, 'temperature', digits=6)}; "
                 "give it a shift law, or calculate at its reference temperature"
             )
-        return reference
+
+    def _at(
+        self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
+    ) -> tuple[PronySeries, ...]:
+        """Shift series of the reference temperature to another [K], each by its shift."""
+        self.check_temperature(temperature)
+        if self.shift is None:
+            return reference
+        pairs = zip(reference, shifts, strict=True)
+        return tuple(self._shifted(series, shift, temperature) for series, shift in pairs)
 
     def _shifted(self, series: PronySeries, shift: Shift | None, temperature: float) -> PronySeries:
         """One series by one shift, at a temperature [K]."""

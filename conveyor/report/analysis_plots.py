@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import holds
 from conveyor.report.columns import FAILS
-from conveyor.report.plots import colour, grouped, keyed, master_curve, stacked, titled
+from conveyor.report.plots import Over, colour, finished, keyed, master_curve, placed, stacked, titled
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -72,15 +72,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
     for k, (label, rows, values) in enumerate(columns):
         at = [row + (width * k if row in sums else 0.0) for row in rows]
-        bars = axis.barh(
-            at,
-            values,
-            height=width,
-            label=label,
-            color=colour(0) if k == 0 else "white",
-            edgecolor=colour(k),
-            hatch=_HATCH[k],
-        )
+        bars = axis.barh(at, values, height=width, label=label, **_bar_look(k))
         axis.bar_label(bars, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
     middle = 0.5 * width * len(estimates)
     axis.set_yticks(
@@ -92,10 +84,12 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
-    axis.set(xlabel=force.beside("force"), title="Resistances")
-    grouped(axis.xaxis)
-    keyed(axis)
-    return figure
+    return finished(figure, force.beside("force"), title="Resistances", group="x")
+
+
+def _bar_look(k: int) -> dict[str, Any]:
+    """Of the bars of the k-th column: the first ones full, the others hatched."""
+    return {"color": colour(0) if k == 0 else "white", "edgecolor": colour(k), "hatch": _HATCH[k]}
 
 
 def _worded(name: str) -> str:
@@ -175,62 +169,37 @@ def rubber_at_work(
         if band is None:
             continue
         for axis in figure.axes:
-            axis.axvspan(
-                *band,
-                facecolor=_BAND,
-                hatch=_HATCH[k + 1][:2],
-                edgecolor=_BAND_LINES,
-                linewidth=0,
-                label=f"{strand} rolls: 90 % loss band",
-            )
-    below = figure.axes[-1]
-    keyed(below)
+            shaded = axis.axvspan(*band, facecolor=_BAND, hatch=_HATCH[k + 1][:2], edgecolor=_BAND_LINES)
+            shaded.set(linewidth=0, label=f"{strand} rolls: 90 % loss band")
+    keyed(figure.axes[-1])
     return figure
 
 
-def case_power_against_temperature(
-    study: CalculatedCases, speed: float | None = None, *, system: System = "SI"
+def case_power(
+    study: CalculatedCases, over: Over, at: float | None = None, *, system: System = "SI"
 ) -> Figure:
-    """Motor power [kW, hp] of every load case over temperature at one speed [m/s], the conveyor's highest without.
+    """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
+
+    Without one the one that most cases have.
 
     Raises
     ------
     InputError
-        No case was answered, or none at that speed.
+        No case was answered, or none there.
     """
-    chosen, results = _at(study, "speed", speed, "m/s")
-    figure = _power_lines(results, "temperature", system)
-    titled(figure, f"{study.conveyor.name}, {unit('speed', system).brief(chosen)}", _shaded(study))
-    return figure
-
-
-def case_power_against_speed(
-    study: CalculatedCases, temperature: float | None = None, *, system: System = "SI"
-) -> Figure:
-    """Motor power [kW, hp] of every load case over belt speed at one temperature [K], the one of most speeds without.
-
-    Raises
-    ------
-    InputError
-        No case was answered, or none at that temperature.
-    """
-    chosen, results = _at(study, "temperature", temperature, "K")
-    figure = _power_lines(results, "speed", system)
-    at = unit("temperature", system, large=True)
-    titled(figure, f"{study.conveyor.name}, {at(chosen):g} {at.sign}", _shaded(study))
-    return figure
-
-
-def _at(study: CalculatedCases, name: str, value: float | None, unit: str) -> tuple[float, list[CaseResult]]:
+    name, sign = ("speed", "m/s") if over == "temperature" else ("temperature", "K")
     values = [getattr(result, name) for result in study.results]
     if not values:
         raise InputError("no load case has an answer: nothing to draw")
-    chosen = max(sorted(set(values)), key=values.count) if value is None else value
+    chosen = max(sorted(set(values)), key=values.count) if at is None else at
     results = [result for result in study.results if getattr(result, name) == chosen]
     if not results:
         listed = ", ".join(f"{known:g}" for known in sorted(set(values)))
-        raise InputError(f"{name} = {chosen!r} {unit}: no load case has it, there are {listed}")
-    return chosen, results
+        raise InputError(f"{name} = {chosen!r} {sign}: no load case has it, there are {listed}")
+    figure, (low, high) = _power_lines(results, over, system), study.friction_band
+    title = f"{study.conveyor.name}, {placed(name, chosen, system)}"
+    titled(figure, title, f"shaded: friction factor {low:g}-{high:g}")
+    return figure
 
 
 def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
@@ -242,14 +211,8 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     for k, case in enumerate(lines or dict.fromkeys(names)):
         rows = sorted((r for r in covered if r.case.name == case), key=lambda r: float(getattr(r, over)))
         at = along([getattr(r, over) for r in rows])
-        axis.plot(
-            at,
-            power([r.found.balance.power.motor for r in rows]),
-            color=colour(k),
-            marker="o",
-            markersize=4,
-            label=case,
-        )
+        motor = power([r.found.balance.power.motor for r in rows])
+        axis.plot(at, motor, color=colour(k), marker="o", markersize=4, label=case)
         low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
         axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
     beyond = [result for result in cases if not result.covered]
@@ -257,15 +220,7 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
         label = "beyond the rubber data: not for design"
         axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
-    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
-
-
-def _shaded(study: CalculatedCases) -> str:
-    low, high = study.friction_band
-    return f"shaded: friction factor {low:g}-{high:g}"
+    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
@@ -277,23 +232,13 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
         ("at the low end", 0, [effect.motor_low for effect in effects]),
         ("at the high end", 1, [effect.motor_high for effect in effects]),
     ):
-        axis.barh(
-            rows,
-            power([end - study.motor for end in ends]),
-            label=label,
-            color=colour(0) if k == 0 else "white",
-            edgecolor=colour(k),
-            hatch=_HATCH[k],
-            height=0.6,
-        )
+        changes = power([end - study.motor for end in ends])
+        axis.barh(rows, changes, label=label, height=0.6, **_bar_look(k))
     axis.set_yticks(list(rows), [effect.name for effect in effects], parse_math=False)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.grid(visible=False, axis="y")
-    axis.set_xlabel(power.beside("change of the motor power"))
-    titled(figure, study.conveyor.name)
-    keyed(axis)
-    return figure
+    return finished(figure, power.beside("change of the motor power"), title=study.conveyor.name)
 
 
 def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
@@ -312,10 +257,7 @@ def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: Sys
     axis.plot([], [], ":", color="0.3", label="first order")
     axis.set_xscale("log", base=2)
     axis.set_xticks(draws, [f"{n:,}" for n in draws], minor=False)
-    axis.set(xlabel="draws", ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
+    return finished(figure, "draws", power.beside("motor power"), group="y")
 
 
 Array = NDArray[np.float64]
@@ -323,6 +265,7 @@ _HEIGHT = 4.4
 _MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
 """How what stands along the route is drawn: marker, its size, its colour."""
 _FAILS = "#B3261E"
+_WAY = "distance from the head along the belt, return strand first"
 _PIECES = 24  # chords of a curve in plan
 _BEYOND = 1.5  # of the room on the rolls, to where a drift without end is drawn
 _ROOM = 0.05  # of the length, above and below a level route
@@ -379,11 +322,8 @@ def route_profile(
         axis.set_ylim(-_ROOM * np.ptp(x), _ROOM * np.ptp(x))
     elif np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("horizontal distance"), ylabel=length.beside("height over the tail"))
-    titled(figure, conveyor.name)
-    grouped(axis.xaxis)
-    keyed(axis)
-    return figure
+    across, up = length.beside("horizontal distance"), length.beside("height over the tail")
+    return finished(figure, across, up, conveyor.name, group="x")
 
 
 def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
@@ -413,12 +353,8 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
         at = points[-1]
     axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("along, from the tail"), ylabel=length.beside("across"))
-    titled(figure, "Plan of the route")
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    keyed(axis)
-    return figure
+    along, across = length.beside("along, from the tail"), length.beside("across")
+    return finished(figure, along, across, "Plan of the route", group="xy")
 
 
 def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
@@ -445,10 +381,8 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     axis.axvline(0.0, color="0.5", linewidth=0.8)
     axis.set_yticks(range(len(bends)), [f"{bend.section}, {bend.strand}" for bend in bends])
     axis.invert_yaxis()
-    axis.set(xlabel=size.beside("drift, outside negative, inside positive"))
-    titled(figure, "Drift in the horizontal curves")
-    keyed(axis)
-    return figure
+    words = size.beside("drift, outside negative, inside positive")
+    return finished(figure, words, title="Drift in the horizontal curves")
 
 
 def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
@@ -475,15 +409,9 @@ def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: 
     axis.annotate(
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
     )
-    axis.set(
-        xlabel=length.beside("distance from the head along the belt, return strand first"),
-        ylabel=force.beside("tension"),
+    return finished(
+        figure, length.beside(_WAY), force.beside("tension"), "Tension round the loop", group="xy"
     )
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    titled(figure, "Tension round the loop")
-    keyed(axis)
-    return figure
 
 
 def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
@@ -512,11 +440,5 @@ def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure
     for label, (ink, line, ways, values) in lines.items():
         axis.plot(ways, values, line, color=ink, label=label)
     axis.set_ylim(bottom=0.0)
-    axis.set(
-        xlabel=length.beside("distance from the head along the belt, return strand first"),
-        ylabel=frequency.beside("frequency"),
-    )
-    grouped(axis.xaxis)
-    titled(figure, "Belt between the idlers and rotation of the rolls")
-    keyed(axis)
-    return figure
+    title = "Belt between the idlers and rotation of the rolls"
+    return finished(figure, length.beside(_WAY), frequency.beside("frequency"), title, group="x")

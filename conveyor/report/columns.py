@@ -6,6 +6,7 @@ Values are SI; unit, digits and conversion follow from the kind and the system (
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -29,6 +30,18 @@ NAMED: Final = "named"
 """Kind of the column that names the figure of each row, with its unit."""
 Getter: TypeAlias = Callable[[Any], Any]
 """Of a row an SI value, words, or None where it is not known."""
+
+
+HEADINGS: Final = ("action required", "basis and limitations")
+"""Above the two lists."""
+_NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
+"""What alike notes differ in: quoted names and fields."""
+_SEVERAL: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
+_OF_DATA: Final = re.compile(
+    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|"
+    "assumed|illustrative|not read in the standard"
+)
+"""Notes on what was given, not on what was found."""
 
 
 def slug(words: str) -> str:
@@ -86,9 +99,8 @@ class Column:
         Words without unit.
     kind : str
         Of quantity, `OF_ROW` or `NAMED`.
-    get : str or callable
-        Where its value is in a row, as a path, or what makes it of a row: an SI value, words, or None where it is not
-        known.
+    get : callable
+        What takes its value off a row: an SI value, words, or None where it is not known; may be given as a path.
     page : str or None
         Which of its table's places on the page it stands in: all without a name; None: in none.
     sheet : bool
@@ -110,7 +122,7 @@ class Column:
 
     label: str
     kind: str
-    get: str | Getter
+    get: Any
     page: str | None = ""
     sheet: bool = True
     json: str = ""
@@ -122,15 +134,12 @@ class Column:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
-
-    def value(self, row: Any) -> Any:
-        """Value in a row."""
-        return at(self.get)(row) if isinstance(self.get, str) else self.get(row)
+        object.__setattr__(self, "get", at(self.get) if isinstance(self.get, str) else self.get)
 
     def of(self, path: str) -> Column:
         """The same column of rows that hold the former ones at a path."""
-        inner = at(path)
-        return replace(self, get=lambda row: self.value(inner(row)))
+        get, inner = self.get, at(path)
+        return replace(self, get=lambda row: get(inner(row)))
 
 
 @dataclass(frozen=True)
@@ -230,7 +239,7 @@ class Table:
 
     def __post_init__(self) -> None:
         kept = tuple(
-            c for c in self.columns if not c.sparse or any(c.value(row) is not None for row in self.rows)
+            c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows)
         )
         shown_first = tuple(sorted(kept, key=lambda column: column.page is None))
         object.__setattr__(self, "columns", shown_first)
@@ -288,9 +297,9 @@ class Table:
         if column.kind == NAMED:
             return [headed(row.called(system), row.kind, system) for row in self.rows]
         if column.kind == OF_ROW:
-            return [unit(row.kind, system).shown(column.value(row)) for row in self.rows]
+            return [unit(row.kind, system).shown(column.get(row)) for row in self.rows]
         written = unit(column.kind, system)
-        return [written.shown(column.value(row)) for row in self.rows]
+        return [written.shown(column.get(row)) for row in self.rows]
 
     def names(self, system: System) -> list[str]:
         """Names of its figures as people read them."""
@@ -299,8 +308,7 @@ class Table:
     def totals(self) -> tuple[Any, ...]:
         """The line of totals, SI: words in the first column, sums where columns have them."""
         sums = (
-            sum(column.value(row) for row in self.rows) if column.total else None
-            for column in self.columns[1:]
+            sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:]
         )
         return (self.foot, *sums)
 
@@ -477,3 +485,30 @@ class Contents:
         """Figures of all tables that are shown in a place, in their order."""
         rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
         return [row for row in rows if where in row.on.split()]
+
+
+def merged(notes: Iterable[str]) -> list[str]:
+    """Make one of notes that differ in quoted names or fields only, listing those.
+
+    Examples
+    --------
+    >>> merged(['compound "a" is made up', "no brake", 'compound "b" is made up'])
+    ['compounds "a", "b" are made up', 'no brake']
+    """
+    alike: dict[str, list[list[str]]] = {}
+    for note in notes:
+        alike.setdefault(_NAMES.sub("\0", note), []).append(_NAMES.findall(note))
+    return [_joined(pattern, names) for pattern, names in alike.items()]
+
+
+def _joined(pattern: str, names: Sequence[Sequence[str]]) -> str:
+    columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
+    note = "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
+    return _SEVERAL.sub(r"compounds \1 are ", note)
+
+
+def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Give merged notes on what was found, then those on what the figures rest on."""
+    every = merged(notes)
+    of_data = [note for note in every if _OF_DATA.search(note)]
+    return [note for note in every if note not in of_data], of_data

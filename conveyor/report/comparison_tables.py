@@ -66,11 +66,10 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
         ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
         ("savings against", comparison.base),
         ("cover", comparison.cover),
-        (
-            "belt temperatures",
-            _span([scene.temperature for scene in comparison.scenes], "temperature", system),
+        *(
+            (f"belt {name}s", _span([getattr(scene, name) for scene in comparison.scenes], name, system))
+            for name in ("temperature", "speed")
         ),
-        ("belt speeds", _span([scene.speed for scene in comparison.scenes], "speed", system)),
     )
     about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
     return Contents(about, parts, system, tuple(drawings(comparison, system)), PARTS, "comparison")
@@ -88,9 +87,10 @@ def _money(comparison: CalculatedComparison) -> str:
 
 def scenes(comparison: CalculatedComparison) -> Table:
     """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
+    money = _money(comparison)
     covered = {_key(scene) for scene in comparison.covered}
 
-    def priced(row: ComparedScene, figure: float | None) -> float | None:
+    def known(row: ComparedScene, figure: float | None) -> float | None:
         return figure if _key(row) in covered else None
 
     columns = (
@@ -105,8 +105,8 @@ def scenes(comparison: CalculatedComparison) -> Table:
         Column("motor power, high", "power", "motor_high", sparse=True),
         Column("largest tension", "force", "largest_tension"),
         Column("energy", "specific energy", "energy_per_tonne_km", sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(priced(row, row.energy_per_year)), None, sparse=True),
-        Column("cost per year", _money(comparison), lambda row: priced(row, row.cost_per_year), None, sparse=True),
+        Column("energy per year", "energy", lambda row: _joule(known(row, row.energy_per_year)), None, sparse=True),
+        Column("cost per year", money, lambda row: known(row, row.cost_per_year), None, sparse=True),
         Column("error estimate", "error", "error"),
         Column("covered", "verdict", lambda row: "yes" if _key(row) in covered else "NO"),
     )  # fmt: skip
@@ -209,21 +209,15 @@ def ranking(comparison: CalculatedComparison) -> Table:
         Column("mean motor power", "power", "motor", sparse=True),
         Column("mean motor power, low", "power", "low", sparse=True),
         Column("mean motor power, high", "power", "high", sparse=True),
-        Column(
-            "difference to base",
-            "share",
-            "change",
-            json="motor power against base",
-            sparse=True,
-            key="motor_power_against_base",
-        ),
+        Column("difference to base", "share", "change", json="motor power against base", sparse=True,
+               key="motor_power_against_base"),
         Column("difference, low", "share", "band.0", sparse=True),
         Column("difference, high", "share", "band.1", sparse=True),
         Column("peak motor power", "power", "peak", sparse=True),
         Column("at temperature", "temperature", "temperature", sparse=True),
         *_year_columns(comparison, rows),
         Column("not compared", "text", "why", sparse=True),
-    )
+    )  # fmt: skip
     heading, page = (
         "Ranking by mean motor power, lowest first at each speed",
         (OnPage("ranking", "Ranking by mean motor power, lowest first"),),
@@ -467,13 +461,13 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             lambda: plots.differences(shown, comparison.base),
             "ranking",
         )
-    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_at(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = unit("speed", system).brief(plots.drawn_speed(comparison))
+        at = unit("speed", system).brief(plots.drawn_at(comparison, "temperature") or 0.0)
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
-            lambda: plots.power_against_temperature(comparison, system=system),
+            lambda: plots.power_over(comparison, "temperature", system=system),
             "power",
         )
     if len(speeds) > 1 and warmth is not None:
@@ -483,7 +477,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
             f"{turning}",
-            lambda: plots.power_against_speed(comparison, system=system),
+            lambda: plots.power_over(comparison, "speed", system=system),
             "power",
         )
     yield Drawing(

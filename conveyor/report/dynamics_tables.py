@@ -1,35 +1,43 @@
-"""Every table of starts and stops, declared once."""
+"""Every table and figure of starts and stops, declared once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from conveyor.checks import Check, deciding
 from conveyor.dynamics.criteria import at_pulley, checks_of, peaks
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
-from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
 from conveyor.report.animation import Panel, moving
-from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, noted, slug
-from conveyor.report.plots import colour, grouped, keyed, stacked, titled
+from conveyor.report.columns import (
+    NAMED,
+    OF_ROW,
+    Column,
+    Contents,
+    Drawing,
+    Figure,
+    OnPage,
+    Table,
+    noted,
+    slug,
+)
+from conveyor.report.plots import colour, named, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import Unit, unit
+from conveyor.units.presentation import unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Picture
 
-    from conveyor.dynamics.follow import Followed
     from conveyor.markup import Html
-
 
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),
@@ -58,13 +66,8 @@ def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
 
 def further(dynamics: CalculatedDynamics, system: System) -> Further:
     """What a conveyor's own report takes over."""
-    return Further(
-        checks_of(dynamics),
-        tuple(tables(dynamics)),
-        tuple(drawings(dynamics, system)),
-        dynamics.assumptions,
-        of_scenarios(dynamics),
-    )
+    shown, drawn = tuple(tables(dynamics)), tuple(drawings(dynamics, system))
+    return Further(checks_of(dynamics), shown, drawn, dynamics.assumptions, of_scenarios(dynamics))
 
 
 def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
@@ -114,42 +117,18 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
     return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
-class SizeRow(NamedTuple):
-    """A figure that was sought, as a row that has a unit of its own."""
-
-    size: Size
-
-    @property
-    def label(self) -> str:
-        """What was sought."""
-        return self.size.label
-
-    @property
-    def kind(self) -> str:
-        """Of the figure."""
-        return self.size.kind
-
-    def unit(self, system: System) -> Unit:
-        """How it is written."""
-        return unit(self.kind, system)
-
-    def called(self, _: System) -> str:
-        """What was sought, in any system."""
-        return self.label
-
-
 def sizes(dynamics: CalculatedDynamics) -> Table:
     """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
     columns = (
         Column("sought", NAMED, "label", json="sought"),
-        Column("scenario", "text", "size.scenario", json="scenario"),
-        Column("found", OF_ROW, "size.value", json="value"),
-        Column("to", "share", "size.error", json="error"),
-        Column("serves up to", OF_ROW, "size.most", json="most"),
-        Column("governing check", "text", "size.governs", json="governs"),
-        Column("what fails with less", "text", "size.why", json="fails_with_less"),
+        Column("scenario", "text", "value.scenario", json="scenario"),
+        Column("found", OF_ROW, "value.value", json="value"),
+        Column("to", "share", "value.error", json="error"),
+        Column("serves up to", OF_ROW, "value.most", json="most"),
+        Column("governing check", "text", "value.governs", json="governs"),
+        Column("what fails with less", "text", "value.why", json="fails_with_less"),
     )
-    rows = [SizeRow(size) for size in dynamics.sized]
+    rows = [Figure(size.label, size.kind, size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
     return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
 
@@ -299,15 +278,16 @@ def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: Sys
 def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Five figures a scenario, the first of which moves."""
     for one in dynamics.followed:
-        for draw, words in (
-            (profile, "tension and speed round the loop; the tail is dashed, shaded what occurs"),
-            (tension_map, "tension over place and time; the tail is white, slack belt red"),
-            (envelope, "highest and lowest tension round the loop"),
-            (speeds, "speeds at drives and tail"),
-            (forces, "tensions at drives, tail and take-up, forces of the motors"),
+        for name, words in (
+            ("profile", "tension and speed round the loop; the tail is dashed, shaded what occurs"),
+            ("tension_map", "tension over place and time; the tail is white, slack belt red"),
+            ("envelope", "highest and lowest tension round the loop"),
+            ("speeds", "speeds at drives and tail"),
+            ("forces", "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            name = f"{slug(one.name)}_{draw.__name__}"
-            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "through-time")
+            draw = partial(profile, one) if name == "profile" else partial(picture, one, name)
+            draw = partial(draw, system=system)
+            yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
 def of_scenarios(dynamics: CalculatedDynamics) -> dict[str, Any]:
@@ -335,35 +315,8 @@ def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
 _LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
 _FRAMES, _PLACES = 45, 60  # of what moves
+_WHERE: Final = "distance from the head, return strand first"
 _HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
-
-
-def tension_map(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Tension over place and time."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _map(figure, axis, scenario, system)
-    return figure
-
-
-def envelope(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Highest and lowest tension over the place, and that at the start."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _envelope(axis, scenario, system)
-    return figure
-
-
-def speeds(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Speeds at drives and tail over time."""
-    figure, (axis,) = stacked(1, _LOW)
-    _speeds(axis, scenario, system)
-    return figure
-
-
-def forces(scenario: Followed, *, system: System = "SI") -> Figure:
-    """Tensions at drives, tail and take-up, and forces of the motors, over time."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    _forces(axis, scenario, system)
-    return figure
 
 
 def profile(scenario: Followed, *, system: System = "SI") -> Html:
@@ -380,7 +333,7 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     ends = record.lowest[order][cells], record.highest[order][cells]
     tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
     going = record.speeds[:, order[cells]].astype(float)
-    where = length.beside("distance from the head, return strand first")
+    where = length.beside(_WHERE)
     return moving(
         f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
         (unit("duration", system).beside("time"), record.times[kept]),
@@ -390,18 +343,20 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     )  # fmt: skip
 
 
-def picture(scenario: Followed, *, system: System = "SI") -> Figure:
-    """All of them on one sheet."""
-    figure, axes = stacked(4, _WHOLE)
-    _map(figure, axes[0], scenario, system)
-    _envelope(axes[1], scenario, system)
-    _speeds(axes[2], scenario, system)
-    _forces(axes[3], scenario, system)
-    titled(figure, scenario.name)
+def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
+    """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
+    drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
+             "forces": (_forces, _HEIGHT)}  # fmt: skip
+    shown = [drawn[name] for name in names or drawn]
+    figure, axes = stacked(len(shown), sum(height for _, height in shown) if names else _WHOLE)
+    for axis, (draw, _) in zip(axes, shown, strict=True):
+        draw(axis, scenario, system)
+    if not names:
+        titled(figure, scenario.name)
     return figure
 
 
-def _map(figure: Figure, axis: Axes, scenario: Followed, system: System) -> None:
+def _map(axis: Axes, scenario: Followed, system: System) -> None:
     force, length = unit("force", system, large=True), unit("length", system, large=True)
     order, distance = scenario.round_loop
     record = scenario.record
@@ -418,13 +373,9 @@ def _map(figure: Figure, axis: Axes, scenario: Followed, system: System) -> None
         )
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    axis.set(
-        xlabel=length.beside("distance from the head, return strand first"),
-        ylabel=unit("duration", system).beside("time"),
-    )
-    grouped(axis.xaxis)
+    named(axis, length.beside(_WHERE), unit("duration", system).beside("time"), group="x")
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
-    figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
+    axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
 
 
 def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
@@ -440,12 +391,7 @@ def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
         axis.plot(x, force(values[order]), color=colour(k), label=name)
     axis.axhline(0.0, color="0.6", linewidth=0.8)
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="0.8", zorder=0)
-    axis.set(
-        xlabel=length.beside("distance from the head, return strand first"), ylabel=force.beside("tension")
-    )
-    for scaled in (axis.xaxis, axis.yaxis):
-        grouped(scaled)
-    keyed(axis)
+    named(axis, length.beside(_WHERE), force.beside("tension"), group="xy")
 
 
 def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
@@ -453,12 +399,8 @@ def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives = scenario.record.drives
     for d, drive in enumerate(scenario.ride.drives):
-        axis.plot(
-            scenario.times[kept],
-            speed(drives["belt"][kept, d]),
-            color=colour(2 * d),
-            label=f"belt at {drive.name}",
-        )
+        belt = speed(drives["belt"][kept, d])
+        axis.plot(scenario.times[kept], belt, color=colour(2 * d), label=f"belt at {drive.name}")
         if scenario.record.slipped[d]:
             rim = speed(drives["rim"][kept, d])
             axis.plot(
@@ -466,8 +408,7 @@ def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
             )
     tail = speed(scenario.record.speeds[:, _tail(scenario)])
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
-    axis.set(xlabel=time.beside("time"), ylabel=speed.beside("speed"))
-    keyed(axis)
+    named(axis, time.beside("time"), speed.beside("speed"))
 
 
 def _forces(axis: Axes, scenario: Followed, system: System) -> None:
@@ -487,9 +428,7 @@ def _forces(axis: Axes, scenario: Followed, system: System) -> None:
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
     held = force(scenario.record.take_up["tension"][kept])
     axis.plot(times, held, color=colour(6), linewidth=0.9, label="at the take-up")
-    axis.set(xlabel=time.beside("time"), ylabel=force.beside("tension, force"))
-    grouped(axis.yaxis)
-    keyed(axis)
+    named(axis, time.beside("time"), force.beside("tension, force"), group="y")
 
 
 def _tail(scenario: Followed) -> int:

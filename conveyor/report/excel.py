@@ -6,6 +6,7 @@ import gc
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import Final, TypeAlias
@@ -26,9 +27,9 @@ from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
 FRONT: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
-SHEETS: Final = {
+SHEETS: Final[Fills] = {
     "Results": sheets.beside,
-    "Given": sheets.inputs,
+    "Given": partial(sheets.stacked, widest=110),
     "Inputs": sheets.single,
     "Sections": sheets.wide,
     "Resistances": sheets.stacked,
@@ -38,25 +39,25 @@ SHEETS: Final = {
     "States": sheets.stacked,
     "Loop": sheets.beside,
     "Transfer": sheets.transfer,
-    "Load cases": sheets.cases,
+    "Load cases": partial(sheets.stacked, widest=40),
     "Case checks": sheets.single,
     "Duty": sheets.beside,
     "Scenarios": sheets.stacked,
     "Histories": sheets.single,
     "Uncertainty": sheets.uncertainty,
-    "Indentation": sheets.indentation,
+    "Indentation": sheets.stacked,
     "Rubber": sheets.rubber,
     CHECKS_AND_NOTES: sheets.notes,
 }
 """What fills each sheet, in their order; a sheet that only a table names holds its tables under one another."""
-COMPARISON_SHEETS: Final = {
+COMPARISON_SHEETS: Final[Fills] = {
     "Ranking": sheets.ranking,
     "Power": sheets.power,
     "Scenes": sheets.scenes,
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
-VERIFICATION_SHEETS: Final = {
+VERIFICATION_SHEETS: Final[Fills] = {
     "About": sheets.about,
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,

@@ -11,8 +11,7 @@ from typing import Final
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
-from conveyor.report.columns import Contents, Drawing, Table
-from conveyor.report.notes import HEADINGS, ordered
+from conveyor.report.columns import HEADINGS, Contents, Drawing, Table, ordered
 from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
 from conveyor.units import System
@@ -55,15 +54,9 @@ def build(contents: Contents) -> Html:
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = facts(about.said.items(), "facts document") if about.said else Html("")
-    filled = [_part(contents, *named) for named in contents.page]
-    return page(
-        about.title,
-        f"{about.kind}, {date.today().isoformat()}",
-        joined([document, _top(contents)]),
-        [part for part in filled if part.content],
-        made,
-        paper=about.paper,
-    )
+    parts = [part for named in contents.page if (part := _part(contents, *named)).content]
+    kind, top = f"{about.kind}, {date.today().isoformat()}", joined([document, _top(contents)])
+    return page(about.title, kind, top, parts, made, paper=about.paper)
 
 
 def _top(contents: Contents) -> Html:

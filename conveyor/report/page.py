@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
@@ -205,7 +205,7 @@ class Part:
 def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") -> Html:
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell(shown, column, row, system) for row in shown.rows] for column in shown.columns]
-    values = [[column.value(row) for row in shown.rows] for column in shown.columns]
+    values = [[column.get(row) for row in shown.rows] for column in shown.columns]
     empty = [
         column.asked and all(map(_missing, given))
         for column, given in zip(shown.columns, values, strict=True)
@@ -214,14 +214,10 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         "asked" if empty[j] else None if kind else _class(given, named=j < shown.named)
         for j, given in enumerate(values)
     ]
+    names = [_with_unit(column.label, _unit(column, system)) for column in shown.columns]
     heads = [
-        element(
-            "th",
-            _with_unit(column.label, _unit(column, system)),
-            scope="col",
-            class_=None if how == "asked" else how,
-        )
-        for column, how in zip(shown.columns, classes, strict=True)
+        element("th", name, scope="col", class_=None if how == "asked" else how)
+        for name, how in zip(names, classes, strict=True)
     ]
 
     def line(cells: Iterable[Html]) -> Html:
@@ -243,14 +239,8 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
         sums = zip(shown.columns, shown.totals(), strict=True)
         cells = (escaped("" if v is None else unit(c.kind, system).written(v)) for c, v in sums)
         parts.append(element("tfoot", line(cells)))
-    short = len(shown.rows) <= _SHORT
-    return scrolling(
-        element("table", *parts),
-        caption,
-        wide=len(shown.columns) > _WIDE,
-        keep=short,
-        kind=f"rows {kind}".rstrip(),
-    )
+    wide, short = len(shown.columns) > _WIDE, len(shown.rows) <= _SHORT
+    return scrolling(element("table", *parts), caption, wide=wide, keep=short, kind=f"rows {kind}".rstrip())
 
 
 def _class(values: Sequence[object], *, named: bool) -> str | None:
@@ -281,12 +271,12 @@ def _with_unit(words: str, sign: str) -> Html:
 
 
 def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
-    value = column.value(row)
+    value = column.get(row)
     if column.kind == NAMED:
         return _with_unit(value, row.unit(system).sign)
     if _missing(value):
         return escaped(
-            "" if column.asked and all(_missing(column.value(one)) for one in shown.rows) else _NOTHING
+            "" if column.asked and all(_missing(column.get(one)) for one in shown.rows) else _NOTHING
         )
     if column.kind == "verdict" and value in _MARKS:
         return verdict(value)
@@ -330,33 +320,30 @@ def in_short(contents: Contents) -> Html:
 
 def listed(shown: Table, caption: str, system: System = "SI") -> Html:
     """Return named figures: name, value, unit; many of them in two tables side by side where there is room."""
+    value = next(column.get for column in shown.columns if column.kind == OF_ROW)
     half = -(-len(shown.rows) // 2) if len(shown.rows) > _BESIDE else len(shown.rows)
     parts = [
-        _listed(rows, caption if k == 0 else f"{caption}, continued", system, named=k == 0)
+        _listed(rows, value, caption if k == 0 else f"{caption}, continued", system, named=k == 0)
         for k, rows in enumerate((shown.rows[:half], shown.rows[half:]))
         if rows
     ]
     return parts[0] if len(parts) == 1 else element("div", *parts, class_="beside")
 
 
-def _listed(rows: Sequence[Figure], caption: str, system: System, *, named: bool) -> Html:
+def _listed(
+    rows: Sequence[Figure], value: Callable[[Figure], Any], caption: str, system: System, *, named: bool
+) -> Html:
     lines = [
         element(
             "tr",
             element("th", row.called(system), scope="row"),
-            element(
-                "td", row.unit(system).written(row.value), class_="v" if isinstance(row.value, str) else "n"
-            ),
+            element("td", row.unit(system).written(given), class_="v" if isinstance(given, str) else "n"),
             element("td", row.unit(system).sign, class_="unit"),
         )
-        for row in rows
+        for row, given in zip(rows, map(value, rows), strict=True)
     ]
-    head = element(
-        "tr",
-        element("th", "quantity", scope="col"),
-        element("th", "value", scope="col", class_="n"),
-        element("th", "unit", scope="col"),
-    )
+    heads = (("quantity", None), ("value", "n"), ("unit", None))
+    head = element("tr", *(element("th", words, scope="col", class_=how) for words, how in heads))
     above = element("caption", caption, class_=None if named else "further")
     whole = element("table", above, element("thead", head), element("tbody", *lines))
     return scrolling(whole, caption, wide=False, keep=len(lines) <= _SHORT)
@@ -370,11 +357,8 @@ def verdict(word: str) -> Html:
 
 def facts(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
     """Return names and values side by side."""
-    return element(
-        "dl",
-        *(element("div", element("dt", name), element("dd", value)) for name, value in pairs),
-        class_=kind,
-    )
+    named = (element("div", element("dt", name), element("dd", value)) for name, value in pairs)
+    return element("dl", *named, class_=kind)
 
 
 def tiles(shown: Iterable[Figure], system: System = "SI") -> Html:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.markup import Html
 from conveyor.report import analysis_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, figures
 from conveyor.report.page import notebook
+from conveyor.report.plots import Over
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import Said, degrees, quoted, said
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
     from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
-    from conveyor.studies.cases import CalculatedCases, CaseResult, Governing
+    from conveyor.studies.cases import CalculatedCases, Governing
     from conveyor.studies.duty import CalculatedYear
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
@@ -54,15 +56,15 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         study = studies.uncertainty
         tables += [band(study), convergence_of_draws(study), sensitivity(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
-        draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
+        draw = partial(analysis_plots.tornado, study, system=system)
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
         exact = study.monte_carlo
         if exact is not None:
             caption = (
                 "Ends of the 90 % interval after ever more draws; shaded: between which each lies with 90 %."
             )
-            settle = lambda: analysis_plots.settling(exact, study.sampled, system=system)  # noqa: E731
-            drawn.append(Drawing("settling", caption, settle, "convergence_of_draws"))
+            draw = partial(analysis_plots.settling, exact, study.sampled, system=system)
+            drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
     return tables, drawn
 
 
@@ -82,19 +84,13 @@ def load_states(study: CalculatedStates) -> Table:
         Column(
             "required take-up tension", "force", "balance.settled.needed", key="take_up_tension_asked_for"
         ),
-        Column("governed by", "text", _asking, page=None),
+        Column("governed by", "text", "balance.settled.governing", page=None),
     )
     note = (
         "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
         "loadings follow from the signs of the forces by section, at every temperature of the cases."
     )
-    heading, page = "Load states", (OnPage(_STATES, "Load states"),)
-    return Table("load_states", "Load cases", heading, columns, study.states, page, note)
-
-
-def _asking(state: LoadState) -> str:
-    settled = state.balance.settled
-    return settled.condition_name(settled.governed_by)
+    return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)
 
 
 def refused_states(study: CalculatedStates) -> Table:
@@ -112,15 +108,12 @@ def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Ta
     yield governing(study, studies.governing)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
-    page = (OnPage(_CASES, "Load cases"),)
-    yield replace(every.only(*kept), page=page)
+    yield replace(every.only(*kept), page=_CASES)
     order = ("case", "temperature", "speed", "covered", *_TENSIONS)
     tensions = every.only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
-    yield replace(
-        tensions, key="case_tensions", heading=heading, columns=columns, page=(OnPage(_CASES, heading),)
-    )
+    yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
     yield motors(studies)
     yield refused(study)
 
@@ -149,7 +142,7 @@ def cases(study: CalculatedCases) -> Table:
                json="smallest tension", key="smallest_tension"),
         Column("required take-up tension", "force", "found.balance.settled.needed",
                json="take-up tension asked for", key="take_up_tension_asked_for"),
-        Column("governed by", "text", _governing, page=None),
+        Column("governed by", "text", "found.balance.settled.governing", page=None),
         Column("maximum roll load", "force", "heaviest_roll.0", page=None,
                json="largest roll load", key="largest_roll_load"),
         Column("at roll", "text", "heaviest_roll.1", page=None),
@@ -161,11 +154,6 @@ def cases(study: CalculatedCases) -> Table:
     return Table(
         "load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note
     )
-
-
-def _governing(result: CaseResult) -> str:
-    settled = result.found.balance.settled
-    return settled.condition_name(settled.governed_by)
 
 
 def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
@@ -182,8 +170,7 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     note = f"friction factor {low:g}-{high:g}, least favourable"
     if left_out:
         note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
-    page, heading = (OnPage(_CASES, "Governing cases"),), "Governing cases"
-    return Table("governing_cases", "Load cases", heading, columns, rows, page, note, links=True)
+    return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)
 
 
 def refused(study: CalculatedCases) -> Table:
@@ -209,25 +196,16 @@ def motors(studies: CalculatedStudies) -> Table:
         Column("installed", "power", lambda row: row.count * row.rated),
     )
     heading = "Selected standard motors"
-    page, note = (OnPage(_CASES, heading),), "For the largest motor power of all load cases and load states."
-    return Table("motors", "Load cases", heading, columns, studies.motors, page, note)
+    note = "For the largest motor power of all load cases and load states."
+    return Table("motors", "Load cases", heading, columns, studies.motors, _CASES, note)
 
 
 def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
-    if len({result.temperature for result in study.results}) > 1:
-        yield Drawing(
-            "case-temperature",
-            "Motor power of the load cases over temperature.",
-            lambda: analysis_plots.case_power_against_temperature(study, system=system),
-            "load_cases",
-        )
-    if len({result.speed for result in study.results}) > 1:
-        yield Drawing(
-            "case-speed",
-            "Motor power of the load cases over belt speed.",
-            lambda: analysis_plots.case_power_against_speed(study, system=system),
-            "load_cases",
-        )
+    overs: tuple[Over, ...] = ("temperature", "speed")
+    for over, words in zip(overs, ("temperature", "belt speed"), strict=True):
+        if len({getattr(result, over) for result in study.results}) > 1:
+            draw = partial(analysis_plots.case_power, study, over, system=system)
+            yield Drawing(f"case-{over}", f"Motor power of the load cases over {words}.", draw, "load_cases")
 
 
 def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
@@ -299,8 +277,8 @@ def sensitivity(study: CalculatedRanges) -> Table:
         Column("share of variance", "share", "1"),
     )
     rows, heading = tuple(zip(study.effects, study.shares, strict=True)), "Sensitivity ranking"
-    page, note = (OnPage(_UNCERTAINTY, heading),), "; ".join(study.notes)
-    return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
+    note = "; ".join(study.notes)
+    return Table("sensitivity", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
 def band(study: CalculatedRanges) -> Table:
@@ -316,8 +294,7 @@ def band(study: CalculatedRanges) -> Table:
     ]  # fmt: skip
     if exact is not None:
         rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
-    page = (OnPage(_UNCERTAINTY, "Motor power, 90 % interval"),)
-    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, page)
+    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, _UNCERTAINTY)
 
 
 def convergence_of_draws(study: CalculatedRanges) -> Table:

@@ -59,7 +59,7 @@ from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.report.transfer_tables import drawing as of_discharge
 from conveyor.report.transfer_tables import of_transfer
-from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
+from conveyor.report.verdict import AS_GIVEN, governing_figures, loads, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
@@ -67,7 +67,7 @@ from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
-from conveyor.units.sentences import Said, band_words, degrees, figure, plain_figure, said
+from conveyor.units.sentences import band_words, degrees, figure, plain_figure
 
 PARTS: Final = (
     ("key-figures", "Key figures"),
@@ -100,7 +100,9 @@ _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
 """Sections of like rolls that are named."""
-_USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its strength (general knowledge)."
+_USUAL_STIFFNESS: Final = (
+    "The belt's stiffness is a usual multiple of its strength (general knowledge) or rating (CEMA)."
+)
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
@@ -124,10 +126,9 @@ def of_analysis(
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
     asks = take_up_of(analysis, studies)
-    governs, verdict = governing_figures(analysis, studies, governing, asks, left_open)
     parts = (
         identity(analysis.conveyor, system),
-        replace(governs, note=verdict),
+        governing_figures(analysis, studies, governing, asks, left_open),
         results(analysis, left_open),
         *given(analysis.conveyor, system),
         defaults(left_open, system),
@@ -512,7 +513,7 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
     every, by_look = rolls(a), dict[tuple[str, ...], list[Any]]()
     shown = tuple(column for column in every.columns if column.page is not None)
     for row in every.rows:
-        look = tuple(unit(column.kind).short(column.value(row)) for column in shown[1:])
+        look = tuple(unit(column.kind).short(column.get(row)) for column in shown[1:])
         by_look.setdefault(look, []).append(row)
     columns = (
         Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
@@ -528,7 +529,7 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
 def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
     system, alike = a.conveyor.report.units, dict[tuple[Strand, float], list[tuple[str, SetDuty]]]()
-    for label, result in _loads(a, studies) if a.set_duty else ():
+    for label, result in loads(a, studies) if a.set_duty else ():
         for duty in result.set_duty:
             key = (duty.stretch.strand, duty.stretch.spacing)
             alike.setdefault(key, []).append((label.text(system), duty))
@@ -827,8 +828,8 @@ def brakes(a: CalculatedConveyor) -> Table:
 
 def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
-    loads = [result.drive_duty for _, result in _loads(a, studies)] if a.drive_duty else []
-    rows = [(own, [every[i] for every in loads]) for i, own in enumerate(a.drive_duty)]
+    every = [result.drive_duty for _, result in loads(a, studies)] if a.drive_duty else []
+    rows = [(own, [duties[i] for duties in every]) for i, own in enumerate(a.drive_duty)]
 
     worst = partial(extreme, path="1")
     motor = a.balance.frame.motor
@@ -850,7 +851,8 @@ def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
         Column("heat of a stop", "heat", worst(max, get="heat"), sparse=True),
         Column("rise of the disc", "rise", worst(max, get="disc_rise"), sparse=True),
         Column("motor power, uncontrolled", "power",
-               worst(max, get=lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+               worst(partial(max, key=abs), get=lambda duty: None if duty.shared is None else motor(duty.shared)),
+               sparse=True),
     )  # fmt: skip
     note = (
         "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
@@ -903,21 +905,10 @@ def pulleys(a: CalculatedConveyor) -> Table:
     return Table("pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
 
 
-def _loads(
-    a: CalculatedConveyor, studies: CalculatedStudies | None
-) -> Iterator[tuple[Said, CalculatedConveyor]]:
-    """The conveyor as given, its load cases and its load states, with their names."""
-    yield said(AS_GIVEN), a
-    if studies is not None and studies.cases is not None:
-        yield from ((result.label, result.found) for result in studies.cases.results)
-    if studies is not None and studies.states is not None:
-        yield from studies.states.loads
-
-
 def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
     system = a.conveyor.report.units
-    every = [(label, duty) for label, result in _loads(a, studies) for duty in result.pulley_duty]
+    every = [(label, duty) for label, result in loads(a, studies) for duty in result.pulley_duty]
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
@@ -956,7 +947,7 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
     system = a.conveyor.report.units
     rows = tuple(
         (duty.pulley.name, label.text(system), load)
-        for label, result in _loads(a, studies)
+        for label, result in loads(a, studies)
         for duty in result.pulley_duty
         for load in duty.loads
     )
@@ -1011,8 +1002,8 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
-        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
-        "its rolls, or no radius is too large."
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. Of a flat set: at the "
+        "end of the curve, with the worse of both. ∞: the belt runs off its rolls, or no radius is too large."
     )
     heading = "Horizontal curves"
     return Table("horizontal_curves", "Loop", heading, columns, a.horizontal, "belt", note)
@@ -1040,7 +1031,7 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     system = a.conveyor.report.units
     rows = tuple(
         (bend, label.text(system), state)
-        for label, result in (_loads(a, studies) if a.horizontal else ())
+        for label, result in (loads(a, studies) if a.horizontal else ())
         for bend in result.horizontal
         for state in bend.states
     )
@@ -1352,18 +1343,10 @@ def checked(checks: tuple[Check, ...], system: System) -> Table:
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
     """Every criterion in every load case; those that fail on the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
-    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Failed checks by case"
-    yield Table(
-        "case_checks",
-        "Case checks",
-        "Every criterion in every load case",
-        columns,
-        rows,
-        named=2,
-        printed=False,
-    )
+    columns, heading = (_OF_CASE, *_CHECK, _VERDICT), "Every criterion in every load case"
+    yield Table("case_checks", "Case checks", heading, columns, rows, named=2, printed=False)
     failed = tuple(row for row in rows if row.verdict == "FAIL")
-    yield Table("case_failures", "", caption, columns, failed, "load-cases", named=2)
+    yield Table("case_failures", "", "Failed checks by case", columns, failed, "load-cases", named=2)
 
 
 def remarks(
@@ -1428,7 +1411,7 @@ def drawings(
             lambda: analysis_plots.drift(
                 [
                     (label.text(system).removeprefix("load state "), result.horizontal)
-                    for label, result in _loads(a, studies)
+                    for label, result in loads(a, studies)
                 ],
                 system=system,
             ),

@@ -225,6 +225,32 @@ class PronySeries:
         a, b = positive("a_T", a_T, "-"), positive("b_T", b_T, "-")
         return PronySeries(self.equilibrium * b, self.moduli * b, self.times * a)
 
+    def merged(self, *, fastest: float, slowest: float) -> PronySeries:
+        """Leave the terms between two times; the faster ones become one, and the slower ones.
+
+        Parameters
+        ----------
+        fastest, slowest : float
+            Between which the terms stay as they are [s].
+
+        Returns
+        -------
+        PronySeries
+            Same rubbery and glassy modulus. The fast term has their sum of moduli times times, so that E'' is kept to
+            first order in ωτ; the slow one their sum of moduli over times, E'' to first order in 1/ωτ.
+        """
+        first, last = np.searchsorted(self.times, (fastest, slowest)).tolist()
+        fast, slow = slice(0, first), slice(last, None)
+        if first >= last or max(first, self.times.size - last) < 2:
+            return self
+        moduli, times = [self.moduli[first:last]], [self.times[first:last]]
+        for part, power in ((fast, 1.0), (slow, -1.0)):
+            if (whole := self.moduli[part].sum()) > 0.0:
+                mean = self.moduli[part] @ self.times[part] ** power / whole
+                moduli.append(np.array([whole]))
+                times.append(np.array([mean**power]))
+        return PronySeries(self.equilibrium, np.concatenate(moduli), np.concatenate(times))
+
 
 @dataclass(frozen=True, eq=False)
 class CreepSeries:

@@ -203,12 +203,8 @@ class Book:
         row = _HEAD
         if sheets.called:
             row += 1
-            told = Leaf(
-                key="Referred to by",
-                kind="text",
-                required=True,
-                doc="Write this where a compound is to be given.",
-            )
+            doc = "Write this where a compound is to be given."
+            told = Leaf(key="Referred to by", kind="text", required=True, doc=doc)
             self._field(sheet, row, Row((NAMED,), 0, told, certain=True), (sheets.called, None))
         sheet.sheet_properties.outlinePr.summaryBelow = False
         closed: tuple[str, ...] = ()
@@ -365,11 +361,8 @@ class Book:
         for other in self.book.worksheets[1:]:
             row += 1
             shown = other.sheet_state == "visible"
-            put(
-                sheet.cell(row, 1),
-                other.title if shown else f"{other.title} (hidden)",
-                LINK if shown else GREY,
-            )
+            name = other.title if shown else f"{other.title} (hidden)"
+            put(sheet.cell(row, 1), name, LINK if shown else GREY)
             if shown:
                 sheet.cell(row, 1).hyperlink = Hyperlink(ref=f"A{row}", location=f"'{other.title}'!A1")
             put(sheet.cell(row, 4), docs[other.title])

@@ -11,7 +11,7 @@ from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.line.anchors import anchor, anchor_rows
+from conveyor.line.anchors import anchor, anchor_rows, anchors
 from conveyor.models import Uncertainty
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -177,3 +177,13 @@ def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
     assert remark.startswith('"low-rolling-resistance-cover": ')
     assert not said([untested, linear("standard-cover")])
     assert not said([tested, shelf.compound("cold-resistant-cover")])
+
+
+def test_levels_side_by_side_are_each_alone():
+    compounds = [shelf.compound(name) for name in ("standard-cover", "s100", "cold-resistant-cover")]
+    first, none, last = anchors(compounds, softened=True)
+    assert none is None  # no tests
+    for compound, level in ((compounds[0], first), (compounds[2], last)):
+        alone = anchor(compound, softened=True)
+        # batches round otherwise, and contacts end within their tolerance
+        assert level.factor(2000.0, AT) == pytest.approx(alone.factor(2000.0, AT), rel=RTOL)

@@ -17,8 +17,9 @@ from conveyor import pipeline
 from conveyor.checks import compared
 from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
-from conveyor.report import excel, files, html, page, tables
+from conveyor.report import excel, files, html, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
+from conveyor.report.page import in_short
 from conveyor.units.presentation import _KINDS, Unit, unit
 from conveyor.units.sentences import said
 
@@ -87,7 +88,7 @@ def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
     assert re.search(r">probe <span class=\"unit\">\[N\]", made)
     assert ">Probes</caption>" in made
     assert "<dt>probing, as given</dt><dd>12.3 <small>kW</small></dd>" in made
-    assert "probing" in page.in_short(probed)
+    assert "probing" in in_short(probed)
     assert "probe [lbf]" in probed["sections"].frame("US")
 
 
@@ -169,4 +170,4 @@ def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
     assert "strength of the probe" in {cell.value for row in book["Summary"] for cell in row}
     page = html.write(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
     assert "strength of the probe" in page
-    assert "strength of the probe" in representations.of_analysis(contents)
+    assert "strength of the probe" in in_short(contents)

@@ -27,6 +27,7 @@ FACTORS = {  # NIST SP 811, appendix B.8; exact but for the horsepower (550 ft l
     ("kg/m", "lb/ft"): 0.3048 / 0.45359237,
     ("kg/m²", "lb/ft²"): 0.3048**2 / 0.45359237,
     ("kg/h", "lb/h"): 1.0 / 0.45359237,
+    ("K", "Δ°F"): 1.8,
     ("kg m²", "lb ft²"): 1.0 / 0.45359237 / 0.3048**2,
     ("N", "lbf"): 1.0 / 4.4482216152605,
     ("N/m", "lbf/in"): 0.0254 / 4.4482216152605,
@@ -41,22 +42,7 @@ FACTORS = {  # NIST SP 811, appendix B.8; exact but for the horsepower (550 ft l
 }
 UNIT = re.compile(r" \[([^\]]*)\]$")
 SYMBOL = re.compile(r" (Te|T1|T2|Tmax)$")
-SAME = {
-    "MJ",
-    "Hz",
-    "s",
-    "-",
-    "°",
-    "rpm",
-    "h",
-    "MWh",
-    "a",
-    "EUR",
-    "USD",
-    "kg/kWh",
-    "EUR/kWh",
-    "USD/kWh",
-}
+SAME = {"MJ", "Hz", "s", "-", "°", "rpm", "h", "MWh", "a", "EUR", "USD", "kg/kWh", "EUR/kWh", "USD/kWh"}
 
 
 @pytest.fixture(scope="module", params=SPECS, ids=lambda path: path.stem)

@@ -13,7 +13,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.report import excel, html, verification_tables
+from conveyor.report import excel, html
 from conveyor.report.cells import ASKED
 from conveyor.studies.verification import SPACING
 from tests.loop.loop_lines import line
