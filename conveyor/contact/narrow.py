@@ -59,7 +59,7 @@ _NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last st
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
 _LOAD_LOOSE = 0.5  # of rtol: order's error and what is left of the load, together
-_PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
+PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
@@ -216,7 +216,7 @@ class Search:
     """
 
     def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
-        self.group, self.tolerance = group, _PLACE_SHARE * rtol
+        self.group, self.tolerance = group, PLACE_SHARE * rtol
         self.rule, self.check = rules
         self.middle = np.log(alpha)
         ratios, transform = _points()

@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _STEP = 0.2  # of the grid of u
+_NARROWEST = (
+    1e-3  # half width below which J_0 J_1, and friction with it, is too small beside the table's rounding
+)
 _HIGHEST, _LARGEST = (
     64,
     1 << 20,
@@ -104,7 +107,7 @@ class Tabled:
         """Of nodes, with the size of the grid of u, and of terms; none where tables do not serve."""
         u = (self.alpha / _STEP)[:, None] * rule.nodes
         size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
-        served = n <= _HIGHEST and size * n * n <= _LARGEST
+        served = n <= _HIGHEST and size * n * n <= _LARGEST and float(self.alpha.min()) >= _NARROWEST
         return (stencils(u), size, self.b) if served and self.b else None
 
     def matrices(self, rule: ShortRule, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
