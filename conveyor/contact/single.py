@@ -38,8 +38,9 @@ _BEYOND_REACH, _FAR = (
     100.0,
 )  # that of the longest tail, and an error over rtol, where climbing is of no use
 _UNRESOLVED = 2.4  # power of n that they fall with before
-# of a single layer not yet resolved: friction errs by 2 to 7 times the energy where its error, rising with n, peaks
-_LAYER_OVER_ENERGY, _STEADY = 10.0, 2.0  # that multiple; power of n from which on errors are seen to fall
+# a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
+# where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
+_EARLY, _LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -131,8 +132,9 @@ def _converged(
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                if _resolution(scene, contact, last) < _RESOLVED:
-                    error = max(error, _LAYER_OVER_ENERGY * here[1])
+                reached = _resolution(scene, contact, last)
+                if reached < _RESOLVED:
+                    error = max(error, min(_EARLY * reached, _LAYER_OVER_ENERGY) * here[1])
                 if reach < _BEYOND_REACH and lost is not None and error > _FAR * rtol:
                     following = None
             lost = here
