@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.circle import slope_expansion
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, nested, of_order
+from conveyor.contact.spectral import Contact, nested, of_orders
 
 Array = NDArray[np.float64]
 
@@ -68,10 +67,8 @@ def errors_of_lower(
     OrderErrors
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
-    slopes = slope_expansion(contact.alpha, contact.eps, rho, matrices[1].shape[2] + 2)
     change = []
-    for matrix in matrices:
-        lower = of_order(matrix, slopes, contact, rho)
+    for lower in of_orders(matrices, contact, rho):
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
@@ -166,17 +163,20 @@ def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool
     return np.asarray(beside | (contact.alpha + np.abs(contact.eps) > WRAPPED * rho))
 
 
-def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
+def overlaps(scene: Scene, contact: Contact, depth: float | None = None) -> bool:
     """Whether the layer's surface lies inside the roll outside the strips; one strip an entry of `contact`.
 
-    Between strips, and out to the ends of the roll's half circle.
+    Between strips, and out to the ends of the roll's half circle. Where Δ/R is not known the surface half way to
+    the first strip's edge tells it, to a tenth of the tolerance.
     """
     rho = scene.problem.rho
     rank = np.argsort(contact.eps)
     low, high = (contact.eps - contact.alpha)[rank], (contact.eps + contact.alpha)[rank]
     place = np.linspace(0.0, 1.0, _GAP_POINTS + 2)[1:-1]
     starts, ends = np.append(-rho, high), np.append(low, rho)
-    x = (starts[:, None] + place * (ends - starts)[:, None]).ravel()
-    roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0))
+    inside = contact.eps[0] + 0.5 * contact.alpha[0]
+    x = np.append((starts[:, None] + place * (ends - starts)[:, None]).ravel(), inside)
+    roll = np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0)) - 1.0
     gap = SpectralFields(scene.problem.layer, scene.creep, contact, rho).outside(x, _GAP_REACH) - roll
-    return bool(gap.min() < -_GAP_TOLERANCE * abs(depth))
+    depth = float(gap[-1]) if depth is None else depth
+    return bool(gap[:-1].min() < depth - _GAP_TOLERANCE * abs(depth))

@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 
 import numpy as np
 
@@ -139,7 +140,7 @@ class ContactProblem:
         """ρ = k R [-]."""
         return 2.0 * math.pi * self.radius
 
-    @property
+    @cached_property
     def layer(self) -> Layer:
         """The layer whose symbol the solver uses."""
         if not isinstance(self.support, str):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.belt import BeltSupport
-from conveyor.contact.energy import belt_losses
+from conveyor.contact.energy import Strip, belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
 from conveyor.contact.layers import Confined, HalfSpace
@@ -233,6 +233,12 @@ class ContactSolution:
         """Contact strips in x/R about the roll's axis, shape (l, 2), from left to right."""
         patches: Array = self._need().strips / self.problem.rho
         return patches
+
+    @property
+    def strips(self) -> list[Strip] | None:
+        """Centre and half width X, and sine coefficients of p̃, of every strip; None of a contact known on a grid."""
+        fields = self._need().fields
+        return fields.strips if isinstance(fields, SpectralFields) else None
 
     @cached_property
     def peak_pressure(self) -> float:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.bessel import bessel_j
-from conveyor.contact.circle import mean_drop, slope_coefficients
+from conveyor.contact.circle import mean_drop, slope_expansion
 from conveyor.contact.energy import loss
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
 from conveyor.contact.scene import Scene
@@ -162,7 +162,7 @@ class _Places:
         self.rule: Rule = scene.rule(float(alpha.max()))
         own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
         scene.matrices += k * count
-        slope = slope_coefficients(alpha.ravel(), centre.ravel(), rho, n + 2)
+        slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
         full = np.zeros((k, count, n + 1, count, n))
         heights = np.zeros((k, count, count, n))
