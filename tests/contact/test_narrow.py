@@ -221,3 +221,12 @@ def test_widest_contact_meets_the_alias_of_its_window():
     for grade in (FINE[0], COARSE[0]):
         for cap in CAPS:
             assert np.exp(-((_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < 1e-16
+
+
+def test_memory_far_longer_than_the_passage():
+    # friction is as small as α/ζ = 1e-11, and inversely proportional to ζ
+    scene = ContactProblem("half-space", 1.6e-3, 2e-8, CreepSpectrum(1e-3, [0.999], [3e5]))
+    long = solve(scene)
+    longer = solve(replace(scene, creep=CreepSpectrum(1e-3, [0.999], [3e6])))
+    assert long.friction / longer.friction == pytest.approx(10.0, rel=1e-8)
+    assert long.energy_error < 1e-9
