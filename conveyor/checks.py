@@ -739,7 +739,7 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
         if parts.backstop is not None and duty.backstop is not None:
             yield compared(
                 "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
-                "moment", where="holding" if duty.backstop == duty.holding else "motors stalled",
+                "torque", where="holding" if duty.backstop == duty.holding else "motors stalled",
                 why=f'the backstop of "{name}" bears {{required}}, {{calculated}} are asked of it',
             )  # fmt: skip
         if parts.heat is not None and duty.heat is not None:

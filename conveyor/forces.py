@@ -202,7 +202,7 @@ def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strand.gravity) for stretch in strand.stretches])
 
-    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strand.stretches)
+    skewed = any(stretch.turn is not None and stretch.turn.guided for stretch in strand.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
         guidance=each(_guidance) if skewed else None,

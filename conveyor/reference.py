@@ -13,12 +13,21 @@ from ruamel.yaml import YAML
 
 from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout
 from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.sizing import SizingDuty
 from conveyor.starter.values import KINDS as STARTERS
 from conveyor.starter.values import values
 from conveyor.units.kinds import KINDS
 
+_Known = list[tuple[tuple[Part, ...], str]]
 Example = str | float | bool | Sequence[Any]
 
+_FORMATS: Final[Mapping[type[BaseModel], str]] = {
+    Conveyor: "spec",
+    SizingDuty: "duty",
+    RubberCompound: "compound",
+}
+"""What each is called."""
+_DEPTH: Final = 2  # of the headings of formats
 _NOTHING: Final[tuple[Any, ...]] = (None, "", [])
 _ALIKE: Final = (
     ("idlers.return.", "idlers.carry."),
@@ -33,7 +42,7 @@ _HEADINGS: Final = (
 
 
 def markdown() -> str:
-    """Write the reference of the file formats: units, every field of a spec, every field of a compound file.
+    """Write the reference of the file formats: units, every field of a spec, of a duty, of a compound file.
 
     Returns
     -------
@@ -46,7 +55,13 @@ def markdown() -> str:
     >>> [line for line in markdown().splitlines() if line.startswith("| `width`")][0]
     '| `width` | Width of the belt. | `1200 mm` | ≥ 100 mm, ≤ 5 m | **required** |'
     """
-    return "\n".join((*_intro("spec"), *_units(), *_spec(), *_intro("compound"), *_compound())) + "\n"
+    known: _Known = []
+    spec, duty, compound = _Writer(Conveyor, known), _Writer(SizingDuty, known), _Writer(RubberCompound, [])
+    written = (
+        *_intro("spec"), *_units(), *spec.whole(), *_intro("duty"), *duty.whole(), *_intro("compound"),
+        *compound.whole(),
+    )  # fmt: skip
+    return "\n".join(written) + "\n"
 
 
 def fields(model: type[BaseModel]) -> dict[str, Leaf]:
@@ -55,7 +70,7 @@ def fields(model: type[BaseModel]) -> dict[str, Leaf]:
     Parameters
     ----------
     model : type of BaseModel
-        `Conveyor` for a spec, `RubberCompound` for a compound file.
+        `Conveyor` for a spec, `SizingDuty` for a duty, `RubberCompound` for a compound file.
 
     Examples
     --------
@@ -80,10 +95,12 @@ def example(model: type[BaseModel], path: str) -> Example | None:
     >>> example(Conveyor, "drive.wrap_angle")
     '210 deg'
     """
-    leaf = _known(model)[path]
-    kinds = STARTERS if model is Conveyor else ()
-    shown = (_at(_starter(kind), _first_alike(path)) for kind in kinds)
-    listed = _examples()["spec" if model is Conveyor else "compound"].get(_first_alike(path))
+    leaf, first = _known(model)[path], _first_alike(path)
+    if model is SizingDuty and _known(Conveyor).get(path) == leaf:
+        return example(Conveyor, path)
+    kinds = {Conveyor: STARTERS, SizingDuty: ("duty",)}.get(model, ())
+    shown = (_at(_starter(kind), first) for kind in kinds)
+    listed = _examples()[_FORMATS[model]].get(first)
     written = _written(leaf.default, leaf) if leaf.default not in _NOTHING else next(iter(leaf.choices), None)
     return next((given for given in (*shown, listed, written) if given is not None), None)
 
@@ -167,25 +184,20 @@ def _units() -> Iterator[str]:
     yield ""
 
 
-def _spec() -> Iterator[str]:
-    yield from _Writer(Conveyor, depth=2).section(layout(Conveyor), "", "The spec")
-
-
-def _compound() -> Iterator[str]:
-    yield from _Writer(RubberCompound, depth=2).section(layout(RubberCompound), "", "The compound")
-
-
 class _Writer:
-    """Sections of a file format; blocks with the same fields are written once."""
+    """Sections of a file format; blocks with fields that are `known`, with their headings, are not written again."""
 
-    def __init__(self, model: type[BaseModel], depth: int) -> None:
+    def __init__(self, model: type[BaseModel], known: _Known) -> None:
         self._model = model
-        self._depth = depth
-        self._known: list[tuple[tuple[Part, ...], str]] = []
+        self._known = known
+
+    def whole(self) -> Iterator[str]:
+        """Write all of the format."""
+        yield from self.section(layout(self._model), "", f"The {_FORMATS[self._model]}")
 
     def section(self, part: FieldGroup | FieldTable, path: str, heading: str) -> Iterator[str]:
         """Write a block, then the blocks in it."""
-        level = self._depth + min(2, path.count(".") + 1) if path else self._depth
+        level = _DEPTH + min(2, path.count(".") + 1) if path else _DEPTH
         yield f"{'#' * level} {heading}"
         yield ""
         doc = _sentence(part.doc)
@@ -215,7 +227,7 @@ class _Writer:
             yield from self.section(inner, inner_path, self._title(inner_path))
 
     def _title(self, path: str) -> str:
-        return path if self._model is Conveyor else f"compound: {path}"
+        return path if self._model is Conveyor else f"{_FORMATS[self._model]}: {path}"
 
     def _link(self, part: FieldGroup | FieldTable, path: str) -> str:
         what = "list" if isinstance(part, FieldTable) else "block"

@@ -69,6 +69,11 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
         f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
         "into the banking at the ends of a curve, and edge rolls, are left out."
     )
+    if 1 in {conveyor.idlers.carry.rolls, conveyor.idlers.return_.rolls}:
+        yield (
+            "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its "
+            "place (derived): the belt comes in along the middle and drifts all along; its drift is that at the end."
+        )
     if conveyor.ambient.wind_speed is not None:
         yield (
             f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across "
@@ -242,7 +247,7 @@ def _contact(result: CalculatedConveyor) -> Iterator[Said]:
                 f"({CARCASS_BENDING.low:g} to {CARCASS_BENDING.high:g}; general knowledge)"
             )
         if conveyor.belt.carcass.stiffness is None:
-            yield said("belt.carcass.stiffness not given: a usual multiple of the strength taken")
+            yield said("belt.carcass.stiffness not given: a usual multiple of strength or rating taken")
         if conveyor.calculation.flexure is not None and conveyor.calculation.flexure.belt is not None:
             yield said('calculation.flexure.belt is not used: support "belt" includes that loss')
     elif support != "confined":
@@ -577,7 +582,7 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
     widest, idlers_of = widest_spacings(), result.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in result.line.stretches if stretch.strand == strand]
-        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.skew for s in stretches):
+        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield said(
                 f"idlers.{strand}: tilt or skew with μ0 = {friction:g}, general knowledge, not a source"

@@ -18,7 +18,7 @@ from conveyor.errors import InputError
 from conveyor.explain import read_model
 from conveyor.files.document import first_lines, read_document, yaml_text
 from conveyor.models import Conveyor
-from conveyor.models.base import field_path, real_errors
+from conveyor.models.base import Model, field_path, real_errors
 from conveyor.models.wording import Location, message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
@@ -151,12 +151,17 @@ def fingerprint(conveyor: Conveyor) -> str:
     return hashlib.sha256(canonical.encode()).hexdigest()
 
 
-def schema() -> dict[str, Any]:
-    """Return the JSON schema of a spec, for editors.
+def schema(model: type[Model] = Conveyor) -> dict[str, Any]:
+    """Return the JSON schema of a spec or another file format, for editors.
+
+    Parameters
+    ----------
+    model : type of Model
+        Of the format.
 
     Examples
     --------
     >>> sorted(schema()["required"])[:3]
     ['ambient', 'belt', 'drive']
     """
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **Conveyor.json_schema()}
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **model.json_schema()}

@@ -46,7 +46,8 @@ DEFINITIONS = [
     ("2 kWh", "energy", 7.2e6), ("150 kJ/mol", "molar energy", 1.5e5), ("95 %", "fraction", 0.95),
     ("0.95", "fraction", 0.95), ("32.2 ft/s^2", "acceleration", 32.2 * FT), ("3600 m³/h", "volume flow", 1.0),
     ("600 rpm", "rotation", 10.0), ("0.01 N/rpm", "force per rotation", 0.6), ("20 N*mm", "moment", 0.02),
-    ("10 lbf*in", "moment", 10 * LBF * FT / 12), ("30 N*m²", "bending stiffness", 30.0), ("100 cSt", "viscosity", 1e-4),
+    ("10 lbf*in", "moment", 10 * LBF * FT / 12), ("12 lbf*ft", "torque", 12 * LBF * FT),
+    ("10 mph", "speed", 5280 * FT / 360), ("30 N*m²", "bending stiffness", 30.0), ("100 cSt", "viscosity", 1e-4),
 ]  # fmt: skip
 
 

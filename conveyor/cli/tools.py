@@ -114,6 +114,7 @@ def template(
 @app.command(
     epilog=examples(
         "conveyor schema > conveyor.schema.json",
+        "conveyor schema --duty > duty.schema.json",
         "conveyor schema --result > result.schema.json",
         "conveyor schema --markdown > spec.md",
     )
@@ -123,10 +124,11 @@ def schema(
         bool, option("Print the reference of all fields for people, as markdown.", None, "--markdown")
     ] = False,
     result: Annotated[bool, option("Print the JSON schema of what --json prints.", None, "--result")] = False,
+    duty: Annotated[bool, option("Print the JSON schema of a duty to be sized.", None, "--duty")] = False,
 ) -> None:
-    """Print the JSON schema of a spec, for editors, or of results; or the reference of the file formats."""
-    if markdown and result:
-        raise InputError("--markdown, --result: give one of them")
+    """Print the JSON schema of a spec, for editors, of a duty or of results; or the reference of the file formats."""
+    if markdown + result + duty > 1:
+        raise InputError("--markdown, --result, --duty: give one of them")
     if result:
         from conveyor.report.result_schema import result_schema
 
@@ -137,9 +139,11 @@ def schema(
 
         print_text(written())
         return
+    from conveyor.models import Conveyor
+    from conveyor.models.sizing import SizingDuty
     from conveyor.spec import schema as build
 
-    print_json(build())
+    print_json(build(SizingDuty if duty else Conveyor))
 
 
 @app.command(

@@ -196,7 +196,7 @@ def _backward(scenario: Followed) -> Iterator[Check]:
             continue
         shown = said("{} at the belt", (held, "force"))
         if drive.radius is not None:
-            shown = said("{} at the pulley's shaft", (held * drive.radius, "moment"))
+            shown = said("{} at the pulley's shaft", (held * drive.radius, "torque"))
         assumed = scenario.ride.assumed_backstop
         why = said("the spec names no backstop (drive.backstop); one is assumed")
         yield Check("dynamic_backstop", said(f"backstop of {quoted(drive.name)}"), held, None, "force", shown,

@@ -412,7 +412,7 @@ def _assumed(dynamics: CalculatedDynamics) -> Iterator[str]:
     if line.belt.retardation is None and line.belt.relaxing is None:
         yield f"belt.carcass.retardation_time not given: {BELT_RETARDATION.value:g} s, general knowledge"
     if line.belt.stiffness is None:
-        yield "belt.carcass.stiffness not given: the usual multiple of the strength"
+        yield "belt.carcass.stiffness not given: the usual multiple of strength or rating"
     if any(not pulley.driven for pulley in line.pulleys):
         yield (
             f"pulleys not driven turn like {percent(PULLEY_INERTIA.value)} of their mass, not given: "

@@ -169,7 +169,7 @@ def discharge_angle(speed: float, *, radius: float, inclination: float, gravity:
     require_positive(speed=speed, radius=radius, gravity=gravity)
     require_slope(inclination=inclination)
     over = speed**2 / (gravity * radius)
-    return -inclination if over >= min(1.0, math.cos(min(inclination, 0.0))) else math.acos(over)
+    return 0.0 - inclination if over >= min(1.0, math.cos(min(inclination, 0.0))) else math.acos(over)
 
 
 @dataclass(frozen=True, slots=True)

@@ -253,9 +253,7 @@ def next_preferred(value: float) -> float:
     (40000.0, 1000.0)
     """
     require_positive(value=value)
-    decade = 10.0 ** math.floor(math.log10(value))
-    sizes = (*(decade * step for step in _R10), 10.0 * decade)
-    return next(size for size in sizes if size >= value * (1.0 - _SLACK))
+    return next(size for size in _of_its_decade(value, _R10) if size >= value * (1.0 - _SLACK))
 
 
 def nearest_ratio(ratio: float) -> float:
@@ -282,8 +280,13 @@ def nearest_ratio(ratio: float) -> float:
     (16.0, 25.0)
     """
     require_positive(ratio=ratio)
-    decade = 10.0 ** math.floor(math.log10(ratio))
-    return min((decade * step for step in (*_R20, 10.0)), key=lambda size: abs(math.log(size / ratio)))
+    return min(_of_its_decade(ratio, _R20), key=lambda size: abs(math.log(size / ratio)))
+
+
+def _of_its_decade(value: float, series: Sequence[float]) -> tuple[float, ...]:
+    """Preferred numbers of the decade of a value, and the first of the next."""
+    decade = 10.0 ** math.floor(math.log10(value))
+    return (*(decade * step for step in series), 10.0 * decade)
 
 
 def shared_forces(

@@ -273,6 +273,11 @@ class DriftLaw:
 
         return cls(centred, parabola(loads[-1].length, 1.0), parabola(loads[0].length, -1.0))
 
+    @property
+    def most(self) -> float:
+        """What the set holds with its outside wing bare [N]."""
+        return self.force(self.inward[-1])
+
     def force(self, drift: float) -> float:
         """Outward force [N] at a drift to the inside [m]."""
         slope, curvature, reach = self.inward if drift >= 0.0 else self.outward
@@ -298,6 +303,81 @@ class DriftLaw:
             return side * math.inf
         size = 2.0 * more / (slope + side * math.sqrt(root))
         return side * (size if size <= reach else math.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class FlatDrift:
+    """The outward force on a flat set by the belt's drift at the end of a curve, W [sin β + κ(ε + s/L) cos β].
+
+    Parameters
+    ----------
+    weight : float
+        W on the roll [N], positive.
+    banking_angle : float
+        β by which it is raised on the inside [rad], from 0 to below pi/2.
+    skew : float
+        ε by which it steers outward [rad].
+    friction, full_slip : float
+        μ of belt on roll [-] and tilt from which it slides [rad], both positive, see `guide_friction`.
+    length : float
+        L of the curve [m], positive.
+    reach : float
+        Drift at which the belt falls off [m], positive.
+
+    Notes
+    -----
+    Derived. No wing draws the belt back: what W sin β leaves of T a/R turns its course by s' from that of the sets,
+    until the guiding friction κ(ε + s') of the turned course holds it. The course settles within T a/(W dκ/dε), some
+    spans, and then the belt drifts by s' of every metre: from the middle of the sets, where it comes in, to s = s' L
+    at the end. There is no such course where more than μ is asked for.
+
+    Examples
+    --------
+    >>> flat = FlatDrift(
+    ...     1000.0, banking_angle=0.0, skew=0.0, friction=0.35, full_slip=0.05, length=100.0, reach=0.7
+    ... )
+    >>> round(flat.force(0.5), 6), round(flat.drift(94.85), 6), flat.drift(400.0)  # 0.35 (1 - 0.9³) W
+    (94.85, 0.5, inf)
+    """
+
+    weight: float
+    banking_angle: float
+    skew: float
+    friction: float
+    full_slip: float
+    length: float
+    reach: float
+
+    @property
+    def centred(self) -> float:
+        """What it holds without drift [N]."""
+        return self.force(0.0)
+
+    @property
+    def most(self) -> float:
+        """What it holds at all [N]."""
+        return self.weight * (math.sin(self.banking_angle) + self.friction * math.cos(self.banking_angle))
+
+    def guiding(self, drift: float) -> float:
+        """Guiding friction along the roll [N] at a drift to the inside [m]."""
+        held = guide_friction(
+            self.skew + drift / self.length, friction=self.friction, full_slip=self.full_slip
+        )
+        return self.weight * math.cos(self.banking_angle) * held
+
+    def force(self, drift: float) -> float:
+        """Outward force [N] at a drift to the inside [m]."""
+        return self.weight * math.sin(self.banking_angle) + self.guiding(drift)
+
+    def drift(self, pull: float) -> float:
+        """Drift to the inside at the end of the curve [m] under a pull on one set [N]: infinite off the roll."""
+        asked = (pull / self.weight - math.sin(self.banking_angle)) / math.cos(self.banking_angle)
+        share = abs(asked) / self.friction
+        if share >= 1.0:
+            return math.copysign(math.inf, asked)
+        turned = math.copysign(self.full_slip * (1.0 - math.cbrt(1.0 - share)), asked)
+        drift = (turned - self.skew) * self.length
+        return drift if abs(drift) < self.reach else math.copysign(math.inf, drift)
 
 
 def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: float) -> float:

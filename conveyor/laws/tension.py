@@ -25,6 +25,9 @@ LARGEST_WRAP: Final = 8.0 * math.pi  # [rad], four pulleys of a full turn: catch
 STEEL_CORD_STIFFNESS_FACTOR: Final = 72.0  # [-], EA over nominal strength, approximate
 TEXTILE_STIFFNESS_FACTOR: Final[Mapping[str, float]] = {"EP": 5.0, "polyamide": 4.0}
 """EA over nominal strength [-]: 2.0 and 2.5 % of elongation at a tenth of the strength; general knowledge."""
+RATED_STIFFNESS_FACTOR: Final[Mapping[str, float]] = {"steel cord": 400.0, "EP": 100.0, "polyamide": 70.0}
+"""EA over the rated tension [-]: CEMA's belt moduli, as lectured at Newcastle (Belt conveying, transitions and curves),
+who finds them conservatively high."""
 
 
 def _require_drive(friction: float, wrap_angle: float) -> None:
@@ -261,31 +264,42 @@ def steel_cord_stiffness(nominal_strength: float) -> float:
     return STEEL_CORD_STIFFNESS_FACTOR * nominal_strength
 
 
-def usual_stiffness(nominal_strength: float, *, carcass: str) -> float | None:
-    """Tensile stiffness of a belt per width where its maker gives none, a multiple of its strength.
+def usual_stiffness(
+    nominal_strength: float | None, *, rating: float | None = None, carcass: str
+) -> float | None:
+    """Tensile stiffness of a belt per width where its maker gives none, a multiple of its strength or rated tension.
 
     Parameters
     ----------
-    nominal_strength : float
+    nominal_strength : float or None
         Strength class per width [N/m], positive.
+    rating : float, optional
+        Rated tension per width [N/m], positive: counts where the strength is not known.
     carcass : str
         Its kind: "steel cord", "EP", "polyamide"; of others nothing usual is known.
 
     Returns
     -------
     float or None
-        EA per width [N/m].
+        EA per width [N/m]; None where neither is known.
 
     Raises
     ------
     InputError
-        The strength is not positive.
+        The strength or the rating is not positive.
 
     Examples
     --------
     >>> usual_stiffness(1.0e6, carcass="EP"), usual_stiffness(1.0e6, carcass="cotton")
     (5000000.0, None)
+    >>> usual_stiffness(None, rating=1.0e5, carcass="EP")
+    10000000.0
     """
+    if nominal_strength is None:
+        if rating is None or carcass not in RATED_STIFFNESS_FACTOR:
+            return None
+        require_positive(rating=rating)
+        return RATED_STIFFNESS_FACTOR[carcass] * rating
     if carcass == "steel cord":
         return steel_cord_stiffness(nominal_strength)
     require_positive(nominal_strength=nominal_strength)

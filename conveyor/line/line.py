@@ -79,10 +79,10 @@ class BeltBody:
 
     @property
     def tensile_stiffness(self) -> float | None:
-        """Per width [N/m]: as given, else a usual multiple of the strength; None without both."""
-        if self.stiffness is not None or self.strength is None:
+        """Per width [N/m]: as given, else a usual multiple of strength or rating; None without any."""
+        if self.stiffness is not None:
             return self.stiffness
-        return usual_stiffness(self.strength, carcass=self.carcass)
+        return usual_stiffness(self.strength, rating=self.rating, carcass=self.carcass)
 
     @property
     def steel_cord(self) -> bool:

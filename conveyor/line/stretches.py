@@ -255,6 +255,7 @@ class _Strand:
             self.strand,
             weights,
             vertical=section.radius,
+            length=section.length,
             drift=self.acting.drift.get((section.name, self.strand), 0.0),
             wind_speed=0.0 if wind is None else si(wind),
             spacing=spacing,

@@ -13,6 +13,7 @@ from conveyor.laws.horizontal_curve import (
     LEAST_GUIDANCE,
     WIND_DRAG,
     DriftLaw,
+    FlatDrift,
     drifted_loads,
     guide_friction,
     outward_force,
@@ -61,8 +62,8 @@ class Turn:
     ----------
     side : {"left", "right"}
         Where the inside of the curve is, in running direction of the carry strand.
-    radius, vertical : float
-        Of the curve; of a vertical curve in the same place, as of `RouteSection` [m].
+    radius, vertical, length : float
+        Of the curve; of a vertical curve in the same place, as of `RouteSection`; of the section [m].
     banking, skew, trough_angle, tilt_angle, roll_length : float
         Of the sets [rad, rad, rad, rad, m].
     weights : tuple of RollLoad
@@ -76,6 +77,7 @@ class Turn:
     side: str
     radius: float
     vertical: float
+    length: float
     banking: float
     skew: float
     trough_angle: float
@@ -86,10 +88,22 @@ class Turn:
     wind: float
 
     @property
+    def flat(self) -> bool:
+        """Whether one roll bears the belt: nothing draws it back to the middle."""
+        return len(self.weights) == 1
+
+    @property
+    def guided(self) -> bool:
+        """Whether friction across the rolls steers the belt."""
+        return self.flat or self.skew != 0.0
+
+    @property
     def room(self) -> float:
         """Drift at which an edge of the belt comes to the end of its roll, or the other wing is bare [m]."""
-        on_wing = self.weights[0].length
-        return min(self.roll_length - on_wing, on_wing)
+        on_roll = self.weights[0].length
+        if self.flat:
+            return 0.5 * (self.roll_length - on_roll)
+        return min(self.roll_length - on_roll, on_roll)
 
     @cached_property
     def pushes(self) -> tuple[float, ...]:
@@ -99,15 +113,17 @@ class Turn:
     @property
     def slopes(self) -> tuple[float, ...]:
         """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
+        if self.flat:
+            return (math.sin(self.banking),)
         frictionless = (0.0,) * len(self.weights)
         return outward_pushes(frictionless, trough_angle=self.trough_angle, banking_angle=self.banking)
 
     @cached_property
-    def _laws(self) -> tuple[DriftLaw, DriftLaw]:
+    def _laws(self) -> tuple[DriftLaw | FlatDrift, DriftLaw | FlatDrift]:
         """How the set holds the belt by weight alone, at the full and the least friction."""
         return self._law(self.weights, 1.0), self._law(self.weights, LEAST_GUIDANCE)
 
-    def law(self, pressing: float, *, least: bool) -> DriftLaw:
+    def law(self, pressing: float, *, least: bool) -> DriftLaw | FlatDrift:
         """How the set holds the belt, a vertical curve pressing on it [N], at the least or the full friction."""
         if pressing == 0.0:
             return self._laws[least]
@@ -115,7 +131,17 @@ class Turn:
         loads = tuple(replace(w, belt_force=w.belt_force * (1.0 + pressing / belt)) for w in self.weights)
         return self._law(loads, LEAST_GUIDANCE if least else 1.0)
 
-    def _law(self, loads: Loads, share: float) -> DriftLaw:
+    def _law(self, loads: Loads, share: float) -> DriftLaw | FlatDrift:
+        if self.flat:
+            return FlatDrift(
+                weight=loads[0].force,
+                banking_angle=self.banking,
+                skew=self.skew,
+                friction=share * ROLL_ON_BELT_FRICTION.value,
+                full_slip=FULL_SLIP_TILT.value,
+                length=self.length,
+                reach=0.5 * self.roll_length,
+            )
         return DriftLaw.of(loads, self._pushes(share))
 
     def _pushes(self, share: float) -> tuple[float, ...]:
@@ -129,7 +155,10 @@ class Turn:
         return outward_pushes(frictions, trough_angle=self.trough_angle, banking_angle=self.banking)
 
     def guidance(self) -> float:
-        """Resistance of one set's skew: what its friction pushes outward, over the angle of the set [N]."""
+        """Resistance of one set's skew: what its friction pushes outward, over the angle of set and belt [N]."""
+        law = self._laws[0]
+        if isinstance(law, FlatDrift):
+            return law.guiding(self.drift) * math.sin(self.skew + self.drift / self.length)
         if self.skew == 0.0:
             return 0.0
         guided = [with_it - without for with_it, without in zip(self.pushes, self.slopes, strict=True)]
@@ -141,6 +170,9 @@ class Turn:
 
         The pull that the set balances there presses the belt into the inside wing and lifts it from the other.
         """
+        if self.flat:
+            pull = self._laws[0].force(self.drift)
+            return (replace(loads[0], belt_force=loads[0].belt_force + pull * self.slopes[0]),)
         inside_first = loads if self.side == "left" else loads[::-1]
         moved = drifted_loads(inside_first, self.drift, roll_length=self.roll_length)
         pull, across = outward_force(moved, self.pushes), math.fsum(load.length for load in moved)
@@ -158,6 +190,7 @@ def turn(
     loads: Loads,
     *,
     vertical: float,
+    length: float,
     drift: float,
     wind_speed: float,
     spacing: float,
@@ -175,6 +208,7 @@ def turn(
         side=given.side,
         radius=given.radius,
         vertical=vertical,
+        length=length,
         banking=given.banking[strand],
         skew=given.skew[strand],
         trough_angle=trough,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
-from conveyor.laws.horizontal_curve import DriftLaw
+from conveyor.laws.horizontal_curve import DriftLaw, FlatDrift
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
 from conveyor.line.stretches import Acting, Strand, Stretch
@@ -170,12 +170,15 @@ def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
     return by_stretch
 
 
-def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw) -> NoSolutionError:
-    """What to say of a belt that nothing holds in its curve; on the radius named a bare wing would just hold it."""
-    most = law.force(law.inward[-1])
+def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw | FlatDrift) -> NoSolutionError:
+    """What to say of a belt that nothing holds in its curve; the radius named would just hold it."""
+    most = law.most
     way, cure = "outside", "less banking or skew"
     if pull > law.centred:
-        way, cure = "inside", "more banking or a deeper trough"
+        way, cure = (
+            "inside",
+            f"more banking or a {'trough' if isinstance(law, FlatDrift) else 'deeper trough'}",
+        )
         if most > 0.0:
             cure = f"a horizontal_radius well above {radius * pull / most:.4g} m, or {cure}"
     return NoSolutionError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.horizontal_curve import half_span
@@ -28,8 +28,9 @@ class DriftState:
     lowest, highest : float
         Tensions in the curve [N].
     inside, outside : float
-        Drift to the inside at the highest tension with the least guiding friction, at the lowest with the full one;
-        with the wind the same way [m]. Negative outward, infinite where the belt runs off its rolls.
+        Drift to the inside at the highest tension with the least guiding friction, at the lowest with the full one (of
+        flat sets with the worse of both, at the end of the curve); with the wind the same way [m]. Negative outward,
+        infinite where the belt runs off its rolls.
     least, most : float
         Radii at which the belt stays on its rolls [m]: below the least it drifts too far in, above the most too far
         out.
@@ -104,34 +105,58 @@ def horizontal_checks(balance: Balance, states: Sequence[MotionState]) -> tuple[
     states : sequence of MotionState
         Of it.
     """
-    line, half = balance.line, balance.line.count
-    order = [*range(half, 2 * half), *range(half)]
-    return tuple(check for i in order for check in _bend(line, line.loop.stretches[i], i, states))
+    line, half, made = balance.line, balance.line.count, []
+    for strand in (range(half, 2 * half), range(half)):
+        before: HorizontalCheck | None = None
+        for i in strand:
+            before = _bend(line, line.loop.stretches[i], i, states, before)
+            made.append(before)
+    return tuple(check for check in made if check is not None)
 
 
-def _bend(line: Line, stretch: Stretch, i: int, states: Sequence[MotionState]) -> Iterator[HorizontalCheck]:
+def _bend(
+    line: Line, stretch: Stretch, i: int, states: Sequence[MotionState], before: HorizontalCheck | None
+) -> HorizontalCheck | None:
     if stretch.turn is None:
-        return
-    made = tuple(_state(line, stretch, stretch.turn, state, i) for state in states)
+        return None
+    entries = _entries(stretch.turn, before, len(states))
+    made = tuple(
+        _state(line, stretch, stretch.turn, state, i, entry=entry)
+        for state, entry in zip(states, entries, strict=True)
+    )
     lowest, highest = min(state.lowest for state in made), max(state.highest for state in made)
     edges = _edges(line, stretch, stretch.turn, lowest, highest)
-    yield HorizontalCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
+    return HorizontalCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
 
 
-def _state(line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int) -> DriftState:
+def _entries(turn: Turn, before: HorizontalCheck | None, states: int) -> Sequence[tuple[float, float]]:
+    """How far inside and outside the belt comes into a curve: on flat sets as it left the curve right before."""
+    if before is None or not turn.flat:
+        return [(0.0, 0.0)] * states
+    if before.turn.side == turn.side:
+        return [(state.inside, state.outside) for state in before.states]
+    return [(-state.outside, -state.inside) for state in before.states]
+
+
+def _state(
+    line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int, *, entry: tuple[float, float]
+) -> DriftState:
     ends = float(state.starts[i]), float(state.ends[i])
     lowest, highest = max(0.0, min(ends)), max(0.0, *ends)
-    weak = turn.law(pushed_down(line, stretch, highest), least=True)
-    full = turn.law(pushed_down(line, stretch, lowest), least=False)
+    tight = [turn.law(pushed_down(line, stretch, highest), least=least) for least in (True, False)]
+    loose = [turn.law(pushed_down(line, stretch, lowest), least=least) for least in (True, False)]
+    if not turn.flat:  # a trough holds less with less friction to the inside, to the outside more
+        tight, loose = tight[:1], loose[1:]
     drawn, slack = pull_inside(line, stretch, highest), pull_inside(line, stretch, lowest)
+    came_in, came_out = entry
     return DriftState(
         state=state.name,
         lowest=lowest,
         highest=highest,
-        inside=weak.drift(drawn + turn.wind),
-        outside=full.drift(slack - turn.wind),
-        least=_radius(turn.radius, drawn, weak.force(turn.room) - turn.wind),
-        most=_radius(turn.radius, slack, full.force(-turn.room) + turn.wind),
+        inside=came_in + max(law.drift(drawn + turn.wind) for law in tight),
+        outside=came_out + min(law.drift(slack - turn.wind) for law in loose),
+        least=_radius(turn.radius, drawn, min(law.force(turn.room - came_in) for law in tight) - turn.wind),
+        most=_radius(turn.radius, slack, max(law.force(-turn.room - came_out) for law in loose) + turn.wind),
     )
 
 

@@ -128,6 +128,8 @@ class _SchemaWriter(GenerateJsonSchema):
     def encode_default(self, dft: Any) -> Any:
         if isinstance(dft, Model):
             return dft.as_data()
+        if isinstance(dft, tuple):
+            return [self.encode_default(each) for each in dft]
         return written(dft) if is_quantity(dft) else super().encode_default(dft)
 
 

@@ -94,7 +94,7 @@ class Carcass(Model):
     rating: Annotated[LineForce, Bounds(gt="0 N/mm", le="5000 N/mm")] | None = None
     """Rated working tension per width, as US belts are sold: a "600 PIW" belt; instead of the strength or beside it."""
     stiffness: Annotated[LineForce, Bounds(gt="0 N/mm", le="1000000 N/mm")] | None = None
-    """Tensile stiffness per width; without it a multiple of the strength: of steel cord 72 times."""
+    """Tensile stiffness per width; without it a multiple of the strength (of steel cord 72 times), or of rating."""
     bending_stiffness: Annotated[BendingStiffness, Bounds(ge="0 N*m^2", le="10000 N*m^2")] | None = None
     """Of the carcass, flat, over the belt's width, for calculation.support belt; 15 N m² a metre without it."""
     bending_loss: Annotated[Number, Field(ge=0, le=1)] = 0.0

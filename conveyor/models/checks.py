@@ -268,11 +268,12 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
     if conveyor.calculation.support != "belt":
         return
     carcass = conveyor.belt.carcass
-    usual = None if carcass.strength is None else usual_stiffness(si(carcass.strength), carcass=carcass.kind)
+    strength, rating = (None if each is None else si(each) for each in (carcass.strength, carcass.rating))
+    usual = usual_stiffness(strength, rating=rating, carcass=carcass.kind)
     if carcass.stiffness is None and usual is None:
         message = (
-            'missing: calculation.support "belt" needs it; give it, or the strength of a carcass of steel cord, EP or '
-            "polyamide"
+            'missing: calculation.support "belt" needs it; give it, or strength or rating of a carcass of steel '
+            "cord, EP or polyamide"
         )
         yield Problem(("belt", "carcass", "stiffness"), message)
     for name, cover in (("bottom_cover", conveyor.belt.bottom_cover), ("top_cover", conveyor.belt.top_cover)):
@@ -285,22 +286,19 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """In a horizontal curve only the wings of a trough hold the belt; more than three rolls have no law."""
+    """In a horizontal curve a trough holds the belt, or one flat roll its course; more than three rolls have no law."""
     curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
     if curved is None:
         return
+    where = f'section "{curved}" is a horizontal curve'
     for strand, idlers in _sets(conveyor):
-        if idlers.rolls not in {2, 3}:
-            yield Problem(
-                ("idlers", strand, "rolls"),
-                f'got {idlers.rolls}, but section "{curved}" is a horizontal curve, in which '
-                f"{'nothing holds a flat belt' if idlers.rolls == 1 else 'the drift is known for 2 and 3 rolls only'}: "
-                "take sets of 2 or 3 rolls",
-            )
-        elif si(idlers.trough_angle) == 0.0:
+        if idlers.rolls > 3:
+            message = f"got {idlers.rolls}, but {where}, in which the drift is known for 1 to 3 rolls only: take these"
+            yield Problem(("idlers", strand, "rolls"), message)
+        elif idlers.rolls > 1 and si(idlers.trough_angle) == 0.0:
             message = (
-                f'got {text(idlers.trough_angle)}, but section "{curved}" is a horizontal curve, in which nothing '
-                "holds a flat belt: take a trough"
+                f"got {text(idlers.trough_angle)}, but {where}, in which nothing holds a flat belt on several rolls: "
+                "take a trough, or rolls: 1"
             )
             yield Problem(("idlers", strand, "trough_angle"), message)
 

@@ -24,10 +24,10 @@ from conveyor.units import (
     Inertia,
     Length,
     Mass,
-    Moment,
     Power,
     Rotation,
     Time,
+    Torque,
     quantity,
     si,
     text,
@@ -67,7 +67,7 @@ class DrivePulley(Model):
     curve or factor and no start factor."""
     backstop: Switch | None = None
     """Whether it cannot turn backward, for scenarios; without it the first drive of a belt that would roll back."""
-    backstop_torque: Annotated[Moment, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
+    backstop_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
     """Torque that its backstop bears, at the pulley."""
     motors: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
     """How many equal motors it has."""

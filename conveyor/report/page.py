@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
@@ -320,26 +320,27 @@ def in_short(contents: Contents) -> Html:
 
 def listed(shown: Table, caption: str, system: System = "SI") -> Html:
     """Return named figures: name, value, unit; many of them in two tables side by side where there is room."""
+    value = next(column.get for column in shown.columns if column.kind == OF_ROW)
     half = -(-len(shown.rows) // 2) if len(shown.rows) > _BESIDE else len(shown.rows)
     parts = [
-        _listed(rows, caption if k == 0 else f"{caption}, continued", system, named=k == 0)
+        _listed(rows, value, caption if k == 0 else f"{caption}, continued", system, named=k == 0)
         for k, rows in enumerate((shown.rows[:half], shown.rows[half:]))
         if rows
     ]
     return parts[0] if len(parts) == 1 else element("div", *parts, class_="beside")
 
 
-def _listed(rows: Sequence[Figure], caption: str, system: System, *, named: bool) -> Html:
+def _listed(
+    rows: Sequence[Figure], value: Callable[[Figure], Any], caption: str, system: System, *, named: bool
+) -> Html:
     lines = [
         element(
             "tr",
             element("th", row.called(system), scope="row"),
-            element(
-                "td", row.unit(system).written(row.value), class_="v" if isinstance(row.value, str) else "n"
-            ),
+            element("td", row.unit(system).written(given), class_="v" if isinstance(given, str) else "n"),
             element("td", row.unit(system).sign, class_="unit"),
         )
-        for row in rows
+        for row, given in zip(rows, map(value, rows), strict=True)
     ]
     heads = (("quantity", None), ("value", "n"), ("unit", None))
     head = element("tr", *(element("th", words, scope="col", class_=how) for words, how in heads))

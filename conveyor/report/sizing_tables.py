@@ -14,7 +14,9 @@ from conveyor.report.plots import colour, finished, grouped, keyed, stacked, tit
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
-from conveyor.sizing.designs import CalculatedSizing, SizedDesign
+from conveyor.sizing.designs import CalculatedSizing
+from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.spacing import section_spacings
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
@@ -27,7 +29,7 @@ PARTS: Final = (
     ("designs", "Designs"),
     ("costs", "Costs"),
     ("around", "Around the best design"),
-    ("spacing", "Distances of the carry sets"),
+    ("spacing", "Distances of the sets"),
     ("checks", "Checks of the best design"),
     ("remarks", "What it rests on"),
     ("provenance", "Provenance"),
@@ -50,7 +52,9 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
     )  # fmt: skip
     about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
-                     partial(cost_shares, sizing, system=system), "costs")]  # fmt: skip
+                     partial(cost_shares, sizing, system=system), "costs"),
+             Drawing("spacing", "Distances of the idler sets of the best design along its profile.",
+                     partial(spacing_drawn, sizing, system=system), "spacing")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
         drawn.append(Drawing("around", words, partial(cost_lines, sizing, sweeps, system=system), "around"))
@@ -169,20 +173,30 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
 
 
 def spacing(sizing: CalculatedSizing) -> Table:
-    """Distances of the carry sets of every section, of the designs that have them graduated."""
+    """Distances of the sets of every section, of the best design and of those that have them graduated."""
     rows = [
-        (rank, section.name, section.length, apart)
+        (rank, one)
         for rank, design in enumerate(sizing.designs, start=1)
-        for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
+        if rank == 1 or design.choice.graduated
+        for one in section_spacings(sizing.task, design)
     ]
     columns = (
         Column("rank", "count", "0", json="rank"),
-        Column("section", "text", "1", json="section"),
-        Column("length", "length", "2", json="length_m"),
-        Column("carry sets", "spacing", "3", json="carry_spacing_m"),
+        Column("strand", "text", "1.strand", json="strand"),
+        Column("section", "text", "1.section", json="section"),
+        Column("length", "length", "1.length", json="length_m"),
+        Column("sets", "spacing", "1.built", json="spacing_m"),
+        Column("widest by sag", "spacing", "1.sag", json="sag_m"),
+        Column("widest by bearings", "spacing", "1.bearings", json="bearings_m"),
+        Column("cheapest", "spacing", "1.cheapest", json="cheapest_m"),
     )
-    caption = "Carry sets as far apart in each section as is cheapest where sag and rolls bear it"
-    return Table("spacing", "Spacing", caption, columns, rows, "spacing")
+    caption = "Distances of the sets along the profile, and what ends them"
+    note = (
+        "Widest by sag at the lowest steady tension of the section, by the L10 asked for; cheapest of energy, "
+        "rotation and the sets themselves. Where all three are wider than the sets stand, the series ended them "
+        "(rules.carry_spacings, rules.return_spacings)"
+    )
+    return Table("spacing", "Spacing", caption, columns, rows, "spacing", note)
 
 
 def _remarks(sizing: CalculatedSizing) -> Table:
@@ -218,6 +232,7 @@ def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
 
 
 _HEIGHT, _TALL = 3.0, 2.7
+_OVER_SERIES = 1.5  # of the widest distance in the series: limits far above it say no more
 
 
 def idler_cost(design: SizedDesign) -> float:
@@ -269,4 +284,36 @@ def cost_lines(
         grouped(axis.yaxis)
     keyed(axes[-1])
     titled(figure, f"{sizing.duty.name}: around the best design")
+    return figure
+
+
+def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+    """Distances of the sets of the best design along its profile, beside the widest that sag and bearings allow."""
+    figure, (profile, axis) = stacked(2, _HEIGHT + _TALL)
+    large, apart = unit("length", system, large=True), unit("spacing", system)
+    ends = np.vstack([(0.0, 0.0), np.cumsum(sizing.task.sections, axis=0)])
+    along = large(ends[:, 0])
+    profile.plot(along, large(ends[:, 1]), color="#1F4E79", marker=".")
+    profile.set(ylabel=large.beside("height over the tail"))
+    rows = list(section_spacings(sizing.task, sizing.best))
+    for k, strand in enumerate(("carry", "return")):
+        mine = [row for row in rows if row.strand == strand]
+        for values, style, wide, label in (
+            ([row.built for row in mine], "-", 2.0, f"{strand} sets"),
+            ([row.sag for row in mine], "--", 1.0, f"{strand}, widest by sag"),
+            ([row.bearings for row in mine], ":", 1.0, f"{strand}, widest by L10 of the bearings"),
+        ):
+            axis.stairs(
+                apart(np.array(values)), along, baseline=None, color=colour(k), linestyle=style, linewidth=wide,
+                label=label,
+            )  # fmt: skip
+    most = max(*sizing.task.spacings[0], *sizing.task.spacings[1])
+    axis.set(
+        xlabel=large.beside("along the belt from the tail"), ylabel=apart.beside("distance of sets"),
+        ylim=(0.0, float(apart(_OVER_SERIES * most))),
+    )  # fmt: skip
+    for each in (profile, axis):
+        grouped(each.xaxis)
+    keyed(axis)
+    titled(figure, f"{sizing.duty.name}: idler sets along the profile")
     return figure

@@ -100,7 +100,9 @@ _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
 """Sections of like rolls that are named."""
-_USUAL_STIFFNESS: Final = "The belt's stiffness is a usual multiple of its strength (general knowledge)."
+_USUAL_STIFFNESS: Final = (
+    "The belt's stiffness is a usual multiple of its strength (general knowledge) or rating (CEMA)."
+)
 _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
 
 
@@ -849,7 +851,8 @@ def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
         Column("heat of a stop", "heat", worst(max, get="heat"), sparse=True),
         Column("rise of the disc", "rise", worst(max, get="disc_rise"), sparse=True),
         Column("motor power, uncontrolled", "power",
-               worst(max, get=lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+               worst(partial(max, key=abs), get=lambda duty: None if duty.shared is None else motor(duty.shared)),
+               sparse=True),
     )  # fmt: skip
     note = (
         "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
@@ -999,8 +1002,8 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
-        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
-        "its rolls, or no radius is too large."
+        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. Of a flat set: at the "
+        "end of the curve, with the worse of both. ∞: the belt runs off its rolls, or no radius is too large."
     )
     heading = "Horizontal curves"
     return Table("horizontal_curves", "Loop", heading, columns, a.horizontal, "belt", note)

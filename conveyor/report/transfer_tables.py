@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, at, figures
 from conveyor.report.plots import colour, finished, stacked
 from conveyor.units import System
 from conveyor.units.presentation import unit
+from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
@@ -52,16 +54,13 @@ def landings(a: CalculatedConveyor) -> Table:
         ("impact bed for the lump", "text", "bed"),
     )
     points = [each.point.name.removeprefix(", ") or each.point.place for each in shown]
-    values = "value" if len(shown) == 1 else "value.{}"
     columns = (
         Column("quantity", NAMED, "label"),
-        *(Column(name, OF_ROW, values.format(i), key=f"point_{i}") for i, name in enumerate(points)),
+        *(Column(name, OF_ROW, f"value.{i}", key=f"point_{i}") for i, name in enumerate(points)),
     )
     found = [(label, kind, tuple(map(at(path), shown))) for label, kind, path in every]
     known = tuple(
-        Figure(label, kind, each if len(shown) > 1 else each[0])
-        for label, kind, each in found
-        if any(value is not None for value in each)
+        Figure(label, kind, each) for label, kind, each in found if any(value is not None for value in each)
     )
     heading = "Loading points"
     note = (
@@ -85,6 +84,8 @@ def cleaners(a: CalculatedConveyor) -> Table:
     given = a.line.carryback[0] is not None
     rows = tuple(enumerate(a.cleanings, start=1)) if given else ()
     note = "Every cleaner takes the same share of what reaches it; over the width of its blade."
+    if any("efficiency" not in each.model_fields_set for each in a.conveyor.route.cleaners or ()):
+        note += f" Efficiency not given: {percent(CLEANER_EFFICIENCY.value)} (general knowledge)."
     heading = "Cleaners"
     return Table("cleaners", SHEET, heading, columns, rows, _PAGE, note)
 

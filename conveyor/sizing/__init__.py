@@ -1,5 +1,6 @@
 """Sizing: ranked designs of a conveyor from its duty alone."""
 
-from conveyor.sizing.designs import CalculatedSizing, SizedDesign, size
+from conveyor.sizing.designs import CalculatedSizing, size
+from conveyor.sizing.sized import SizedDesign
 
 __all__ = ["CalculatedSizing", "SizedDesign", "size"]

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 from conveyor.line.task import Choice, SizingTask
-from conveyor.sizing.designs import SizedDesign, settled
+from conveyor.sizing.designs import settled
+from conveyor.sizing.sized import SizedDesign
 
 _Point: TypeAlias = tuple[float, "Choice | None"]
 _THICKER: Final = (0.0, 1e-3, 2e-3, 4e-3)  # [m], of the bottom cover

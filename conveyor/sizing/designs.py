@@ -18,7 +18,6 @@ from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt import CLASSIC_SAFETY
 from conveyor.laws.energy import next_motor
-from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.roll_lives import shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
@@ -35,6 +34,8 @@ from conveyor.pipeline import (
 )
 from conveyor.sizing.costs import Costs, Parts, costs
 from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
+from conveyor.sizing.sized import SizedDesign, highest_tension
+from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.states import at_one_take_up, load_states
 
 RTOL: Final = 1e-4
@@ -43,6 +44,8 @@ CALCULATED: Final = 16
 """Candidates calculated at once, the best of the estimate."""
 ALIKE: Final = 2
 """Of them of one width, speed and place of drives, so that the list shows what else could be built."""
+GRADUATED: Final = 3
+"""Designs whose carry sets are tried farther apart where the belt is tighter, if no more are wanted."""
 BRAKE_RESERVE: Final = 1.3
 """Brake force over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
@@ -52,55 +55,6 @@ _TOO_MUCH: Final = (
     "(rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel), or split the conveyor"
 )
 _NO_LIFE: Final = 1e12  # [s], of rolls without load
-
-
-@dataclass(frozen=True, eq=False)
-class SizedDesign:
-    """A design that keeps every rule.
-
-    Attributes
-    ----------
-    choice, chosen : Choice, Chosen
-        What it is made of.
-    found : CalculatedConveyor
-        At the temperature of the duty; its spec is `found.conveyor`.
-    coldest : CalculatedConveyor
-        At the lowest temperature: motors and strength; `found` where the duty has none lower.
-    costs : Costs
-        Capital and a year.
-    estimate : float
-        Cost of a year by the closed estimate that chose it [currency/a].
-    roll_life : float
-        Of the set that lives shortest, L10 of its bearings [s].
-    """
-
-    choice: Choice
-    chosen: Chosen
-    found: CalculatedConveyor
-    coldest: CalculatedConveyor
-    costs: Costs
-    estimate: float
-    roll_life: float
-
-    @property
-    def conveyor(self) -> Conveyor:
-        """Its spec."""
-        return self.found.conveyor
-
-    @property
-    def year(self) -> float:
-        """Cost of a year [currency/a]."""
-        return float(self.costs.year)
-
-    @property
-    def safety(self) -> float:
-        """Of the belt in steady running, at the lowest temperature [-]."""
-        return self.chosen.carcass.strength * self.found.line.belt.width / _tension(self.pair)
-
-    @property
-    def pair(self) -> tuple[CalculatedConveyor, CalculatedConveyor]:
-        """Both calculations."""
-        return self.found, self.coldest
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +163,8 @@ def _final(
     """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
     ranked = sorted(designs, key=_year)
     if task.rules.graduated and len(task.sections) > 1:
-        ranked = sorted([*_graduated(task, ranked[:best], anchors), *ranked[best:]], key=_year)
+        first = max(best, GRADUATED)
+        ranked = sorted([*ranked, *_graduated(task, ranked[:first], anchors)], key=_year)
     final: list[SizedDesign] = []
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[: max(1, best - len(final))], ranked[max(1, best - len(final)) :]
@@ -219,7 +174,8 @@ def _final(
                 final.append(one)
             else:
                 reasons[one] += 1
-        final.sort(key=_year)
+        cheapest_last = sorted(final, key=_year, reverse=True)
+        final = sorted({replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_year)
     return final
 
 
@@ -388,11 +344,6 @@ def _loads(one: CalculatedConveyor) -> Iterator[CalculatedConveyor]:
     yield from (load for _, load in states.loads)
 
 
-def _tension(pair: Iterable[CalculatedConveyor]) -> float:
-    """Highest in steady running [N]."""
-    return max(one.belt_duty.largest_steady for one in pair)
-
-
 def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:
     """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
 
@@ -401,7 +352,7 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
     NoSolutionError
         No class of the belt is strong enough, or no motor large enough.
     """
-    tension = _tension(pair)
+    tension = highest_tension(pair)
     carcass = next(
         (one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None
     )
@@ -439,7 +390,7 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
         min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve),
         reserve=task.rules.motor_reserve,
     )
-    needed = partial(_needed, choice=design.choice, tension=_tension([one]) + more)
+    needed = partial(_needed, choice=design.choice, tension=highest_tension([one]) + more)
     carcass = next(
         (each for each in task.carcasses[design.choice.kind] if needed(each) <= each.strength), chosen.carcass
     )
@@ -526,58 +477,16 @@ def _costs(
 
 
 def _graduated(task: SizingTask, designs: Sequence[SizedDesign], anchors: Anchors) -> list[SizedDesign]:
-    """Designs with carry sets as far apart in each section as is cheapest there, where that saves."""
-    apart = {i: graduated_spacing(task, design) for i, design in enumerate(designs)}
-    varied = {i: one for i, one in apart.items() if len(set(one)) > 1}
-    begin = [
-        (replace(designs[i].choice, graduated=one), designs[i].chosen, designs[i].estimate)
-        for i, one in varied.items()
+    """The same with carry sets as far apart in each section as is cheapest there, where that saves."""
+    tried = [
+        (design, replace(design.choice, graduated=one))
+        for design in designs
+        for one in dict.fromkeys(graduated_spacings(task, design))
+        if len(set(one)) > 1
     ]
-    made = dict(zip(varied, settled(task, begin, anchors), strict=True)) if begin else {}
+    made = settled(task, [(choice, even.chosen, even.estimate) for even, choice in tried], anchors)
     return [
-        new if isinstance(new := made.get(i), SizedDesign) and new.year < old.year else old
-        for i, old in enumerate(designs)
+        new
+        for (even, _), new in zip(tried, made, strict=True)
+        if isinstance(new, SizedDesign) and new.year < even.year
     ]
-
-
-def graduated_spacing(task: SizingTask, design: SizedDesign) -> tuple[float, ...]:
-    """Distance of the carry sets of each section: the cheapest that sag and rolls bear at the tensions there [m].
-
-    Notes
-    -----
-    Per metre of section, with a distance a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by
-    the scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. The life of the bearings
-    falls with the third power of the load.
-    """
-    prices, line = task.duty.prices.amounts, design.found.line
-    width, roll = design.choice.trough.width, design.choice.roll
-    one_set = (
-        3.0 * (prices["roll"] + prices["roll_mass"] * roll.mass(width.three)) + prices["set"] * width.belt
-    )
-    yearly = one_set * float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
-    worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
-    spacings = []
-    for i, (length, _) in enumerate(task.sections):
-        stretch = line.stretches[i]
-        now, forces = stretch.spacing, design.found.stretches[i].forces
-        lowest = min(_lowest(one, i) for one in design.pair)
-        weight = (stretch.belt_mass + stretch.bulk_mass) * line.gravity
-        loosest = 8.0 * task.sags[0] * lowest / weight
-        heaviest = now * (design.roll_life / task.roll_life) ** (1.0 / 3.0)
-        bears = [a for a in task.spacings[0] if a <= min(loosest, heaviest, design.choice.back)] or [now]
-
-        def per_metre(
-            a: float, forces: Mapping[str, float] = forces, length: float = length, now: float = now
-        ) -> float:
-            wider = a / now
-            friction = forces["indentation"] * math.cbrt(wider) + forces["idler_rotation"] / wider
-            return worth * friction / length + yearly / a
-
-        spacings.append(min(bears, key=per_metre))
-    return tuple(spacings)
-
-
-def _lowest(one: CalculatedConveyor, section: int) -> float:
-    """Lowest tension of the carry strand in a section in steady running [N]."""
-    steady, at = one.balance.settled.steady, one.line.count + section
-    return float(min(steady.starts[at], steady.ends[at]))

@@ -29,13 +29,13 @@ def read(name: str) -> dict[str, Any]:
     return read
 
 
-def values(kind: Kind, units: System = "SI", *, optional: bool = False) -> dict[str, Any]:
-    """Return the plain data of a starter spec.
+def values(kind: Kind | Literal["duty"], units: System = "SI", *, optional: bool = False) -> dict[str, Any]:
+    """Return the plain data of a starter.
 
     Parameters
     ----------
-    kind : {"overland", "in-plant", "downhill"}
-        Conveyor.
+    kind : {"overland", "in-plant", "downhill", "duty"}
+        Conveyor; or the duty of one that is to be sized.
     units : {"SI", "US"}
         System of units.
     optional : bool

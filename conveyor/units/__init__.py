@@ -36,6 +36,7 @@ from conveyor.units.quantities import (
     TemperatureDifference,
     Thickness,
     Time,
+    Torque,
     Viscosity,
     between,
     convert,

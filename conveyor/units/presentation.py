@@ -70,7 +70,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
         "strength": _Kind("lbf/in", ",.1f"), "pressure": _Kind("psi", ",.1f"), "mass": _Kind("lb", ",.0f"),
         "line mass": _Kind("lb/ft", ".2f"), "mass flow": _Kind("stph", ",.1f"), "power": _Kind("hp", ",.1f"),
         "torque": _Kind("lbf ft", ",.0f"), "temperature": _Kind("degF", ".1f"), "density": _Kind("lb/ft³", ",.1f"),
-        "inertia": _Kind("lb ft²", ",.1f"),
+        "inertia": _Kind("lb ft²", ",.1f"), "rise": _Kind("Δ°F", ",.0f"),
         "carbon dioxide": _Kind("metric ton", ",.0f"), "conveyed": _Kind("short ton", ",.0f"),
         "area mass": _Kind("lb/ft²", ".4f"), "carryback": _Kind("lb/h", ",.1f"),
         "specific energy": _Kind("kWh/(short ton mile)", ".4f"),
@@ -79,6 +79,7 @@ _KINDS: Final[dict[System, dict[str, _Kind]]] = {
 _SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
     "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048, "short ton": 907.18474, "metric ton": 1000.0,
     "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg m²": 1.0, "lb ft²": 0.45359237 * 0.3048**2, "K": 1.0,
+    "Δ°F": 5.0 / 9.0,
 }  # fmt: skip
 """Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
 

@@ -269,7 +269,8 @@ _SI_LABELS = {
     "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
     "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
     "inertia": "kg m²",
-    "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "bending stiffness": "N m²", "viscosity": "m²/s",
+    "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "torque": "N m", "bending stiffness": "N m²",
+    "viscosity": "m²/s",
 }  # fmt: skip
 
 
@@ -450,6 +451,7 @@ AngularFrequency = Annotated[Quantity, Measure("angular frequency")]
 Rotation = Annotated[Quantity, Measure("rotation")]
 ForcePerRotation = Annotated[Quantity, Measure("force per rotation")]
 Moment = Annotated[Quantity, Measure("moment")]
+Torque = Annotated[Quantity, Measure("torque")]
 BendingStiffness = Annotated[Quantity, Measure("bending stiffness")]
 Viscosity = Annotated[Quantity, Measure("viscosity")]
 Temperature = Annotated[Quantity, Measure("temperature")]

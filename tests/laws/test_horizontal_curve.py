@@ -92,6 +92,30 @@ def test_a_flat_belt_is_held_by_banking_and_friction_alone():
     assert pushes == pytest.approx([math.sin(beta) + mu * math.cos(beta)] * 3, rel=ROUNDING)
 
 
+def test_a_flat_set_holds_the_course_of_its_belt():
+    """There and back; at small angles W 3 μ s/(ε_s L); at all what rolls in a trough of no depth push."""
+    law = curve.FlatDrift(
+        200.0,
+        banking_angle=math.radians(2),
+        skew=0.002,
+        friction=0.35,
+        full_slip=0.05,
+        length=40.0,
+        reach=0.7,
+    )
+    for drift in (-0.3, 0.0, 0.1, 0.6):
+        assert law.drift(law.force(drift)) == pytest.approx(drift, abs=1e-12)
+    slope = 200.0 * math.cos(law.banking_angle) * 3.0 * 0.35 / (0.05 * 40.0)
+    middle = -0.002 * 40.0  # where the belt runs square to its rolls
+    assert law.force(middle + 1e-6) - law.force(middle) == pytest.approx(slope * 1e-6, rel=1e-4)
+    assert law.force(middle) == pytest.approx(200.0 * math.sin(law.banking_angle))
+    assert law.most == pytest.approx(
+        200.0 * (math.sin(law.banking_angle) + 0.35 * math.cos(law.banking_angle))
+    )
+    assert law.drift(1.001 * law.most) == math.inf
+    assert law.drift(-law.most) == -math.inf
+
+
 def test_guiding_friction_rises_from_nothing_to_all():
     given = {"friction": 0.4, "full_slip": 0.05}
     small = 1e-9

@@ -222,10 +222,71 @@ def test_a_hill_in_the_curve_presses_the_belt_into_its_trough(found):
     assert forces == pytest.approx([load.force for s in hill.line.stretches for load in s.loads], rel=1e-5)
 
 
-def test_flat_strands_are_refused_in_a_curve():
-    bad = data(route={"sections": [CURVE], "pulleys": PULLEYS})
-    with pytest.raises(InputError, match=r"idlers.return.rolls: got 1, .*nothing holds a flat belt"):
+FLAT = {"return": {"rolls": 1, "spacing": "3 m", "roll": _ROLL | {"length": "1400 mm"}}}
+
+
+def flat(*bends, **route):
+    """A flat return strand in one or more curves, one behind the other."""
+    sections = [CURVE | {"return_banking": "1.5 deg"} | bend for bend in bends]
+    given = {
+        "sections": [*sections, {"name": "c", "length": "200 m", "lift": "10 m"}],
+        "pulleys": PULLEYS,
+    } | route
+    return calculate(from_data(data(idlers=FLAT, route=given, calculation={"strain": "off"})))
+
+
+def of_return(found):
+    return [bend for bend in found.horizontal if bend.strand == "return"]
+
+
+def test_a_flat_strand_drifts_along_its_curve():
+    """T a/R = W [sin β + κ(s/L) cos β]; a curve in two halves ends where the whole one does, mirrored ones too."""
+    whole = flat({"length": "60 m"})
+    (bend,) = of_return(whole)
+    stretch, turn = _stretch(whole, bend), bend.turn
+    weight = 3.0 * stretch.belt_mass * 9.81 * math.cos(stretch.inclination)
+    assert math.fsum(load.force for load in turn.weights) == pytest.approx(weight, rel=1e-4)
+    for state in bend.states:
+        pull = 2.0 * (state.highest - stretch.line_mass * 4.0**2) * math.sin(1.5 / 1800.0)
+        asked = (pull / weight - math.sin(math.radians(1.5))) / math.cos(math.radians(1.5))
+        share = 0.7 if asked > 0.0 else 1.0  # the guiding friction that lets it farther in
+        turned = math.radians(3.0) * (1.0 - (1.0 - abs(asked) / (share * 0.35)) ** (1.0 / 3.0))
+        assert state.inside == pytest.approx(60.0 * math.copysign(turned, asked), rel=1e-3)
+        assert state.outside <= state.inside
+    halves = flat({"length": "30 m", "name": "one"}, {"length": "30 m", "name": "two"})
+    last, first = of_return(halves)  # the return strand comes from the head
+    assert (first.section, last.section) == ("one", "two")
+    back = flat(
+        {"length": "30 m", "name": "one"}, {"length": "30 m", "name": "two", "horizontal_curve": "right"}
+    )
+    turned, _ = of_return(back)
+    for one, two, both, other in zip(last.states, first.states, bend.states, turned.states, strict=True):
+        assert one.inside < two.inside <= both.inside * (1.0 + 1e-6)  # by the highest tension of each half
+        assert two.inside == pytest.approx(both.inside, rel=0.1)
+        ahead = back.horizontal[-1].states[first.states.index(two)].inside
+        assert ahead == pytest.approx(two.inside - one.inside - other.outside, rel=1e-6)
+
+
+def test_a_flat_strand_falls_off_a_long_curve():
+    with pytest.raises(
+        NoSolutionError, match=r"runs off its rolls to the inside .* more banking or a trough"
+    ):
+        flat({"horizontal_radius": "600 m", "return_banking": "0 deg", "carry_banking": "6 deg"})
+
+
+def test_rolls_that_hold_no_belt_are_refused_in_a_curve():
+    pair = {"rolls": 2, "spacing": "3 m", "roll": _ROLL}
+    bad = data(idlers={"return": pair}, route={"sections": [CURVE], "pulleys": PULLEYS})
+    with pytest.raises(
+        InputError, match=r"idlers.return.trough_angle: got 0 deg, .*take a trough, or rolls: 1"
+    ):
         from_data(bad)
+    four = pair | {"rolls": 4, "load_shares": ["25 %"] * 4, "trough_angle": "10 deg"}
+    with pytest.raises(InputError, match=r"idlers.return.rolls: got 4, .*known for 1 to 3 rolls"):
+        from_data(data(idlers={"return": four}, route={"sections": [CURVE], "pulleys": PULLEYS}))
+
+
+def test_more_than_half_a_turn_is_refused():
     with pytest.raises(
         InputError, match=r"turn by 344 deg, more than 180 deg in a section: take 95.493 m or more"
     ):

@@ -22,6 +22,7 @@ from conveyor.sizing import size
 from conveyor.sizing.around import around
 from conveyor.sizing.designs import settled
 from conveyor.sizing.screen import Candidates, first_levels, screen
+from conveyor.sizing.spacing import graduated_spacings, section_spacings
 from conveyor.study_file import read_duty
 from tests.command_line import run
 
@@ -139,6 +140,41 @@ def test_sets_stand_no_farther_apart_than_sag_allows(sized):
                 lowest = min(steady.starts[i], steady.ends[i])
                 load = (stretch.belt_mass + stretch.bulk_mass) * one.line.gravity
                 assert load * stretch.spacing / (8.0 * lowest) <= 0.01 * (1.0 + 1e-6)
+
+
+CLIMB = """\
+    - {name: first, length: 200 m, lift: 30 m}
+    - {name: second, length: 200 m, lift: 30 m}
+    - {name: third, length: 200 m, lift: 30 m}
+"""
+
+
+def test_sets_may_stand_farther_apart_where_the_belt_is_tighter():
+    """A climb tightens the belt section by section: wide sets above, closer ones below, each within its sag.
+
+    The even design stays in the list, so that graduating never costs.
+    """
+    text = DUTY.replace("    - {name: high, length: 120 m, lift: 12 m}\n", CLIMB)
+    text = text.replace("[650 mm, 800 mm]", "[800 mm]").replace("[2 m/s, 2.5 m/s]", "[2.5 m/s]")
+    wide = duty(text.replace("[1.2 m, 1.5 m]", "[2 m, 3 m, 5 m]").replace("[3 m]", "[6 m]"))
+    task, best = SizingTask(wide), size(wide, best=1).best
+    even = size(wide.replace(rules=wide.rules.replace(graduated=False)), best=1).best
+    assert best.year <= even.year * (1.0 + 1e-9)
+    tried = [apart for apart in graduated_spacings(task, even) if len(set(apart)) > 1]
+    assert tried
+    for apart, found in zip(
+        tried,
+        settled(task, [(replace(even.choice, graduated=apart), even.chosen, 0.0) for apart in tried], []),
+        strict=True,
+    ):
+        assert list(apart) == sorted(apart)
+        rows = list(section_spacings(task, found))
+        assert [row.built for row in rows] == pytest.approx([*apart, *[6.0] * 4])
+        for row in rows:
+            assert row.built <= min(row.sag * (1.0 + 1e-6), row.bearings)
+            least = row.cost(row.cheapest)  # d(g a^(1/3) + f/a)/da = 0
+            assert least == pytest.approx(4.0 * row.falls / row.cheapest)
+            assert all(row.cost(row.cheapest * factor) > least for factor in (0.9, 1.1))
 
 
 def test_the_command_writes_specs_that_run(tmp_path):

@@ -112,7 +112,35 @@ def oil_viscosity(
 def walther(
     first: float, first_viscosity: float, second: float, second_viscosity: float
 ) -> tuple[float, float]:
-    """A and B of log log(ν + 0.7) = A - B log T through two points [K, m²/s]."""
+    """A and B of ln log10(ν + 0.7) = A - B ln T through two points (ASTM D341, equation 1).
+
+    Parameters
+    ----------
+    first : float
+        Temperature of a point [K], positive.
+    first_viscosity : float
+        ν there [m²/s], above 0.3 mm²/s.
+    second : float
+        Another temperature [K], positive.
+    second_viscosity : float
+        ν there [m²/s], above 0.3 mm²/s.
+
+    Returns
+    -------
+    tuple of float
+        A and B [-], with ν in mm²/s and T in K.
+
+    Raises
+    ------
+    ValueError
+        A viscosity is not above 0.3 mm²/s; `oil_viscosity` checks its own.
+
+    Examples
+    --------
+    >>> a, b = walther(313.0, 32e-6, 373.0, 5.4e-6)
+    >>> round(10.0 ** math.exp(a - b * math.log(353.0)) - 0.7, 1)
+    8.5
+    """
     thick, thin = (
         math.log(math.log10(viscosity / CENTISTOKES + WALTHER_OFFSET))
         for viscosity in (first_viscosity, second_viscosity)

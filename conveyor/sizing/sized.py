@@ -1,0 +1,65 @@
+"""A design that keeps every rule: what it is made of, its calculations, its cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from conveyor.line.task import Choice, Chosen
+from conveyor.models import Conveyor
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.sizing.costs import Costs
+
+
+@dataclass(frozen=True, eq=False)
+class SizedDesign:
+    """A design that keeps every rule.
+
+    Attributes
+    ----------
+    choice, chosen : Choice, Chosen
+        What it is made of.
+    found : CalculatedConveyor
+        At the temperature of the duty; its spec is `found.conveyor`.
+    coldest : CalculatedConveyor
+        At the lowest temperature: motors and strength; `found` where the duty has none lower.
+    costs : Costs
+        Capital and a year.
+    estimate : float
+        Cost of a year by the closed estimate that chose it [currency/a].
+    roll_life : float
+        Of the set that lives shortest, L10 of its bearings [s].
+    """
+
+    choice: Choice
+    chosen: Chosen
+    found: CalculatedConveyor
+    coldest: CalculatedConveyor
+    costs: Costs
+    estimate: float
+    roll_life: float
+
+    @property
+    def conveyor(self) -> Conveyor:
+        """Its spec."""
+        return self.found.conveyor
+
+    @property
+    def year(self) -> float:
+        """Cost of a year [currency/a]."""
+        return float(self.costs.year)
+
+    @property
+    def safety(self) -> float:
+        """Of the belt in steady running, at the lowest temperature [-]."""
+        return self.chosen.carcass.strength * self.found.line.belt.width / highest_tension(self.pair)
+
+    @property
+    def pair(self) -> tuple[CalculatedConveyor, CalculatedConveyor]:
+        """Both calculations."""
+        return self.found, self.coldest
+
+
+def highest_tension(pair: Iterable[CalculatedConveyor]) -> float:
+    """Highest in steady running [N]."""
+    return max(one.belt_duty.largest_steady for one in pair)

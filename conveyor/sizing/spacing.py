@@ -1,0 +1,144 @@
+"""How far apart the idler sets of a design could stand in each section: by sag, by their bearings, by cost."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.laws.roll_life import BALL_EXPONENT
+from conveyor.line.roll_lives import set_life
+from conveyor.line.task import SizingTask
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.sizing.sized import SizedDesign
+
+
+@dataclass(frozen=True)
+class SectionSpacing:
+    """The sets of one strand in a section.
+
+    Attributes
+    ----------
+    section, strand : str
+        Where.
+    length, built : float
+        Of the section; their distance [m].
+    sag : float
+        Widest that sag allows at the lowest steady tension there [m].
+    tension_per_spacing : float
+        What sag asks of the tension for a metre of distance [N/m].
+    bearings : float
+        Widest that the L10 asked for of a set's bearings allows; infinite without load [m].
+    grows, falls : float
+        Cost of a year of a metre with a distance a, grows a^(1/3) + falls/a [currency/a].
+    """
+
+    section: str
+    strand: str
+    length: float
+    built: float
+    sag: float
+    tension_per_spacing: float
+    bearings: float
+    grows: float
+    falls: float
+
+    @property
+    def cheapest(self) -> float:
+        """Where the cost has its minimum, (3 falls/grows)^(3/4) [m]."""
+        return math.pow(3.0 * self.falls / self.grows, 0.75)
+
+    def cost(self, spacing: float) -> float:
+        """Of a year, of indentation, rotation and the sets themselves [currency/(a m)]."""
+        return self.grows * math.cbrt(spacing) + self.falls / spacing
+
+
+def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionSpacing]:
+    """The sections of both strands, each from the tail: carry sets first.
+
+    Parameters
+    ----------
+    task : SizingTask
+        The duty.
+    design : SizedDesign
+        Whose tensions and friction count.
+
+    Notes
+    -----
+    Per metre of section, with a distance a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by
+    the scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. The life of the bearings
+    falls with the third power of the load.
+    """
+    line, prices = design.found.line, task.duty.prices.amounts
+    width, roll, count = design.choice.trough.width, design.choice.roll, line.count
+    yearly = float(design.costs.yearly["rolls"]) / float(design.costs.capital["rolls"])
+    worth = line.speed / task.efficiency * task.seconds / JOULE_PER_KWH * task.energy_price
+    rolls = {"carry": (3, width.three), "return": width.return_rolls[:2]}
+    for k, strand in enumerate(("carry", "return")):
+        number, long = rolls[strand]
+        one_set = (
+            number * (prices["roll"] + prices["roll_mass"] * roll.mass(long)) + prices["set"] * width.belt
+        )
+        for i, (length, _) in enumerate(task.sections):
+            at = i if strand == "carry" else 2 * count - 1 - i
+            stretch, forces = line.stretches[at], design.found.stretches[at].forces
+            now, lowest = stretch.spacing, min(_lowest(one, at) for one in design.pair)
+            per_spacing = stretch.line_mass * line.gravity / (8.0 * task.sags[k])
+            life = set_life(stretch, line.speed)
+            yield SectionSpacing(
+                section=stretch.section,
+                strand=strand,
+                length=length,
+                built=now,
+                sag=max(0.0, lowest) / per_spacing,
+                tension_per_spacing=per_spacing,
+                bearings=math.inf
+                if life is None
+                else now * math.pow(3600.0 * life.hours / task.roll_life, 1.0 / BALL_EXPONENT),
+                grows=worth * forces["indentation"] / length / math.cbrt(now),
+                falls=worth * forces["idler_rotation"] / length * now + yearly * one_set,
+            )
+
+
+def _lowest(one: CalculatedConveyor, at: int) -> float:
+    """Lowest tension of a stretch in steady running [N]; `at` counts as the line does, the loop begins at the head."""
+    steady, i = one.balance.settled.steady, (at + one.line.count) % (2 * one.line.count)
+    return float(min(steady.starts[i], steady.ends[i]))
+
+
+def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[float, ...]]:
+    """Distances of the carry sets of each section, the cheapest that sag and bearings bear there [m].
+
+    At the tensions of the design; and where sag sets the take-up, let down by what closer sets in the slackest section
+    allow, as far as everything else lets it.
+    """
+    carry = [one for one in section_spacings(task, design) if one.strand == "carry"]
+    slackest = min(carry, key=lambda one: one.sag / one.built)
+    spare, per_metre = _set_by_sag(design), slackest.tension_per_spacing
+    closer = (min(spare, (slackest.sag - a) * per_metre) for a in task.spacings[0] if a < slackest.built)
+    for let_down in dict.fromkeys((0.0, *(closer if spare > 0.0 else ()))):
+        yield tuple(min(_borne(task, design, one, let_down), key=one.cost) for one in carry)
+
+
+def _borne(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:
+    """Distances of the series that a section bears; the one it has is calculated to be borne at its own tensions."""
+    widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back)
+    borne = tuple(a for a in task.spacings[0] if a <= widest or (a == one.built and let_down == 0.0))
+    return borne or (min(task.spacings[0]),)
+
+
+def _set_by_sag(design: SizedDesign) -> float:
+    """What the sag of the carry strand alone asks of the take-up beyond all else, in every calculation [N]."""
+    return max(
+        0.0,
+        min(
+            one.balance.settled.setting
+            - max(
+                needed
+                for name, needed in one.balance.settled.conditions.items()
+                if not name.startswith("sag, carry")
+            )
+            for one in design.pair
+        ),
+    )
