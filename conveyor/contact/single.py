@@ -33,13 +33,11 @@ _CORE, _WIDEST_CORE = 64, 512
 _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
-_BEYOND_REACH, _FAR = (
-    2.0,
-    100.0,
-)  # that of the longest tail, and an error over rtol, where climbing is of no use
+_BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
-# of a single layer not yet resolved: friction errs by 2 to 7 times the energy where its error, rising with n, peaks
-_LAYER_OVER_ENERGY, _STEADY = 10.0, 2.0  # that multiple; power of n from which on errors are seen to fall
+# a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
+# where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
+_EARLY, _LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -131,9 +129,10 @@ def _converged(
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                if _resolution(scene, contact, last) < _RESOLVED:
-                    error = max(error, _LAYER_OVER_ENERGY * here[1])
-                if reach < _BEYOND_REACH and lost is not None and error > _FAR * rtol:
+                reached = _resolution(scene, contact, last)
+                if reached < _RESOLVED:
+                    error = max(error, min(_EARLY * reached, _LAYER_OVER_ENERGY) * here[1])
+                if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
             if (error <= rtol and decided) or following is None:

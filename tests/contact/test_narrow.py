@@ -232,3 +232,12 @@ def test_friction_keeps_its_relative_precision_however_small(pressure, zeta):
     (outcome,) = solve_narrow([problem], 1e-6)
     outcome = by_half_width(Scene.of(problem), 1e-6, outcome) if isinstance(outcome, Near) else outcome
     assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= 1e-6
+
+
+def test_memory_far_longer_than_the_passage():
+    # friction is as small as α/ζ = 1e-11, and inversely proportional to ζ
+    scene = ContactProblem("half-space", 1.6e-3, 2e-8, CreepSpectrum(1e-3, [0.999], [3e5]))
+    long = solve(scene)
+    longer = solve(replace(scene, creep=CreepSpectrum(1e-3, [0.999], [3e6])))
+    assert long.friction / longer.friction == pytest.approx(10.0, rel=1e-8)
+    assert long.energy_error < 1e-9
