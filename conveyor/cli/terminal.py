@@ -68,6 +68,9 @@ def grid(part: Part, system: System, title: str | None = None, *, large: bool = 
         made.add_row(*(
             words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
         ))  # fmt: skip
+    for column, drawn in zip(part.columns, made.columns, strict=True):
+        if column.kind != "text":  # words break where there is no room, numbers do not
+            drawn.min_width = max((cell.cell_len for cell in drawn.cells), default=None)
     return made
 
 

@@ -15,6 +15,7 @@ from conveyor.errors import InputError
 from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
+from conveyor.models.prices import Prices
 from conveyor.models.variants import scaled
 from conveyor.ranges import MOST, spaced
 from conveyor.units import between, quantity, si, text
@@ -197,6 +198,8 @@ class VariedSpec(Model):
     """Figures of which the least or the most is sought; the first orders the designs."""
     limits: Annotated[dict[str, Limit], Field(default_factory=dict)]
     """What figures have to keep."""
+    prices: Prices = Field(default_factory=lambda: Prices.from_data({}))
+    """Of the parts, field by field before those of the library of prices."""
 
     @property
     def drawn(self) -> tuple[str, ...]:
@@ -252,6 +255,11 @@ class VariedSpec(Model):
         if not self.rows or HOURS not in self.rows[0]:
             return None
         return tuple(hours_of(row[HOURS]) or 0.0 for row in self.rows)
+
+    def currency(self, base: Conveyor) -> str:
+        """Of all costs: that of the spec's energy, else that of the parts."""
+        energy = None if base.operation is None else base.operation.price
+        return self.prices.currency if energy is None else energy.currency
 
     @property
     def designed(self) -> tuple[str, ...]:

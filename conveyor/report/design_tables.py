@@ -81,7 +81,7 @@ def best(study: Explored) -> Table:
         Column("design", "count", attrgetter("number")),
         *(Column(field.label, "text", _change(field.path), key=field.path) for field in study.fields),
         *(
-            Column(figure.label, priced(figure.kind, study.base), _figure(name), key=name)
+            Column(figure.label, priced(figure.kind, study.currency), _figure(name), key=name)
             for name, figure in study.figures.items()
         ),
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
@@ -112,7 +112,7 @@ def on_the_front(study: Explored) -> Table:
         *(
             Column(
                 study.figures[name].label,
-                priced(study.figures[name].kind, study.base),
+                priced(study.figures[name].kind, study.currency),
                 _sought(study, k),
                 key=name,
             )
@@ -139,7 +139,7 @@ def effects(study: Explored) -> Table:
         else []
     )
     figure = study.figures[next(iter(study.sought))]
-    kind = priced(figure.kind, study.base)
+    kind = priced(figure.kind, study.currency)
     columns = (
         Column("field", "text", itemgetter(0)),
         Column("value", "text", lambda row: row[1].value),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
@@ -25,8 +26,9 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
+from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
-from conveyor.studies.points import OUTPUTS, Answer, Job, answers, outputs_of
+from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
 
 BATCH: Final = 64
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -91,6 +93,8 @@ class Campaign:
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
         asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(OUTPUTS))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
+        if plan.outputs or plan.figures or plan.best or plan.limits:
+            _refuse_unpriced(plan, base, outputs)
         return cls(plan, base, {name: resolve(name) for name in sorted(named)}, outputs)
 
     @property
@@ -111,15 +115,43 @@ class Campaign:
         """Figures of a design by name."""
         return figures_of(self.plan, self.base)
 
+    @property
+    def currency(self) -> str:
+        """Of all costs."""
+        return self.plan.currency(self.base)
+
     @cached_property
     def job(self) -> Job:
         """What its batches follow from."""
-        return Job.of(self.base, self.outputs, self.compounds)
+        return Job.of(self.base, self.asked, self.compounds)
+
+    @cached_property
+    def asked(self) -> tuple[str, ...]:
+        """What is calculated of points."""
+        return asked_of(self.outputs)
+
+    @cached_property
+    def _pricing(self) -> tuple[Mapping[str, float], float]:
+        """Prices of parts, none where they have none, and the time that parts wear in a year [s]."""
+        hours, operation = self.plan.hours, self.base.operation
+        if any(_unpriced(self.plan, self.base)):
+            return {}, 0.0
+        seconds = (
+            operation.seconds_per_year if hours is None and operation else 3600.0 * math.fsum(hours or ())
+        )
+        return self.plan.prices.amounts, seconds
+
+    def answer(self, known: Answers, point: bytes) -> Answer:
+        """Figures asked for of a point whose answer is known by its key."""
+        return priced(known[point], self.asked, self.outputs, *self._pricing)
 
     @cached_property
     def _common(self) -> hashlib._Hash:
-        """Hash of what every point follows from."""
-        return _hash([version("conveyor"), fingerprint(self.base), self.outputs])
+        """Hash of what every point follows from: without those fields of the spec that no answer does."""
+        idle = ("name", "notes", "cases", "scenarios", "uncertainty")
+        yearly = ("energy_per_year", "cost_per_year")
+        timed = () if any(key in self.asked for key in yearly) else ("operation",)
+        return _hash([version("conveyor"), fingerprint(self.base, without=(*idle, *timed)), self.asked])
 
     @cached_property
     def _rubber(self) -> dict[str, dict[Value, str]]:
@@ -137,6 +169,23 @@ class Campaign:
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
         return digest.digest()[:16]
+
+
+def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
+    """What keeps every point of a plan from having costs of parts."""
+    yield from (f"{field} is not given" for field in unpriced(base) if field not in plan.paths)
+    if plan.hours is None and base.operation is None:
+        yield "operation.hours_per_year is not given"
+    if plan.currency(base) != plan.prices.currency:
+        yield f"operation.price is in {plan.currency(base)}, prices are in {plan.prices.currency}"
+
+
+def _refuse_unpriced(plan: VariedSpec, base: Conveyor, outputs: Iterable[str]) -> None:
+    """Refuse costs of parts that are asked for where no point has them."""
+    for key in outputs:
+        why = list(_unpriced(plan, base)) if OUTPUTS[key].priced else []
+        if why:
+            raise InputError(f"{key}: {'; '.join(why)}")
 
 
 def _hash(data: object) -> hashlib._Hash:
@@ -316,7 +365,7 @@ def keyed_points(campaign: Campaign) -> Iterator[tuple[int, Keyed]]:
 def point_of(campaign: Campaign, known: Answers, number: int, keyed: Keyed) -> Point:
     """A point of a number whose answer is known."""
     key, point = keyed
-    return number, tuple(point[path] for path in campaign.plan.paths), known[key]
+    return number, tuple(point[path] for path in campaign.plan.paths), campaign.answer(known, key)
 
 
 def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
@@ -327,6 +376,6 @@ def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
 
 def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
     """A design whose points have answers, over its states."""
-    answers = [known[campaign.key(point)] for point in campaign.plan.points_of(design)]
+    answers = [campaign.answer(known, campaign.key(point)) for point in campaign.plan.points_of(design)]
     made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers)
     return Design(number, design, *made)

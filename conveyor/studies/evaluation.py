@@ -131,6 +131,11 @@ class Explored:
     count: int
 
     @property
+    def currency(self) -> str:
+        """Of all costs."""
+        return self.plan.currency(self.base)
+
+    @property
     def costs(self) -> Array:
         """What is sought with less better, shape `(n, sought)`."""
         return self.found * signs(self.sought)
@@ -181,7 +186,8 @@ def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[s
     priced = (
         operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
     )
-    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if priced and name in known)
+    cost = "total_cost_per_year" if plan.figures and "total_cost_per_year" in known else "cost_per_year"
+    usual = tuple(name for name in (cost, "energy_per_year") if priced and name in known)
     return dict(plan.best) or dict.fromkeys(usual or known[:1], "least")
 
 

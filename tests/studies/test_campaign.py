@@ -273,7 +273,9 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
 
 
 def test_every_figure_can_be_asked_for(line, tmp_path):
-    study = campaign(line, axes={"belt.speed": ["1 m/s"]}, outputs=list(OUTPUTS))
+    timed = line.replace(operation={"hours_per_year": "5000 h", "price": "0.1 EUR/kWh"})
+    study = campaign(timed, axes={"belt.speed": ["1 m/s"]}, outputs=list(OUTPUTS))
     ((*_, answer),) = answered(study, tmp_path / "a")
     assert len(answer) == len(OUTPUTS)
+    assert None not in answer
     assert BATCH > 1
