@@ -474,7 +474,7 @@ def _design(
     if parts is None:
         raise AssertionError("a sized spec lists its parts")
     cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy)
-    return SizedDesign(choice, chosen, result, loads[0], cost, estimate, parts.roll_life)
+    return SizedDesign(choice, chosen, result, loads[0], cost, estimate, roll_life(result))
 
 
 def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:

@@ -14,6 +14,7 @@ import math
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
@@ -208,25 +209,47 @@ class Answers:
         except sqlite3.OperationalError as error:
             raise InputError(f"{path}: cannot be written ({error})") from None
         try:
-            (mark,) = self._file.execute("PRAGMA application_id").fetchone()
-            (pages,) = self._file.execute("PRAGMA page_count").fetchone()
-            if not pages:
-                self._file.execute(f"PRAGMA application_id = {_MARK}")
-                self._file.execute("CREATE TABLE answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID")
-        except sqlite3.OperationalError as error:
+            with self._told():
+                self._begin()
+        except ConveyorError as error:
             self._file.close()
-            raise InputError(f"{path}: cannot be written ({error}); another run of the study?") from None
-        except sqlite3.DatabaseError:
-            mark, pages = 0, 1
+            raise InputError(str(error)) from None
+
+    def _begin(self) -> None:
+        """Make the table in a file that is new, or that a full disk left without one."""
+        (mark,) = self._file.execute("PRAGMA application_id").fetchone()
+        (pages,) = self._file.execute("PRAGMA page_count").fetchone()
         if pages and mark != _MARK:
-            self._file.close()
-            raise InputError(f"{path}: holds something else than answers of a study; remove it")
+            raise InputError(f"{self._path}: holds something else than answers of a study; remove it")
+        with self._file:
+            self._file.execute("BEGIN IMMEDIATE")
+            self._file.execute(f"PRAGMA application_id = {_MARK}")
+            self._file.execute(
+                "CREATE TABLE IF NOT EXISTS answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID"
+            )
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Say what keeps the file from being read or written."""
+        try:
+            yield
+        except sqlite3.OperationalError as error:
+            other = "another run of the study writes to it" if "locked" in str(error) else "make room"
+            raise ConveyorError(
+                f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
+            ) from None
+        except sqlite3.DatabaseError as error:
+            raise InputError(
+                f"{self._path}: holds something else than answers of a study, or is damaged ({error}); remove it"
+            ) from None
 
     def __contains__(self, key: bytes) -> bool:
-        return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
+        with self._told():
+            return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
 
     def __getitem__(self, key: bytes) -> Answer:
-        (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
+        with self._told():
+            (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
         answer: Answer = json.loads(text)
         return answer
 
@@ -239,17 +262,13 @@ class Answers:
             They cannot be written: the disk is full, or another run of the study writes.
         """
         lines = [(key, json.dumps(answer)) for key, answer in answers]
-        try:
-            with self._file:
-                self._file.execute("BEGIN IMMEDIATE")
-                self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
-        except sqlite3.OperationalError as error:
-            raise ConveyorError(
-                f"{self._path}: cannot be written ({error}); what is done is kept: run it again to go on"
-            ) from None
+        with self._told(), self._file:
+            self._file.execute("BEGIN IMMEDIATE")
+            self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
 
     def __len__(self) -> int:
-        (count,) = self._file.execute("SELECT count(*) FROM answers").fetchone()
+        with self._told():
+            (count,) = self._file.execute("SELECT count(*) FROM answers").fetchone()
         return int(count)
 
     def __enter__(self) -> Self:

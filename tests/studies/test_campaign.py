@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
+import os
 import re
 import sqlite3
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -19,7 +21,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import calculate
-from conveyor.report.point_tables import PartedTable, of_points
+from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
 from conveyor.studies.points import OUTPUTS, RTOL
 from tests.command_line import run as command
@@ -240,7 +242,7 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
 
     def instead(_, points):
         calls.extend(points)
-        return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
+        return by_speed(_, points)
 
     study, folder = campaign(line), tmp_path / "points"
 
@@ -270,6 +272,85 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     (folder / "mine.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is no part of such a table"):
         run_into(folder, tmp_path / "a")
+
+
+def by_speed(_, points):
+    """Figures of points at once, instead of their calculation."""
+    return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
+
+
+def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:3:0.002 m/s"})
+    with Answers(path) as known:
+        known._file.execute("PRAGMA max_page_count = 4")  # as a disk without room for a fifth page
+        with pytest.raises(
+            ConveyorError, match=r"disk is full; make room.*what is done is kept: run it again"
+        ):
+            run(study, known)
+        kept = len(known)
+    assert 0 < kept < study.plan.count
+    asked = []
+    monkeypatch.setattr(
+        "conveyor.studies.campaign.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+    )
+    assert answered(study, path) == answered(study, tmp_path / "whole")
+    assert len(asked) == (study.plan.count - kept) + study.plan.count
+
+
+def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.report.point_tables.PART", 8)
+    monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
+    study, folder = campaign(line, axes={"belt.speed": "1:1.31:0.01 m/s"}), tmp_path / "points"
+
+    def run_into(folder):
+        with Answers(tmp_path / "a") as known:
+
+            def row(number, keyed):
+                return point_of(study, known, number, keyed)
+
+            run(
+                study, known, answered=PartedTable(of_points(study, "SI"), folder, study.plan.count, row).take
+            )
+
+    write, begun = CampaignTable._csv, []
+
+    def full(self, path, rows):
+        begun.append(path)
+        count = write(self, path, rows)
+        if len(begun) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return count
+
+    monkeypatch.setattr(CampaignTable, "_csv", full)
+    with pytest.raises(InputError, match=r"part-00003.csv: cannot be written \(No space left on device\)"):
+        run_into(folder)
+    assert sorted(file.name for file in folder.iterdir()) == ["part-00001.csv", "part-00002.csv"]
+    run_into(folder)
+    run_into(tmp_path / "whole")
+    assert [file.read_bytes() for file in sorted(folder.iterdir())] == [
+        file.read_bytes() for file in sorted((tmp_path / "whole").iterdir())
+    ]
+
+
+def test_a_file_of_answers_that_a_full_disk_left_without_a_table_is_begun_again(tmp_path):
+    with Answers(tmp_path / "a"):
+        pass
+    with closing(sqlite3.connect(tmp_path / "a")) as file, file:
+        file.execute("DROP TABLE answers")
+    with Answers(tmp_path / "a") as known:
+        assert len(known) == 0
+
+
+def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.001 m/s"})
+    answered(study, path)
+    data = path.read_bytes()
+    path.write_bytes(data[:8192] + b"x" * 8192 + data[16384:])
+    with pytest.raises(InputError, match="or is damaged"):
+        answered(study, path)
 
 
 def test_every_figure_can_be_asked_for(line, tmp_path):
