@@ -136,7 +136,7 @@ def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch)
     alone = answered(study, tmp_path / "alone")
     with ThreadPoolExecutor(3) as threads:
         assert answered(study, tmp_path / "threads", executor=threads, workers=3) == alone
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
         found = answered(study, tmp_path / "processes", executor=processes, workers=2)
     same(found, alone)
 
