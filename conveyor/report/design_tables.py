@@ -135,7 +135,7 @@ def effects(study: Explored) -> Table:
     """Effect of each field to what is sought first, one row a field and value."""
     rows = (
         [(study.fields[k].path, effect) for k in study.ordered for effect in study.effects(k)]
-        if study.count
+        if len(study.values)
         else []
     )
     figure = study.figures[next(iter(study.sought))]

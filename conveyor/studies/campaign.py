@@ -25,11 +25,13 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
+from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
 from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
+from conveyor.units import Quantity, quantity
 
 BATCH: Final = 64
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -96,7 +98,9 @@ class Campaign:
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
-        return cls(plan, base, {name: resolve(name) for name in sorted(named)}, outputs)
+        compounds = {name: resolve(name) for name in sorted(named)}
+        _refuse_other_kinds(plan, base, compounds)
+        return cls(plan, base, compounds, outputs)
 
     @property
     def listed(self) -> StudyPlan:
@@ -170,6 +174,22 @@ class Campaign:
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
         return digest.digest()[:16]
+
+
+def _refuse_other_kinds(plan: VariedSpec, base: Conveyor, compounds: Mapping[str, RubberCompound]) -> None:
+    """Refuse values in units that their fields never have; what is beyond a range has no answer, and says so there."""
+    for row in plan.given:
+        for path, value in row.items():
+            like = field_of(base, path)
+            if isinstance(like, Quantity) and not _alike(value, like):
+                with_fields(base, row, resolve=compounds.__getitem__)
+
+
+def _alike(value: Value, like: Quantity) -> bool:
+    try:
+        return isinstance(value, str) and quantity(value).dimensionality == like.dimensionality
+    except InputError:
+        return False
 
 
 def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:

@@ -185,6 +185,10 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
         ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),
         ({"axes": {"belt.sped": ["1 m/s"]}}, "did you mean speed"),
+        ({"axes": {"belt.speed": ["1 m/s", "2 kg"]}}, r'belt.speed: got "2 kg" \(a mass\), expected a speed'),
+        ({"axes": {"belt.speed": "1:2:0.5"}}, "belt.speed: got 1.0 without a unit"),
+        ({"states": [{"material.flow": "1 m"}]}, r'material.flow: got "1 m" \(a length\)'),
+        ({"axes": {x: f"1:2:0.001 {x}" for x in "abc"}}, "1,003,003,001 points, at most 10,000,000"),
         ({"axes": {"belt.top_cover.compound": ["no-such"]}}, 'unknown compound "no-such"'),
     ],
 )  # fmt: skip
@@ -272,6 +276,16 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     (folder / "mine.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is no part of such a table"):
         run_into(folder, tmp_path / "a")
+
+
+def test_a_study_without_any_answer_says_why_and_draws_nothing(tmp_path):
+    file, page = tmp_path / "study.json", tmp_path / "page.html"
+    plan = PLAN | {"base": str(SPECS / "shuttle.yaml"), "axes": {"belt.speed": ["0.001 m/s", "0.002 m/s"]}}
+    file.write_text(json.dumps(plan), encoding="utf-8")
+    done = command("study", file, "-o", tmp_path / "t.csv", "--html", page, "--plots", tmp_path / "figures")
+    assert done.returncode == 0, done.stderr
+    assert "2 without an answer" in done.stdout
+    assert "raise belt.speed" in page.read_text(encoding="utf-8")
 
 
 def by_speed(_, points):
