@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 import re
+from array import array
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -205,7 +206,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     fields = varied(plan)
     sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
-    values, reached, keeps, numbers = [], [], [], []
+    values, reached, keeps, numbers = array("d"), array("d"), bytearray(), array("q")
     refused: Counter[str] = Counter()
     best: list[tuple[tuple[bool, float, int], Design]] = []
     count = 0
@@ -216,14 +217,14 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
             refused[design.why or f"it has no {missing}"] += 1
             continue
         told = [value for value in known if value is not None]
-        values.append([field.number(design.changes[field.path]) for field in fields])
-        reached.append(told)
+        values.extend(field.number(design.changes[field.path]) for field in fields)
+        reached.extend(told)
         keeps.append(design.keeps)
         numbers.append(design.number)
         rank = (design.keeps, -float(told[0] * sign[0]), -design.number)
         heapq.heappush(best, (rank, design)) if len(best) < BEST else heapq.heappushpop(best, (rank, design))
     costs = np.array(reached).reshape(-1, len(sought))
-    kept = np.array(keeps, dtype=bool)
+    kept = np.frombuffer(keeps, dtype=bool)
     beaten_by_none = np.zeros(len(kept), dtype=bool)
     beaten_by_none[kept] = front(costs[kept] * sign)
     return Explored(
