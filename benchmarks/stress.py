@@ -32,6 +32,7 @@ RTOL, FINE = 1e-6, 1e-10
 GRID, SEEN = 1 << 14, 40  # nodes in a period; nodes in the narrowest strip that make the grid worth asking
 STEEPEST = 0.01  # E0/E∞ below which the edge layers are thinner than any grid
 SHOWN = 8
+USUAL, QUICK = 1000.0, 100  # E∞/E0 that reaches any tolerance; references that a refusal may take
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,9 @@ class Outcome:
     energy: float = 0.0
     grid_off: float = math.nan
     strips: int = 0
+    edge: float = math.nan  # how far the edges and the largest pressure are off, over their estimates
+    peak: float = math.nan
+    stiffening: float = 1.0  # E∞/E0
 
 
 def random_problem(rng: np.random.Generator) -> ContactProblem:
@@ -86,7 +90,7 @@ def describe(problem: ContactProblem) -> str:
 def run(index: int, problem: ContactProblem) -> Outcome:
     """Solve one scene; anything but a status or a ConveyorError is a fault of the solver and ends as its name."""
     began = time.process_time()
-    scene = describe(problem)
+    scene, stiffening = describe(problem), 1.0 / problem.creep.instantaneous
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -97,7 +101,7 @@ def run(index: int, problem: ContactProblem) -> Outcome:
         return Outcome(index, scene, f"FAULT {type(fault).__name__}: {fault}", time.process_time() - began)
     seconds = time.process_time() - began
     if found.status is not Status.OK:
-        return Outcome(index, scene, found.status.name, seconds, found.stats.order)
+        return Outcome(index, scene, found.status.name, seconds, found.stats.order, stiffening=stiffening)
     if not all(
         math.isfinite(v) for v in (found.friction, found.half_width, found.penetration, found.peak_pressure)
     ):
@@ -117,7 +121,17 @@ def run(index: int, problem: ContactProblem) -> Outcome:
         found.energy_error,
         against_grid(found),
         len(found.patches),
+        *fields_off(found, fine),
+        stiffening,
     )
+
+
+def fields_off(found: ContactSolution, fine: ContactSolution) -> tuple[float, float]:
+    """How far edges and largest pressure are off, over their estimates; NaN without a finer solution."""
+    if fine.status is not Status.OK or len(fine.patches) != len(found.patches):
+        return math.nan, math.nan
+    peak = abs(fine.peak_pressure / found.peak_pressure - 1.0)
+    return float(np.abs(fine.patches - found.patches).max()) / found.edge_error, peak / found.peak_error
 
 
 def against_grid(found: ContactSolution) -> float:
@@ -186,6 +200,18 @@ def main(count: int, seed: int, processes: int, first: int) -> int:
     worst = max((o.true_error / o.estimate for o in known), default=0.0)
     print(f"true error above rtol: {beyond}; above the estimate: {above} ({above / max(len(known), 1):.2%}), "
           f"at most {worst:.2g} of it")  # fmt: skip
+    for name in ("edge", "peak"):
+        over = [getattr(o, name) for o in known]
+        print(f"{name} off, over its estimate: median {np.nanmedian(over):.2g}, worst {np.nanmax(over):.2g}; "
+              f"above it {sum(x > 1.0 for x in over)}")  # fmt: skip
+    usual = [o for o in outcomes if o.stiffening <= USUAL]
+    ways = Counter(o.ending.split(":")[0] for o in usual)
+    rough = sum(o.ending == "OK" and math.isnan(o.true_error) for o in usual)
+    print(f"E∞/E0 up to {USUAL:g}: {len(usual)}, {dict(ways)}; solved but not to {FINE:g}: {rough}")
+    refused = [o for o in outcomes if o.ending in ("WRAP_LIMIT", "TOO_THIN", "NOT_CONVERGED")]
+    print(
+        f"refused {len(refused)}, in more than {QUICK} references {sum(o.seconds > QUICK * unit for o in refused)}"
+    )
     split = [o for o in solved if o.strips > 1]
     gridded = [o for o in solved if not math.isnan(o.grid_off)]
     print(f"split {len(split)}; seen by the grid {len(gridded)}, there with other strips "

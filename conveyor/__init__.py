@@ -38,32 +38,12 @@ if TYPE_CHECKING:
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
-    "Analysis": "conveyor.analysis",
-    "CalibrationStudy": "conveyor.analysis",
-    "CaseStudy": "conveyor.analysis",
-    "Comparison": "conveyor.analysis",
-    "Conveyor": "conveyor.models",
-    "ConveyorError": "conveyor.errors",
-    "DutyStudy": "conveyor.analysis",
-    "InputError": "conveyor.errors",
-    "NoSolutionError": "conveyor.errors",
-    "RangeError": "conveyor.errors",
-    "RubberCompound": "conveyor.models",
-    "ValidityWarning": "conveyor.errors",
-    "Sizing": "conveyor.designs",
-    "Study": "conveyor.designs",
-    "VerificationSheet": "conveyor.analysis",
-    "analyse": "conveyor.analysis",
-    "analyse_cases": "conveyor.analysis",
-    "analyse_duty": "conveyor.analysis",
-    "calibrate": "conveyor.analysis",
-    "compare": "conveyor.analysis",
-    "compare_compounds": "conveyor.analysis",
-    "load": "conveyor.spec",
-    "size": "conveyor.designs",
-    "study": "conveyor.designs",
-    "verify_sheet": "conveyor.analysis",
+    "conveyor.designs": ("Sizing", "Study", "size", "study"),
+    "conveyor.errors": ("ConveyorError", "InputError", "NoSolutionError", "RangeError", "ValidityWarning"),
+    "conveyor.models": ("Conveyor", "RubberCompound"),
+    "conveyor.spec": ("load",),
 }
+"""Modules of names; `conveyor.analysis` has the others."""
 
 __all__ = [
     "Analysis",
@@ -112,8 +92,9 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("conveyor")
-    if name in _WHERE:
-        return getattr(import_module(_WHERE[name]), name)
+    if name in __all__:
+        module = next((module for module, names in _WHERE.items() if name in names), "conveyor.analysis")
+        return getattr(import_module(module), name)
     if name in _MODULES:
         return import_module(_MODULES[name])
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -84,11 +84,7 @@ class Analysis(CalculatedConveyor):
             return self
         own = states.own
         return replace(
-            self,
-            contacts=own.contacts,
-            balance=own.balance,
-            fixed=own.fixed,
-            convergence=own.convergence,
+            self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence
         )
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
@@ -139,11 +135,7 @@ class Analysis(CalculatedConveyor):
 
     @checked
     def to_excel(
-        self,
-        path: str | Path,
-        studies: Studies | None = None,
-        *,
-        system: System | None = None,
+        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
         """Write the workbook, with the sheets of `conveyor.studies` where they are given.
 
@@ -199,11 +191,7 @@ class Analysis(CalculatedConveyor):
 
     @checked
     def to_html(
-        self,
-        path: str | Path,
-        studies: Studies | None = None,
-        *,
-        system: System | None = None,
+        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
         """Write the HTML report, one static page, with the parts of `conveyor.studies` where they are given.
 
@@ -241,9 +229,9 @@ class Analysis(CalculatedConveyor):
 
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""
-        from conveyor.report import representations
+        from conveyor.report.page import in_short
 
-        return representations.of_analysis(self.contents())
+        return in_short(self.contents())
 
 
 class CaseStudy(case_study.CalculatedCases):
@@ -403,7 +391,7 @@ class Comparison(compound_study.CalculatedComparison):
         """For notebooks: the ranking and what to know of it."""
         from conveyor.report import comparison_tables
 
-        return comparison_tables.notebook(self)
+        return comparison_tables.notebook_of_comparison(self)
 
 
 class CalibrationStudy(calibration_study.CalculatedCalibration):
@@ -484,10 +472,7 @@ verify_sheet = _facing(verification_study.verification, VerificationSheet)
 
 
 def studies(
-    conveyor: Conveyor,
-    given: CalculatedConveyor | None = None,
-    *,
-    progress: study.Progress | None = None,
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: study.Progress | None = None
 ) -> Studies:
     """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
     made = study.studies(conveyor, given, progress=progress)

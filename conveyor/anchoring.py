@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -114,13 +113,13 @@ def rows(anchored: Anchored) -> Table:
     tests = anchored.compound.tests
     points = [test.points() for test in tests]
     columns = (
-        Column("line load", "line force", attrgetter("line_load"), json="line_load_N_per_m"),
+        Column("line load", "line force", "line_load", json="line_load_N_per_m"),
         Column("roll", "size", lambda row: 2.0 * points[row.test].radius, json="roll_mm"),
         Column("cover", "size", lambda row: points[row.test].cover_thickness, json="cover_mm"),
         Column("speed", "speed", lambda row: points[row.test].speed, json="speed_m_per_s"),
-        Column("temperature", "temperature", attrgetter("temperature"), json="temperature_degC"),
-        Column("measured", "line force", attrgetter("measured"), json="measured_N_per_m"),
-        Column("theory", "line force", attrgetter("calculated"), json="theory_N_per_m"),
+        Column("temperature", "temperature", "temperature", json="temperature_degC"),
+        Column("measured", "line force", "measured", json="measured_N_per_m"),
+        Column("theory", "line force", "calculated", json="theory_N_per_m"),
         Column("ratio", "factor", lambda row: row.measured / row.calculated, json="ratio"),
         Column("residual", "share", anchored.left, json="left"),
     )

@@ -121,6 +121,8 @@ def _holds(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
     """Whether a container is one, and holds what it may."""
     if origin in {Sequence, Iterable} and isinstance(value, str | bytes):
         return False
+    if getattr(origin, "_is_protocol", False):
+        return True
     if isinstance(origin, type) and not isinstance(value, origin):
         return False
     if isinstance(value, Mapping) and len(arguments) == 2:

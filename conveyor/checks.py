@@ -7,6 +7,7 @@ say, nothing else says what passes. Of all cases the one with the least margin g
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
@@ -38,6 +39,7 @@ Relation = Literal["at least", "at most"]
 _AT_MOST: Final[Relation] = "at most"
 _AT_LEAST: Final[Relation] = "at least"
 _HALF_TROUGH: Final = 0.5
+_FIGURE: Final = re.compile(r"(?<!{){(?:calculated|required)}(?!})")
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
 
@@ -123,8 +125,10 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     *,
     source: str = "",
     wording: Said | None = None,
+    asked: Said | None = None,
+    holds: bool | None = None,
     missing: str = "",
-    why: Said | None = None,
+    why: Said | str | None = None,
     where: str = "",
 ) -> Check:
     """Check a figure against its limit.
@@ -143,10 +147,14 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
         Where the limit comes from.
     wording : Said, optional
         The calculated figure in other words.
+    asked : Said, optional
+        What is required in other words.
+    holds : bool, optional
+        Whether it is met, where the figures alone do not tell.
     missing : str
         What to say where no limit is known.
-    why : Said, optional
-        What to say where it fails.
+    why : Said or str, optional
+        What to say where it fails; in plain words {calculated} and {required} stand for the figures.
     where : str
         What decides in it.
     """
@@ -157,9 +165,14 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
         return Check(
             key, name, calculated, None, kind, shown, shortfall, "not checked", None, relation, where
         )
-    passed = calculated >= required if relation == "at least" else calculated <= required
-    asked = said(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
-    judged = verdict(holds=passed)
+    if holds is None:
+        holds = calculated >= required if relation == "at least" else calculated <= required
+    if asked is None:
+        asked = said(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
+    if isinstance(why, str):
+        figures = {"{calculated}": (calculated, kind), "{required}": (required, kind)}
+        why = Said(_FIGURE.sub("{}", why), tuple(figures[word] for word in _FIGURE.findall(why)))
+    judged = verdict(holds=holds)
     return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
 
@@ -219,42 +232,22 @@ def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
         certain = abs(least) > abs(most)
         power = least if certain else most
         who = "the motor" if len(line.drives) == 1 else f'"{quoted(drive.name)}"'
-        why = None
-        if drive.power is not None:
-            why = said(
-                f"{who} requires {{}}, {{}} are installed: install more power",
-                (abs(power), "power"),
-                (drive.power, "power"),
-            )
         yield compared(
-            "motor_power",
-            f"motor power, {quoted(drive.name)}",
-            abs(power),
-            "at most",
-            drive.power,
-            "power",
+            "motor_power", f"motor power, {quoted(drive.name)}", abs(power), "at most", drive.power, "power",
             wording=said("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
-            missing="installed power not given",
-            why=why,
-            where="least friction" if certain else "",
-        )
+            missing="installed power not given", where="least friction" if certain else "",
+            why=f"{who} requires {{calculated}}, {{required}} are installed: install more power",
+        )  # fmt: skip
 
 
 def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
     settled = result.balance.settled
-    governing = settled.condition_name(settled.governed_by)
-    for name, asked in (settled.short or {governing: settled.needed}).items():
-        why = said(
-            f"the take-up holds {{}}, {quoted(name)} requires {{}}",
-            (settled.setting, "force"),
-            (asked, "force"),
-        )
-        made = compared(
-            "take_up_tension", "take-up tension", settled.setting, "at least", asked, "force",
-            why=why, where=name,
+    for name, asked in (settled.short or {settled.governing: settled.needed}).items():
+        yield compared(
+            "take_up_tension", "take-up tension", settled.setting, "at least", asked, "force", holds=not settled.short,
+            why=f"the take-up holds {{calculated}}, {quoted(name)} requires {{required}}", where=name,
         )  # fmt: skip
-        yield replace(made, verdict=verdict(holds=not settled.short))
 
 
 def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
@@ -265,8 +258,7 @@ def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
     if unit.kind == "screw":
         yield compared(
             "screw_take_up", "length of a conveyor with a screw take-up", result.line.length, "at most", SCREW_LENGTH,
-            "length", source="general knowledge",
-            why=said("a screw take-up on {}: give it a weight or a winch", (result.line.length, "length")),
+            "length", source="general knowledge", why="a screw take-up on {calculated}: give it a weight or a winch",
         )  # fmt: skip
 
 
@@ -274,27 +266,16 @@ def reach(duty: TakeUpDuty) -> Iterator[Check]:
     """Travel and speed that loads ask of the take-up, where its spec gives them."""
     unit, travel = duty.unit, duty.travel
     if unit.travel is not None and travel is not None:
-        why = said(
-            "the take-up has {} of travel, {} are needed", (unit.travel, "length"), (travel.whole, "length")
-        )
+        why = "the take-up has {required} of travel, {calculated} are needed"
         yield compared(
             "take_up_travel", "travel of the take-up", travel.whole, "at most", unit.travel, "length", why=why
         )
     if unit.winch is not None and duty.speed is not None:
-        why = said(
-            "the winch moves its carriage at {}, a start asks for {}: the belt slackens behind the drive meanwhile",
-            (unit.winch[0], "speed"),
-            (duty.speed, "speed"),
-        )
         yield compared(
-            "winch_speed",
-            "speed of the winch through a start",
-            duty.speed,
-            "at most",
-            unit.winch[0],
-            "speed",
-            why=why,
-        )
+            "winch_speed", "speed of the winch through a start", duty.speed, "at most", unit.winch[0], "speed",
+            why="the winch moves its carriage at {required}, a start asks for {calculated}: the belt slackens behind "
+            "the drive meanwhile",
+        )  # fmt: skip
 
 
 def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
@@ -303,17 +284,12 @@ def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
         for drive, side in zip(result.line.drives, state.drives, strict=True):
             needed = grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
             name = quoted(drive.name)
-            why = said(
-                f'the belt slips on "{name}" in the state "{state.name}": {{}} on its slack side, {{}} are needed; '
-                "raise the take-up's tension, the wrap or the friction (lagging)",
-                (side.slack, "force"),
-                (needed, "force"),
-            )
-            made = compared(
+            yield compared(
                 "drive_grip", f"grip of {name}, {state.name}", side.slack, "at least", needed, "force",
-                wording=said("{} on the slack side", (side.slack, "force")), why=why,
+                wording=said("{} on the slack side", (side.slack, "force")), holds=holds(side.slack, needed),
+                why=f'the belt slips on "{name}" in the state "{state.name}": {{calculated}} on its slack side, '
+                "{required} are needed; raise the take-up's tension, the wrap or the friction (lagging)",
             )  # fmt: skip
-            yield replace(made, verdict=verdict(holds=holds(side.slack, needed)))
 
 
 def sag(result: CalculatedConveyor) -> Iterator[Check]:
@@ -331,16 +307,12 @@ def sag(result: CalculatedConveyor) -> Iterator[Check]:
         ]
         k, i = min(places, key=lambda at: over[at[0]][at[1]])
         tension, needed, section = float(lowest[k][i]), float(shape.least[i]), shape.stretches[i].section
-        why = said(
-            f'the belt sags more than allowed in section "{quoted(section)}", {strand}: tension {{}}, {{}} are needed',
-            (tension, "force"),
-            (needed, "force"),
-        )
-        made = compared(
+        yield compared(
             "sag", f"minimum tension (sag), {strand}", tension, "at least", needed, "force",
-            why=why, where=f"{section}, {running[k].name}",
+            holds=holds(tension, needed), where=f"{section}, {running[k].name}",
+            why=f'the belt sags more than allowed in section "{quoted(section)}", {strand}: tension {{calculated}}, '
+            "{required} are needed",
         )  # fmt: skip
-        yield replace(made, verdict=verdict(holds=holds(tension, needed)))
 
 
 def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
@@ -348,16 +320,12 @@ def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
     states = every_state(result.balance, result.motions)
     slack = [state for state in states if state.slack]
     for state in slack or [min(states, key=lambda state: state.smallest)]:
-        why = said(
-            f'the belt goes slack in the state "{state.name}": down to {{}}; raise the take-up\'s tension, or slow '
-            "the stop by a flywheel or the drives",
-            (state.smallest, "force"),
-        )
-        made = compared(
+        yield compared(
             "slack_belt", "minimum belt tension, all states", state.smallest, "at least", 0.0, "force",
-            why=why, where=state.name,
+            asked=said("at least 0 (not slack)"), where=state.name,
+            why=f'the belt goes slack in the state "{state.name}": down to {{calculated}}; raise the take-up\'s '
+            "tension, or slow the stop by a flywheel or the drives",
         )  # fmt: skip
-        yield replace(made, asked=said("at least 0 (not slack)"))
 
 
 def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
@@ -376,8 +344,7 @@ def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
         (safety, "safety"),
         (needed, "number"),
     )
-    made = compared("belt_safety", subject, safety, "at least", needed, "safety", why=why)
-    yield replace(made, asked=asked)
+    yield compared("belt_safety", subject, safety, "at least", needed, "safety", asked=asked, why=why)
 
 
 def belt_rating(result: CalculatedConveyor) -> Iterator[Check]:
@@ -403,11 +370,8 @@ def belt_breakage(result: CalculatedConveyor) -> Iterator[Check]:
     """The largest tension of all states is below the belt's strength; said only where it is not."""
     safety = result.belt_duty.safety
     if safety is not None and safety < 1.0:
-        why = said(
-            "the belt's strength is exceeded: safety {} at {}",
-            (safety, "safety"),
-            (result.belt_duty.largest, "force"),
-        )
+        largest = (result.belt_duty.largest, "force")
+        why = said("the belt's strength is exceeded: safety {} at {}", (safety, "safety"), largest)
         yield compared(
             "belt_breakage", "belt safety factor, all states", safety, "at least", 1.0, "safety", why=why
         )
@@ -419,14 +383,11 @@ def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
     if strength is None:
         return
     for what, needed in duty.strength_needed.items():
-        why = said(
-            f"the splice requires a belt of {{}} ({what}; DIN 22101:2002, factors general knowledge), given: {{}}",
-            (needed, "belt strength"),
-            (strength, "belt strength"),
-        )
         name = "belt strength for the splice" + ("" if what == "steady" else f", {what}")
         yield compared(
-            "splice_strength", name, strength, "at least", needed, "belt strength", source="DIN 22101:2002", why=why,
+            "splice_strength", name, strength, "at least", needed, "belt strength", source="DIN 22101:2002",
+            why=f"the splice requires a belt of {{required}} ({what}; DIN 22101:2002, factors general knowledge), "
+            "given: {calculated}",
         )  # fmt: skip
 
 
@@ -452,14 +413,9 @@ def belt_temperature(result: CalculatedConveyor) -> Iterator[Check]:
         if limit is None:
             continue
         end = "lowest" if relation == "at least" else "highest"
-        why = said(
-            "the covers are at {}, the belt bears {} " + relation,
-            (result.temperature, "temperature"),
-            (limit, "temperature"),
-        )
         yield compared(
             "belt_temperature", f"{end} temperature of the covers", result.temperature, relation, limit, "temperature",
-            why=why,
+            why="the covers are at {calculated}, the belt bears {required} " + relation,
         )  # fmt: skip
 
 
@@ -593,15 +549,11 @@ def impact_load(result: CalculatedConveyor) -> Iterator[Check]:
         if point.lump_mass is not None and landing.lump is None:
             missing = "spring rate for the lump (idler_stiffness) not given"
         rating = None if point.lump_mass is not None and landing.lump is None else point.idler_rating
-        why = said(
-            f"the bulk lands on sets{quoted(point.name)} with {{}}, they bear {{}}: less drop, sets closer together "
-            "(stream) or softer (lumps), a heavier series",
-            (load, "force"),
-            (point.idler_rating or 0.0, "force"),
-        )
         yield compared(
             "impact_load", f"load of an impact set{quoted(point.name)}", load, "at most", rating, "force",
-            source="its maker", missing=missing, why=why,
+            source="its maker", missing=missing,
+            why=f"the bulk lands on sets{quoted(point.name)} with {{calculated}}, they bear {{required}}: less drop, "
+            "sets closer together (stream) or softer (lumps), a heavier series",
         )  # fmt: skip
 
 
@@ -610,15 +562,11 @@ def skirtboards(result: CalculatedConveyor) -> Iterator[Check]:
     for landing in result.landings:
         point = landing.point
         if point.skirtboards is not None:
-            why = said(
-                f"the skirtboards{quoted(point.name)} end {{}} behind the place of loading, the bulk has the belt's "
-                "speed after {}: longer ones, or bulk that lands faster",
-                (point.skirtboards, "length"),
-                (landing.acceleration, "length"),
-            )
             yield compared(
                 "skirtboards", f"length of the skirtboards{quoted(point.name)}", point.skirtboards, "at least",
-                landing.acceleration, "length", source="zone of acceleration, ISO 5048", why=why,
+                landing.acceleration, "length", source="zone of acceleration, ISO 5048",
+                why=f"the skirtboards{quoted(point.name)} end {{calculated}} behind the place of loading, the bulk has "
+                "the belt's speed after {required}: longer ones, or bulk that lands faster",
             )  # fmt: skip
 
 
@@ -628,14 +576,10 @@ def belt_cleaning(result: CalculatedConveyor) -> Iterator[Check]:
     if on_belt is not None:
         left = result.cleanings[-1].left if result.cleanings else None
         left = on_belt if left is None else left
-        why = said(
-            "the cleaners leave {} on the belt, {} is allowed: one more, or better ones",
-            (left, "area mass"),
-            (allowed or 0.0, "area mass"),
-        )
         yield compared(
             "belt_cleaning", "bulk left on the belt behind its cleaners", left, "at most", allowed, "area mass",
-            missing="carryback_allowed not given", why=why,
+            missing="carryback_allowed not given",
+            why="the cleaners leave {calculated} on the belt, {required} is allowed: one more, or better ones",
         )  # fmt: skip
 
 
@@ -662,10 +606,8 @@ def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
             continue
         safety, where = duty.safety
         why = said(f'the shaft of pulley "{name}" is too thin for bending and torsion{cure}', *needed)
-        made = compared(
-            "pulley_shaft_safety", subject, safety, "at least", SHAFT_SAFETY, "safety", why=why, where=where
-        )
-        yield replace(made, asked=asked)
+        yield compared("pulley_shaft_safety", subject, safety, "at least", SHAFT_SAFETY, "safety", asked=asked,
+                       why=why, where=where)  # fmt: skip
 
 
 def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
@@ -674,17 +616,13 @@ def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
         hours, seconds, asked = duty.bearing_hours, duty.bearing_seconds, duty.pulley.bearing_life
         if hours is None or seconds is None:
             continue
-        name = quoted(duty.pulley.name)
-        why = None
-        if asked is not None:
-            why = said(
-                f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {asked / 3600.0:,.0f} h are required'
-            )
-        made = compared(
+        name, needed = quoted(duty.pulley.name), f"{(asked or 0.0) / 3600.0:,.0f} h"
+        yield compared(
             "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
-            wording=said(f"{hours:,.0f} h"), missing="life asked of it (bearing_life) not given", why=why,
+            wording=said(f"{hours:,.0f} h"), asked=said(f"at least {needed}"),
+            missing="life asked of it (bearing_life) not given",
+            why=f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {needed} are required',
         )  # fmt: skip
-        yield made if asked is None else replace(made, asked=said(f"at least {asked / 3600.0:,.0f} h"))
 
 
 def lagging(result: CalculatedConveyor) -> Iterator[Check]:
@@ -692,14 +630,10 @@ def lagging(result: CalculatedConveyor) -> Iterator[Check]:
     for duty in result.pulley_duty:
         allowed, name = duty.pulley.allowed_pressure, quoted(duty.pulley.name)
         if allowed is not None:
-            why = said(
-                f'the belt presses with {{}} on the lagging of pulley "{name}", it bears {{}}; a larger diameter',
-                (duty.pressure, "pressure"),
-                (allowed, "pressure"),
-            )
             yield compared(
                 "lagging_pressure", f"pressure on the lagging, {name} pulley", duty.pressure, "at most", allowed,
-                "pressure", why=why,
+                "pressure", why=f'the belt presses with {{calculated}} on the lagging of pulley "{name}", it bears '
+                "{required}; a larger diameter",
             )  # fmt: skip
 
 
@@ -710,38 +644,24 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
         return
     if start.available is not None and start.least is not None:
         if start.asked is not None:
-            why = said(
-                "the motors give {} at the start (drive.torque_factor, torque_curve), {} are required "
-                f"(drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady force; "
-                "more power, torque or a softer start",
-                (start.least, "force"),
-                (start.asked, "force"),
+            why = (
+                "the motors give {required} at the start (drive.torque_factor, torque_curve), {calculated} are "
+                f"required (drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady "
+                "force; more power, torque or a softer start"
             )
             given, limit, relation = start.asked, start.least, _AT_MOST
         else:
-            why = said(
-                "the motors give at least {} during run-up (drive.torque_factor, torque_curve), the belt requires {}: "
-                "more power or torque",
-                (start.least, "force"),
-                (result.balance.settled.force, "force"),
+            why = (
+                "the motors give at least {calculated} during run-up (drive.torque_factor, torque_curve), the belt "
+                "requires {required}: more power or torque"
             )
             given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
         yield compared("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
-    why = said(
-        "the starting force of {} does not overcome the resistance after standstill, up to {}: "
-        "raise drive.start_factor or the motors' torque",
-        (start.standstill, "force"),
-        (start.breakaway, "force"),
-    )
     yield compared(
-        "breakaway",
-        "starting force after standstill",
-        start.standstill,
-        "at least",
-        start.breakaway,
-        "force",
-        why=why,
-    )
+        "breakaway", "starting force after standstill", start.standstill, "at least", start.breakaway, "force",
+        why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
+        "raise drive.start_factor or the motors' torque",
+    )  # fmt: skip
 
 
 def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
@@ -782,30 +702,22 @@ def holding(result: CalculatedConveyor) -> Iterator[Check]:
     moving, line = result.motions, result.line
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
-    shown = None if given else said("no brake given")
     if moving.brake_to_hold > 0.0:
         what = "backstop" if moving.rolls_back else "brake"
         bear = _backstops(line) if moving.rolls_back else ()
         known = given or bool(bear)
         none = "no brake given, nor what a backstop bears" if moving.rolls_back else "no brake given"
-        why = said(
-            f"the loaded belt needs a {what} of {{}} at the belt to stay at rest",
-            (moving.brake_to_hold, "force"),
-        )
         made = compared(
             "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
-            moving.brake_to_hold, "force", wording=None if known else said(none), why=why,
+            moving.brake_to_hold, "force", wording=None if known else said(none),
+            why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
         )  # fmt: skip
         yield made if known else replace(made, verdict="not checked")
     if moving.brake_to_stop is not None:
-        why = said(
-            "drive.stop_deceleration requires brakes of {} at the belt, given: {}",
-            (moving.brake_to_stop, "force"),
-            (brakes, "force"),
-        )
         yield compared(
             "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
-            "force", wording=shown, why=why,
+            "force", wording=None if given else said("no brake given"),
+            why="drive.stop_deceleration requires brakes of {required} at the belt, given: {calculated}",
         )  # fmt: skip
 
 
@@ -825,42 +737,24 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
     for duty in result.drive_duty:
         name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
         if parts.backstop is not None and duty.backstop is not None:
-            why = said(
-                f'the backstop of "{name}" bears {{}}, {{}} are asked of it', (parts.backstop, "moment"),
-                (duty.backstop, "moment"),
-            )  # fmt: skip
             yield compared(
                 "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
-                "moment", why=why, where="holding" if duty.backstop == duty.holding else "motors stalled",
+                "moment", where="holding" if duty.backstop == duty.holding else "motors stalled",
+                why=f'the backstop of "{name}" bears {{required}}, {{calculated}} are asked of it',
             )  # fmt: skip
         if parts.heat is not None and duty.heat is not None:
-            why = said(
-                f'a stop leaves {{}} in the brake of "{name}", it bears {{}}',
-                (duty.heat, "energy"),
-                (parts.heat, "energy"),
-            )
             yield compared(
-                "brake_heat",
-                f"heat of a stop in the brake, {name}",
-                duty.heat,
-                "at most",
-                parts.heat,
-                "energy",
-                why=why,
-            )
+                "brake_heat", f"heat of a stop in the brake, {name}", duty.heat, "at most", parts.heat, "energy",
+                why=f'a stop leaves {{calculated}} in the brake of "{name}", it bears {{required}}',
+            )  # fmt: skip
         if parts.starts is not None and duty.allowed_starts is not None:
             yield _starts(name, parts.starts, duty.allowed_starts)
         if duty.shared is not None and installed is not None:
-            power = abs(motor(duty.shared))
-            why = said(
-                f'"{name}" takes {{}} where nothing but the belt couples the drives, installed: {{}}; control the '
-                "sharing, or choose motors of more slip and pulleys alike",
-                (power, "power"),
-                (installed, "power"),
-            )
             yield compared(
-                "load_sharing", f"motor power by uncontrolled sharing, {name}", power, "at most", installed, "power",
-                why=why,
+                "load_sharing", f"motor power by uncontrolled sharing, {name}", abs(motor(duty.shared)), "at most",
+                installed, "power",
+                why=f'"{name}" takes {{calculated}} where nothing but the belt couples the drives, installed: '
+                "{required}; control the sharing, or choose motors of more slip and pulleys alike",
             )  # fmt: skip
 
 
@@ -869,12 +763,12 @@ def _starts(name: str, asked: float, allowed: float | str) -> Check:
     if isinstance(allowed, str):
         wanted = said("{}", (asked, "number"))
         return Check("motor_starts", subject, asked, None, "number", wanted, said(allowed), "not checked")
-    why = said(
-        f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked for: '
-        "a coupling or an inverter"
-    )
-    made = compared("motor_starts", subject, asked, "at most", allowed, "number", why=why)
-    return replace(made, asked=said(f"at most {allowed:.2f} (NEMA MG 10)"))
+    return compared(
+        "motor_starts", subject, asked, "at most", allowed, "number",
+        asked=said(f"at most {allowed:.2f} (NEMA MG 10)"),
+        why=f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked '
+        "for: a coupling or an inverter",
+    )  # fmt: skip
 
 
 def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
@@ -886,11 +780,10 @@ def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
     figures = () if inertia is None else ((inertia, "inertia"),)
     cure = ": a flywheel of {} at the motors' shafts" if figures else ""
     why = said(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
-    made = compared(
+    yield compared(
         "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
-        wording=said(f"{stopped.time:,.1f} s"),
+        wording=said(f"{stopped.time:,.1f} s"), asked=said(f"at least {wanted:,.1f} s"),
     )  # fmt: skip
-    yield replace(made, asked=said(f"at least {wanted:,.1f} s"))
 
 
 def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
@@ -900,12 +793,10 @@ def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
         return
     if slip.sliding:
         where = quoted(", ".join(slip.sliding))
-        why = said(
-            f'the material slips on the belt in section "{where}" at any speed: too steep for its friction'
-        )
         yield Check(
             "bulk_slip", said("no material slip in running"), None, None, "acceleration", said(f"slips in {where}"),
-            said("no slip"), "FAIL", why,
+            said("no slip"), "FAIL",
+            said(f'the material slips on the belt in section "{where}" at any speed: too steep for its friction'),
         )  # fmt: skip
         return
     hardest, fastest = result.motions.hardest
@@ -913,20 +804,9 @@ def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
         ("bulk_slip_stopping", "on stopping", -hardest, -slip.braking, slip.braking_at),
         ("bulk_slip_start", "on starting", fastest, slip.starting, slip.starting_at),
     ):
-        why = said(
-            f'the material slips {when}: {{}}, section "{quoted(where)}" allows {{}}',
-            (occurs, "acceleration"),
-            (allowed, "acceleration"),
-        )
+        why = f'the material slips {when}: {{calculated}}, section "{quoted(where)}" allows {{required}}'
         yield compared(
-            key,
-            f"no material slip {when}",
-            occurs,
-            "at most",
-            allowed,
-            "acceleration",
-            why=why,
-            where=where,
+            key, f"no material slip {when}", occurs, "at most", allowed, "acceleration", why=why, where=where
         )
 
 
@@ -977,14 +857,11 @@ def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
         of_class = "" if limits.cema_class is None else f"CEMA class {limits.cema_class}"
         of_class += ", general knowledge" if limits.cema_class == "E" else ""
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
-        why = said(
-            f"{strand} sets in {quoted(worst.stretch.section)} bear {{}}, they are rated for {{}}{cure}",
-            (limits.load, "force"),
-            (rating, "force"),
-        )
+        section = worst.stretch.section
         yield compared(
-            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force",
-            source=of_class, why=why, where=worst.stretch.section,
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force", source=of_class,
+            where=section,
+            why=f"{strand} sets in {quoted(section)} bear {{calculated}}, they are rated for {{required}}{cure}",
         )  # fmt: skip
 
 
@@ -995,15 +872,11 @@ def roll_axle(result: CalculatedConveyor) -> Iterator[Check]:
         if not axles:
             continue
         axle, section = max(axles, key=lambda of: of[0].slope / of[0].allowed)
-        why = said(
-            f"the axle of the {axle.roll} roll, {strand}, {quoted(section)}, slopes by {{}} at its bearings, they bear "
-            "{}: a thicker axle, a closer spacing",
-            (axle.slope, "angle"),
-            (axle.allowed, "angle"),
-        )
         yield compared(
             "roll_axle", f"slope of the axle at its bearings, {strand} rolls", axle.slope, "at most", axle.allowed,
-            "angle", why=why, where=f"{axle.roll}, {section}",
+            "angle", where=f"{axle.roll}, {section}",
+            why=f"the axle of the {axle.roll} roll, {strand}, {quoted(section)}, slopes by {{calculated}} at its "
+            "bearings, they bear {required}: a thicker axle, a closer spacing",
         )  # fmt: skip
 
 
@@ -1023,12 +896,11 @@ def belt_flap(result: CalculatedConveyor) -> Iterator[Check]:
             f"{_band(worst.rotations)} Hz, the belt swings at {_band(worst.frequencies)} Hz and twice that{cure}",
             *figures,
         )
-        made = compared(
+        yield compared(
             "belt_flap", f"distance from resonance of belt and rolls, {strand}", worst.distance, "at least",
             worst.limits.flap_margin, "fraction", wording=said(percent(worst.distance)), why=why,
-            where=worst.stretch.section,
+            asked=said(f"at least {percent(worst.limits.flap_margin or 0.0)}"), where=worst.stretch.section,
         )  # fmt: skip
-        yield replace(made, asked=said(f"at least {percent(worst.limits.flap_margin or 0.0)}"))
 
 
 def _band(ends: tuple[float, float]) -> str:
@@ -1094,40 +966,9 @@ def covered(result: CalculatedConveyor) -> bool:
 OF_CONTACTS: Final = (penetration, rubber_coverage)
 """Criteria that need every roll's contact; the others need forces and tensions only."""
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
-    filling,
-    motor_power,
-    take_up_tension,
-    take_up_reach,
-    drive_grip,
-    sag,
-    slack_belt,
-    belt_safety,
-    belt_rating,
-    belt_breakage,
-    splice_strength,
-    cover_thickness,
-    belt_temperature,
-    pulley_diameter,
-    curve_radius,
-    horizontal_edges,
-    belt_drift,
-    transitions,
-    impact_load,
-    skirtboards,
-    belt_cleaning,
-    pulley_shaft,
-    pulley_bearings,
-    lagging,
-    starting_force,
-    comes_to_rest,
-    holding,
-    drive_parts,
-    coasting_time,
-    bulk_slip,
-    penetration,
-    roll_life,
-    set_rating,
-    roll_axle,
-    belt_flap,
-    rubber_coverage,
-)
+    filling, motor_power, take_up_tension, take_up_reach, drive_grip, sag, slack_belt, belt_safety, belt_rating,
+    belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
+    horizontal_edges, belt_drift, transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
+    pulley_bearings, lagging, starting_force, comes_to_rest, holding, drive_parts, coasting_time, bulk_slip,
+    penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,
+)  # fmt: skip

@@ -13,7 +13,7 @@ from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
-from conveyor.report import analysis_plots, loop_plots, plots, transfer_tables
+from conveyor.report import analysis_plots, plots, transfer_tables
 from conveyor.report.tables import boundaries
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
@@ -53,16 +53,16 @@ class AnalysisPlots:
     def tensions(self, *, system: System | None = None) -> Figure:
         """Tension round the loop in every state, and the least that the sag allows."""
         result = self.analysis
-        return loop_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
+        return analysis_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
 
     def flap(self, *, system: System | None = None) -> Figure:
         """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
-        return loop_plots.flap_diagram(self.analysis, system=self._in(system))
+        return analysis_plots.flap_diagram(self.analysis, system=self._in(system))
 
     def profile(self, *, system: System | None = None) -> Figure:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
-        return loop_plots.route_profile(
+        return analysis_plots.route_profile(
             conveyor, self.analysis.line, boundaries(self.analysis.line), system=self._in(system)
         )
 
@@ -80,7 +80,7 @@ class AnalysisPlots:
 
     def plan(self, *, system: System | None = None) -> Figure:
         """The route from above, with its horizontal curves."""
-        return loop_plots.plan(self.analysis.line, system=self._in(system))
+        return analysis_plots.plan(self.analysis.line, system=self._in(system))
 
     def drift(self, *, system: System | None = None) -> Figure:
         """Drift of the belt in every horizontal curve, over all states of motion.
@@ -92,7 +92,7 @@ class AnalysisPlots:
         """
         if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
-        return loop_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
+        return analysis_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
@@ -131,7 +131,7 @@ class AnalysisPlots:
         around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
         given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
         varied = _varied(conveyor, given, [conveyor.belt.speed])
-        return plots.power_against_temperature(varied, system=self._in(system))
+        return plots.power_over(varied, "temperature", system=self._in(system))
 
     def power_against_speed(
         self, speeds: Iterable[str | Quantity] | None = None, *, system: System | None = None
@@ -154,7 +154,7 @@ class AnalysisPlots:
         around = [scaled(conveyor.belt.speed, times) for times in _FASTER]
         given = around if speeds is None else [quantity(v, "speed") for v in speeds]
         varied = _varied(conveyor, [conveyor.ambient.belt], given)
-        return plots.power_against_speed(varied, system=self._in(system))
+        return plots.power_over(varied, "speed", system=self._in(system))
 
     def every(
         self, studies: CalculatedStudies | None = None, *, system: System | None = None
@@ -162,18 +162,12 @@ class AnalysisPlots:
         """All of these by name, and those of the studies where they are given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
+        drawn = [self.resistances, self.tensions, self.profile]
+        drawn += [self.plan, self.drift] if result.horizontal else []
+        drawn += [] if result.trajectory is None else [self.trajectory]
+        drawn += [self.pressure, *([self.flap] if result.set_duty else [])]
         made = {
-            "resistances": self.resistances(system=system),
-            "tensions": self.tensions(system=system),
-            "profile": self.profile(system=system),
-            **(
-                {"plan": self.plan(system=system), "drift": self.drift(system=system)}
-                if result.horizontal
-                else {}
-            ),
-            **({} if result.trajectory is None else {"trajectory": self.trajectory(system=system)}),
-            "pressure": self.pressure(system=system),
-            **({"flap": self.flap(system=system)} if result.set_duty else {}),
+            **{draw.__name__: draw(system=system) for draw in drawn},
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),
@@ -206,9 +200,9 @@ def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quant
 def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
     cases = studies.cases
     if cases is not None and len({result.temperature for result in cases.results}) > 1:
-        yield "cases-temperature", analysis_plots.case_power_against_temperature(cases, system=system)
+        yield "cases-temperature", analysis_plots.case_power(cases, "temperature", system=system)
     if cases is not None and len({result.speed for result in cases.results}) > 1:
-        yield "cases-speed", analysis_plots.case_power_against_speed(cases, system=system)
+        yield "cases-speed", analysis_plots.case_power(cases, "speed", system=system)
     if studies.uncertainty is not None:
         yield "ranges", analysis_plots.tornado(studies.uncertainty, system=system)
         exact = studies.uncertainty.monte_carlo
@@ -226,13 +220,13 @@ class ComparisonPlots:
         self, speed: float | None = None, *, system: System | None = None
     ) -> Figure:
         """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without."""
-        return plots.power_against_temperature(self.comparison, speed, system=self._in(system))
+        return plots.power_over(self.comparison, "temperature", speed, system=self._in(system))
 
     def power_against_speed(
         self, temperature: float | None = None, *, system: System | None = None
     ) -> Figure:
         """Motor power of every compound over speed at one temperature [K], that next to the spec's without."""
-        return plots.power_against_speed(self.comparison, temperature, system=self._in(system))
+        return plots.power_over(self.comparison, "speed", temperature, system=self._in(system))
 
     def loss_tangents(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
         """Loss tangents at one temperature [K], the spec's without, and the band that the rolls excite."""

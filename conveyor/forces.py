@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -38,7 +39,7 @@ from conveyor.laws.resistance import (
 from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
 from conveyor.line.stations import Spot
-from conveyor.line.strands import Strands
+from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Calibration
 
@@ -169,20 +170,45 @@ class WithoutRubber:
     unit_main: Array
     flexure: Array | None
 
+    def joined(self, back: WithoutRubber) -> WithoutRubber:
+        """Those along the carry strand, and behind them those along the return strand."""
+
+        def both(one: Array, other: Array) -> Array:
+            return np.concatenate([one, other])
+
+        none = np.zeros_like(self.lift)
+        skewed = (self.guidance, back.guidance)
+        flexed = (self.flexure, back.flexure)
+        return WithoutRubber(
+            tilt=both(self.tilt, back.tilt),
+            guidance=None
+            if skewed[0] is skewed[1] is None
+            else both(*(none if one is None else one for one in skewed)),
+            lift=both(self.lift, back.lift),
+            unit_main=both(self.unit_main, back.unit_main),
+            flexure=None if flexed[0] is None or flexed[1] is None else both(flexed[0], flexed[1]),
+        )
+
 
 def without_rubber(strands: Strands) -> WithoutRubber:
     """Forces along the belt that depend on its load alone."""
+    carry, back = map(strand_without_rubber, strands.each)
+    return carry.joined(back)
+
+
+def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
+    """Those along one strand, shape (n,)."""
 
     def each(law: Callable[[Stretch, float], float]) -> Array:
-        return np.array([law(stretch, strands.gravity) for stretch in strands.stretches])
+        return np.array([law(stretch, strand.gravity) for stretch in strand.stretches])
 
-    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strands.stretches)
+    skewed = any(stretch.turn is not None and stretch.turn.skew for stretch in strand.stretches)
     return WithoutRubber(
         tilt=each(_tilt),
         guidance=each(_guidance) if skewed else None,
         lift=each(_lift),
         unit_main=each(_unit_main),
-        flexure=each(_flexure) if strands.flexes else None,
+        flexure=each(_flexure) if strand.flexes else None,
     )
 
 
@@ -296,14 +322,7 @@ def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> For
 
 
 def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
-    def force(
-        key: str, name: str, kind: ForceKind, newtons: float, law: str, *, certain: bool = False, bulk: int
-    ) -> Force:
-        return Force(
-            key, f"{name}{point.name}", kind, newtons, _law(f"ISO 5048, {law}", point.assumed),
-            certain=certain, spot=point.spot, place=point.place, assumed=point.assumed, bulk=bulk,
-        )  # fmt: skip
-
+    name, here = point.name, partial(Force, spot=point.spot, place=point.place, assumed=point.assumed)
     length = acceleration_length(
         belt_speed=line.speed,
         initial_speed=point.speed,
@@ -313,20 +332,14 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
     if point.lift is not None and point.flow > 0.0:
         bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
         yield Force(
-            "tripper_lift", f"lift over the tripper{point.name}", "lift", bulk, "ISO 5048, F_St of the bulk",
+            "tripper_lift", f"lift over the tripper{name}", "lift", bulk, "ISO 5048, F_St of the bulk",
             certain=True, spot=point.before, place=point.place, bulk=point.comes_with,
         )  # fmt: skip
     if point.flow > 0.0 and (line.secondary != "C" or point.lift is not None):
         inertia = acceleration_resistance(point.flow, belt_speed=line.speed, initial_speed=point.speed)
-        yield force(
-            "acceleration",
-            "acceleration of the bulk",
-            "secondary",
-            inertia,
-            "F_bA",
-            certain=True,
-            bulk=point.comes_with,
-        )
+        law = _law("ISO 5048, F_bA", point.assumed)
+        yield here("acceleration", f"acceleration of the bulk{name}", "secondary", inertia, law, certain=True,
+                   bulk=point.comes_with)  # fmt: skip
         zone = acceleration_skirt_resistance(
             volume_flow=point.flow / line.density,
             bulk_density=line.density,
@@ -337,14 +350,14 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             skirt_friction=point.skirt_friction,
             gravity=line.gravity,
         )
-        yield force(
-            "loading_skirts", "skirts in the loading zone", "secondary", zone, "F_f", bulk=point.comes_with
-        )
+        law = _law("ISO 5048, F_f", point.assumed)
+        yield here("loading_skirts", f"skirts in the loading zone{name}", "secondary", zone, law,
+                   bulk=point.comes_with)  # fmt: skip
     if point.seal_drag > 0.0:
         boards = point.skirtboards or length + point.skirt_length
         drag = skirt_seal_resistance(boards, drag_per_length=point.seal_drag)
         yield Force(
-            "skirt_seals", f"seals of the skirts{point.name}", "special", drag, "seal_drag x length of the skirts",
+            "skirt_seals", f"seals of the skirts{name}", "special", drag, "seal_drag x length of the skirts",
             spot=point.spot, place=point.place,
         )  # fmt: skip
     if point.flow_beyond == 0.0:
@@ -359,7 +372,8 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         skirt_friction=point.skirt_friction,
         gravity=line.gravity,
     )
-    yield force("skirts", "skirts beyond the loading zone", "special", beyond, "F_gL", bulk=point.section)
+    law = _law("ISO 5048, F_gL", point.assumed)
+    yield here("skirts", f"skirts beyond the loading zone{name}", "special", beyond, law, bulk=point.section)
 
 
 def _law(source: str, assumed: bool) -> str:
@@ -438,19 +452,13 @@ class Bend:
     def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:
         """Both as forces with their names."""
         bend, turn = self.newtons(tight, slack, gravity)
-        name, spot, place, assumed = (
-            self.pulley.name,
-            self.pulley.spot,
-            self.pulley.place,
-            self.pulley.assumed,
-        )
+        name, assumed = self.pulley.name, self.pulley.assumed
+        here = partial(Force, spot=self.pulley.spot, place=self.pulley.place, assumed=assumed)
         law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
-        yield Force("wrap", f"wrap, {name}", "secondary", bend, law, spot=spot, place=place, assumed=assumed)
+        yield here("wrap", f"wrap, {name}", "secondary", bend, law)
         if self.bearings is not None:
-            yield Force(
-                "pulley_bearings", f"bearings, {name}", "secondary", turn, _law("ISO 5048, F_t", assumed),
-                spot=spot, place=place, assumed=assumed,
-            )  # fmt: skip
+            law = _law("ISO 5048, F_t", assumed)
+            yield here("pulley_bearings", f"bearings, {name}", "secondary", turn, law)
 
     def times(self, factor: float) -> Bend:
         """The same pulley with so much more resistance."""

@@ -81,12 +81,8 @@ def grid(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
     ]
     if len(rows) > _ROWS:
         body.append(element("tr", element("td", f"... {len(rows)} in all", colspan=str(len(names)))))
-    return element(
-        "table",
-        element("caption", caption, style=_STYLE),
-        element("thead", head),
-        element("tbody", *body),
-    )
+    above = element("caption", caption, style=_STYLE)
+    return element("table", above, element("thead", head), element("tbody", *body))
 
 
 def _shown(value: object) -> Html:

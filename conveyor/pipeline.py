@@ -11,20 +11,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from itertools import islice, repeat
 from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.forces import WithoutRubber, along_the_belt, without_rubber
-from conveyor.line.anchors import anchor
+from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
+from conveyor.laws.softening import softened_many
+from conveyor.line.anchors import Theory
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
+    FELT,
     CoverName,
     Covers,
     Level,
@@ -34,10 +36,12 @@ from conveyor.line.covers import (
     covers_of,
     rubbers,
     softened_covers,
+    told_apart,
 )
 from conveyor.line.line import Line
-from conveyor.line.strands import Strands
-from conveyor.line.stretches import STRANDS, Acting, Strand, Stretch
+from conveyor.line.roll_drags import roll_drags
+from conveyor.line.strands import OneStrand, Strands
+from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
@@ -58,10 +62,12 @@ from conveyor.rubber.anchor import Anchor
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
+_Known: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], T]]
+"""What was made of the very same parts and equal values."""
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
-Anchors: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], Anchor | None]]
-"""Levels of compounds, with the very compounds they are of and whether their rubber softens; begins empty."""
+Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
+"""The very compounds, whether their rubber softens, and their levels or why there is none; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -323,7 +329,9 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared, told = _Shared(known, [] if anchors is None else anchors), _Told(len(variants), progress)
+    shared = _Shared(known, [] if anchors is None else anchors, rtol)
+    told = _Told(len(variants), progress)
+    shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
     going = {i: _Step() for i in range(len(variants))}
@@ -380,23 +388,36 @@ class _Step:
 
 @dataclass(frozen=True, eq=False)
 class _Loaded:
-    """A line with its loop, the forces that no rubber changes, and the covers its rolls are to work."""
+    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level."""
 
     line: Line
     frame: Frame
     fixed: WithoutRubber
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
+    anchored: bool = False
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
-    """Levels of compounds as a conveyor's calculation takes them; none of those whose tests cannot be calculated."""
+    """Levels of compounds as a conveyor's calculation takes them."""
     levels: Anchors = []
-    softened = conveyor.calculation.strain != "off"
-    for compound in compounds if _anchored(conveyor.calculation) else ():
-        if compound.tests:
-            with suppress(NoSolutionError, RangeError, InputError):
-                _once(levels, (compound,), (softened,), partial(anchor, compound, softened=softened))
+    if _anchored(conveyor.calculation):
+        softened = conveyor.calculation.strain != "off"
+        for theory in _theories(levels, [(compound, softened) for compound in compounds]):
+            found = theory.levels(softened_many(theory.works))
+            levels += zip(theory.compounds, repeat(softened), found, strict=False)
     return levels
+
+
+def _theories(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> list[Theory]:
+    """The theory at the tests of compounds, softened or not, whose levels are not known."""
+    new: list[tuple[RubberCompound, bool]] = []
+    for one, soft in asked:
+        if not any(one is other and soft == how for other, how, *_ in (*levels, *new)):
+            new.append((one, soft))
+    return [
+        Theory([one for one, soft in new if soft == softened], softened=softened)
+        for softened in dict.fromkeys(soft for _, soft in new)
+    ]
 
 
 def _anchored(calculation: Calculation) -> bool:
@@ -404,16 +425,18 @@ def _anchored(calculation: Calculation) -> bool:
     return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
 
 
-def _strands(conveyor: Conveyor, on_curves: Acting) -> tuple[Strands, WithoutRubber]:
-    """The strands of a conveyor and the forces that its load alone decides."""
-    strands = Strands.of(conveyor, on_curves)
-    return strands, without_rubber(strands)
+def _strand(
+    conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: Acting
+) -> tuple[OneStrand, WithoutRubber]:
+    """A strand of a conveyor and the forces that its load alone decides."""
+    made = OneStrand.of(conveyor, sections, strand, on_curves)
+    return made, strand_without_rubber(made)
 
 
-def _loaded(conveyor: Conveyor, strands: Strands, fixed: WithoutRubber) -> _Loaded:
+def _loaded(line: Line, fixed: Sequence[WithoutRubber]) -> _Loaded:
     """A line, its rolls not at work yet."""
-    line = Line.of(conveyor, strands)
-    return _Loaded(line, Frame(line), fixed)
+    carry, back = fixed
+    return _Loaded(line, Frame(line), carry.joined(back))
 
 
 def _solved(
@@ -423,7 +446,7 @@ def _solved(
 
     A belt that gives is first held fast: its tensions are not known before.
     """
-    running = dict(zip(loaded, shared.softened([one.works for one in loaded.values()]), strict=True))
+    running = dict(zip(loaded, shared.softened(list(loaded.values())), strict=True))
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
     solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
@@ -472,11 +495,17 @@ class _Shared:
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors) -> None:
-        self._strands: list[tuple[tuple[object, ...], tuple[object, ...], tuple[Strands, WithoutRubber]]] = []
-        self._lines: list[tuple[tuple[object, ...], tuple[object, ...], _Loaded]] = []
-        self._rubbers: list[tuple[tuple[object, ...], tuple[object, ...], dict[CoverName, PronySeries]]] = []
-        self._anchors = anchors
+    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None) -> None:
+        self._sections: _Known[tuple[RouteSection, ...]] = []
+        self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
+        self._drags: _Known[tuple[tuple[float, ...], ...]] = []
+        self._likes: _Known[Line] = []
+        self._lines: _Known[_Loaded] = []
+        self._rubbers: _Known[dict[CoverName, PronySeries]] = []
+        self._merged: _Known[PronySeries] = []
+        self._levelled: _Known[RunningCover] = []
+        self._theories: list[Theory] = []
+        self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self.tensioned: Tensioned = {}
@@ -484,9 +513,16 @@ class _Shared:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
                 if cover.level is not None:
-                    self._anchors.append(((compound,), (known.line.softened,), cover.level.anchor))
+                    self._anchors.append((compound, known.line.softened, cover.level.anchor))
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 self._running[self._first(work)] = cover
+
+    def anchor(self, variants: Iterable[Variant]) -> None:
+        """Ask for the levels of all their compounds: they come with the covers of the strands."""
+        anchored = [one.conveyor for one in variants if _anchored(one.conveyor.calculation)]
+        compounds = ((one, compounds_by_strand(one).values()) for one in anchored)
+        asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
+        self._theories = _theories(self._anchors, asked)
 
     def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
         """The line of a variant under what acts on its curves, and its covers before its rolls work them.
@@ -504,32 +540,75 @@ class _Shared:
         compounds = compounds_by_strand(given)
         rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
         loaded = self._prepared(given, on_curves)
-        covers = covers_of(given, rubber, self._levels(given, at))
-        return replace(
-            loaded,
-            works={
-                strand: StrandAtWork(loaded.line, strand, cover, compounds[strand], at)
-                for strand, cover in covers.items()
-            },
-        )
+        covers = covers_of(given, rubber)
+        works = {
+            strand: self._felt(StrandAtWork(loaded.line, strand, cover, compounds[strand], at))
+            for strand, cover in covers.items()
+        }
+        return replace(loaded, works=works, anchored=_anchored(given.calculation))
+
+    def _felt(self, work: StrandAtWork) -> StrandAtWork:
+        """A strand whose cover has its rubber as far as its rolls tell terms apart."""
+        rtol = work.line.rtol if self._rtol is None else self._rtol
+        times = told_apart(work, rtol)
+        if times is None:
+            return work
+        rubber, (fastest, slowest) = work.cover.rubber, times
+        cut = tuple(rubber.times.searchsorted(times).tolist())
+        less = _once(self._merged, (rubber,), cut, lambda: rubber.merged(fastest=fastest, slowest=slowest))
+        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec; lines of one belt and load, in any air and under any drives, share their strands."""
-        parts = (given.belt, given.idlers, given.material, given.route, given.calculation)
-        scene = (on_curves, given.ambient.wind_speed)
-        strands, fixed = _once(self._strands, parts, scene, partial(_strands, given, on_curves))
+        """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
+        sections = _once(self._sections, (given.route,), (), lambda: route_sections(given))
         air = given.air_temperature if given.idlers.drag_follows_air else None
-        return _once(self._lines, (strands, given.drive), (air,), partial(_loaded, given, strands, fixed))
+        scene = (on_curves, given.ambient.wind_speed)
+        strands, drags, fixed = [], [], []
+        for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
+            parts = (given.belt, own, given.material, given.route, given.calculation)
+            made = partial(_strand, given, sections, strand, on_curves)
+            one, without = _once(self._strands, parts, (strand, *scene), made)
+            strands.append(one)
+            fixed.append(without)
+            drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
+        carry, back = strands
+        both, (up, down) = Strands(sections, (carry, back)), drags
+        others = (given.belt, given.material, given.route, given.drive, given.calculation)
+        like = _once(self._likes, others, (), lambda: Line.of(given, both, drags))
+        line = replace(like, strands=both, roll_drags=(*up, *down))
+        return _once(self._lines, (*strands, given.drive), (air,), partial(_loaded, line, fixed))
 
-    def softened(self, scenes: Sequence[Mapping[Strand, StrandAtWork]]) -> list[Covers | NoAnswer]:
+    def softened(self, loaded: Sequence[_Loaded]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
-        firsts = [{strand: self._first(work) for strand, work in works.items()} for works in scenes]
+        firsts = [{strand: self._first(work) for strand, work in one.works.items()} for one in loaded]
         asked = dict.fromkeys(first for works in firsts for first in works.values())
         new = [first for first in asked if first not in self._running]
-        self._running.update(zip(new, softened_covers(new), strict=True))
+        tests = [work for theory in self._theories for work in theory.works]
+        covers, soft = softened_covers(new, tests)
+        self._running.update(zip(new, covers, strict=True))
+        tested = iter(soft)
+        for theory in self._theories:
+            levels = theory.levels(list(islice(tested, len(theory.works))))
+            self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
+        self._theories = []
         return [
-            _together({strand: self._running[first] for strand, first in works.items()}) for works in firsts
+            _together({strand: self._at_level(one, strand, first) for strand, first in works.items()})
+            for one, works in zip(loaded, firsts, strict=True)
         ]
+
+    def _at_level(self, loaded: _Loaded, strand: Strand, first: StrandAtWork) -> RunningCover | NoAnswer:
+        """A strand's cover at the level of its compound's tests; at the theory's without."""
+        cover, work = self._running[first], loaded.works[strand]
+        known = self._anchors if loaded.anchored else ()
+        softened = loaded.line.softened
+        anchors = (level for one, how, level in known if one is work.compound and how == softened)
+        anchor = next(anchors, None)
+        if not isinstance(cover, RunningCover) or isinstance(anchor, NoAnswer):
+            return anchor if isinstance(anchor, NoAnswer) else cover
+        level = None if anchor is None else Level(anchor, work.temperature)
+        if cover.level == level:
+            return cover
+        return _once(self._levelled, (cover, anchor), (), lambda: replace(cover, level=level))
 
     def _first(self, work: StrandAtWork) -> StrandAtWork:
         """The first strand that works its cover alike."""
@@ -539,23 +618,9 @@ class _Shared:
             alike.append(first := work)
         return first
 
-    def _levels(self, conveyor: Conveyor, at: float) -> dict[Strand, Level | None]:
-        """Level of each strand's rubber at a temperature [K]; None without tests, or where the theory is asked for."""
-        calculation = conveyor.calculation
-        anchored = _anchored(calculation)
-        softened = calculation.strain != "off"
-        levels: dict[Strand, Level | None] = {}
-        for strand, compound in compounds_by_strand(conveyor).items():
-            tests = None
-            if anchored and compound.tests:
-                made = partial(anchor, compound, softened=softened)
-                tests = _once(self._anchors, (compound,), (softened,), made)
-            levels[strand] = None if tests is None else Level(tests, at)
-        return levels
-
 
 def _once(
-    known: list[tuple[tuple[object, ...], tuple[object, ...], T]],
+    known: _Known[T],
     parts: tuple[object, ...],
     values: tuple[object, ...],
     make: Callable[[], T],

@@ -21,7 +21,7 @@ TEMPERATURES = [f"{celsius} degC" for celsius in range(-25, 41, 5)]
 
 def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    plots.save(plots.power_against_temperature(comparison), folder / "compare_power.png")
+    plots.save(plots.power_over(comparison, "temperature"), folder / "compare_power.png")
     carry = result.rubber.set_index("strand").loc["carry"]
     band = (carry["excited from [Hz]"], carry["excited to [Hz]"])
     figure = plots.loss_tangents(comparison.compounds, 293.15, {"90 % loss band of the carry rolls": band})

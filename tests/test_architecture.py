@@ -93,7 +93,6 @@ RENDERERS = (
     "page",
     "places",
     "sheets",
-    "representations",
 )
 
 

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from conveyor.indentation import RollContact, indentation_curve, indentation_resistance, to_problem
+from conveyor import shelf
+from conveyor.indentation import (
+    RollContact,
+    felt,
+    indentation_curve,
+    indentation_resistance,
+    indentation_resistances,
+    to_problem,
+)
 from conveyor.rubber import PronySeries
 
 # E0/(1-ν²) = 3 MPa/0.75 = 4 MPa; a roll of R = 0.1 m under w = 10 π N/m:
@@ -75,3 +85,23 @@ def test_harmonic_m_of_the_rolls_passes_m_times_a_second_at_one_spacing_a_second
 def test_a_rubber_without_loss_excites_nothing():
     curve = indentation_curve(RIGID, LOAD, 2.0 * LOAD)
     assert (curve.slowest_excited, curve.fastest_excited) == (None, None)
+
+
+@pytest.mark.parametrize(("at", "speed", "load"), [(263.15, 1.0, 300.0), (293.15, 6.0, 3000.0)])
+def test_terms_that_a_roll_does_not_tell_apart_change_no_more_than_allowed(at, speed, load):
+    rubber = shelf.compound("standard-cover").series(at)
+    roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=8e-3, speed=speed, rubber=rubber)
+    errors = (1e-3, 1e-5)
+    rolls = [roll, *(less(roll, load, error) for error in errors)]
+    whole, *merged = indentation_resistances(rolls, [load] * 3, 1e-7)
+    for value, error in zip(merged, errors, strict=True):
+        # either side makes at most so much
+        assert 1e-7 < abs(value / whole - 1.0) < 2.0 * error
+
+
+def less(roll, load, error):
+    """The roll on its cover of fewer terms."""
+    fastest, slowest = felt(roll, load, error)
+    fewer = roll.rubber.merged(fastest=fastest, slowest=slowest)
+    assert fewer.times.size < roll.rubber.times.size - 8
+    return replace(roll, rubber=fewer)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import say
-from conveyor.cli.completion import compound_names
+from conveyor.cli.app import argument, compound_names, option, say
+from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.files import marks
 
@@ -28,37 +26,31 @@ if TYPE_CHECKING:
 def anchor(
     session: Session,
     compound: Annotated[
-        str,
-        typer.Argument(
-            help="Compound by shelf name or file.", autocompletion=compound_names, show_default=False
-        ),
+        str, argument("Compound by shelf name or file.", autocompletion=compound_names, show_default=False)
     ],
     tests: Annotated[
         Path,
-        typer.Option(
-            metavar="FILE",
-            help="Tests (.csv or .xlsx): columns line load, resistance, roll diameter, cover thickness, speed, "
+        option(
+            "Tests (.csv or .xlsx): columns line load, resistance, roll diameter, cover thickness, speed, "
             "temperature; uncertainty, specimen, source, note. Units in the headers: line load [N/mm].",
+            "FILE",
             show_default=False,
         ),
     ],
     name: Annotated[
         str | None,
-        typer.Option(
-            help="Name of the tested compound where only its tests are known: COMPOUND carries them."
-        ),
+        option("Name of the tested compound where only its tests are known: COMPOUND carries them."),
     ] = None,
     source: Annotated[
-        str | None,
-        typer.Option(help="Laboratory and report of rows that do not say it; else the file's name."),
+        str | None, option("Laboratory and report of rows that do not say it; else the file's name.")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the compound file (.yaml).")
+        Path | None, option("Write the compound file (.yaml).", "FILE", "-o", "--output")
     ] = None,
 ) -> None:
     """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = session.outputs(compound, tests)
-    to.file("--output", output, ".yaml", ".yml", kind=marks.COMPOUND)
+    to.file("--output", output, *SPEC, kind=marks.COMPOUND)
     from conveyor import anchoring
     from conveyor import shelf as store
     from conveyor.measured.rolling_tests import read_rolling_tests

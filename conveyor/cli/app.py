@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,6 +19,7 @@ import typer
 import typer.core
 
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.files.shelves import files
 from conveyor.printable import in_json, printable
 from conveyor.ranges import MOST, spaced
 
@@ -32,6 +34,16 @@ for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 def examples(*commands: str) -> str:
     """Examples as the last lines of a command's help, one a line."""
     return "\b\nExamples:\n" + "\n".join(f"  {command}" for command in commands)
+
+
+def option(words: str, metavar: str | None = None, *names: str, **more: Any) -> Any:
+    """An option: its help, what stands for its value, its names if not made of the parameter's."""
+    return typer.Option(*names, metavar=metavar, help=words, case_sensitive=False, **more)
+
+
+def argument(words: str, metavar: str | None = None, **more: Any) -> Any:
+    """An argument, as `option`."""
+    return typer.Argument(metavar=metavar, help=words, **more)
 
 
 class _InOrder(typer.core.TyperGroup):
@@ -100,53 +112,56 @@ class ImageKind(StrEnum):
     PDF = "pdf"
 
 
-Spec = Annotated[
-    Path, typer.Argument(metavar="SPEC", help="Conveyor spec: .yaml, .json or .xlsx.", show_default=False)
-]
-Workbook = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the workbook (.xlsx).")
-]
+Spec = Annotated[Path, argument("Conveyor spec: .yaml, .json or .xlsx.", "SPEC", show_default=False)]
+Workbook = Annotated[Path | None, option("Write the workbook (.xlsx).", "FILE", "-o", "--output")]
 WebPage = Annotated[
-    Path | None,
-    typer.Option("--html", metavar="FILE", help="Write the report as one page (.html); it prints well."),
+    Path | None, option("Write the report as one page (.html); it prints well.", "FILE", "--html")
 ]
 TablesFolder = Annotated[
-    Path | None,
-    typer.Option("--tables", metavar="FOLDER", help="Write every table to a file of its own in it."),
+    Path | None, option("Write every table to a file of its own in it.", "FOLDER", "--tables")
 ]
-AsParquet = Annotated[bool, typer.Option("--parquet", help="Tables as Parquet files; without it as CSV.")]
+AsParquet = Annotated[bool, option("Tables as Parquet files; without it as CSV.", None, "--parquet")]
 Shelves = Annotated[
-    list[Path] | None,
-    typer.Option("--shelf", metavar="FOLDER", help="Further folder of compound files; may be repeated."),
+    list[Path] | None, option("Further folder of compound files; may be repeated.", "FOLDER", "--shelf")
 ]
 Changed = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
+        'Change a field of the spec, as in --set "belt.speed=5.5 m/s"; may be repeated.',
+        "FIELD=VALUE",
         "--set",
-        metavar="FIELD=VALUE",
-        help='Change a field of the spec, as in --set "belt.speed=5.5 m/s"; may be repeated.',
     ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else.")]
+AsJson = Annotated[bool, option("Print one JSON object on stdout and nothing else.", None, "--json")]
 UnitsOption = Annotated[
     Units | None,
-    typer.Option(
+    option(
+        "Units of what is shown and written; else report.units of the spec. JSON stays SI.",
+        None,
         "--units",
-        help="Units of what is shown and written; else report.units of the spec. JSON stays SI.",
-        case_sensitive=False,
         show_default=False,
     ),
 ]
 Force = Annotated[
-    bool, typer.Option("--force", "-f", help="Overwrite existing files of any kind; never an input.")
+    bool, option("Overwrite existing files of any kind; never an input.", None, "--force", "-f")
 ]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")]
+Quiet = Annotated[bool, option("Print nothing but errors.", None, "--quiet", "-q")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
 Progress = Callable[..., None]
 """Called with what is going on, what is done, the whole, and what else to say."""
 _ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
+
+
+def compound_names(context: typer.Context, incomplete: str) -> list[str]:
+    """Names on the shelf that begin with what was typed; the folders of --shelf are searched, too."""
+    given = context.params.get("shelf") or context.params.get("shelves") or ()
+    try:
+        known = files(given)
+    except InputError:
+        return []
+    return sorted(name for name in known if name.startswith(incomplete.casefold()))
 
 
 def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None = None) -> Conveyor:
@@ -207,10 +222,10 @@ def say(*lines: str) -> None:
 
 
 @contextmanager
-def progress(*, silent: bool) -> Iterator[Progress | None]:
+def progress(what: str = "", *, silent: bool) -> Iterator[Progress | None]:
     """A bar with the time left on stderr, for what takes longer than a second; none where output is piped.
 
-    It is called with words, what is done, the whole, and what else to say.
+    It is called with words, if not `what` says them, what is done, the whole, and what else to say.
     """
     if silent or not sys.stderr.isatty():
         yield None
@@ -228,7 +243,7 @@ def progress(*, silent: bool) -> Iterator[Progress | None]:
                 bars[what] = bars[""].add_task(what, total=whole, note="")
             bars[""].update(bars[what], completed=done, total=whole, note=note)
 
-        yield told
+        yield partial(told, what) if what else told
 
 
 def _bar() -> Any:

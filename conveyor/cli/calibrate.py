@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import Spec, say
+from conveyor.cli.app import Spec, option, say
+from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import CalibrationStudy
@@ -34,57 +31,44 @@ def calibrate(
     spec: Spec,
     measured: Annotated[
         Path,
-        typer.Option(
-            metavar="FILE",
-            help="Runs (.csv or .xlsx): columns motor power or mains power, flow; speed, temperature, air temperature, "
+        option(
+            "Runs (.csv or .xlsx): columns motor power or mains power, flow; speed, temperature, air temperature, "
             "standard deviation, note. Units in the headers: flow [t/h].",
+            "FILE",
             show_default=False,
         ),
     ],
     error: Annotated[
         str | None,
-        typer.Option(
-            metavar="PERCENT",
-            help='Standard deviation of a measured power, such as "2 %"; else from the differences.',
+        option(
+            'Standard deviation of a measured power, such as "2 %"; else from the differences.', "PERCENT"
         ),
     ] = None,
     factors: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "indentation, idler_rotation or flexure, for itself; may be repeated. Else what the runs tell apart.",
+            "NAME",
             "--factor",
-            metavar="NAME",
-            help="indentation, idler_rotation or flexure, for itself; may be repeated. Else what the runs tell apart.",
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Write the part of the spec (.yaml) or every table (.xlsx).",
-        ),
+        option("Write the part of the spec (.yaml) or every table (.xlsx).", "FILE", "-o", "--output"),
     ] = None,
 ) -> None:
     """Fit factors on indentation, idler rotation and flexure to measured power, as far as the runs tell them apart."""
     to = session.outputs(spec, measured)
-    is_book = output is not None and output.suffix.lower() == ".xlsx"
-    to.file("--output", output, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if is_book else marks.TO_FILL_IN)
+    to.file("--output", output, *SPEC, ".xlsx")
     import conveyor
-    from conveyor.report import excel
 
     line = session.read(spec)
     system = session.system(line)
-    with session.progress() as told:
-        calibration = conveyor.calibrate(
-            line,
-            measured,
-            error=None if error is None else _share(error),
-            factors=factors,
-            progress=None if told is None else partial(told, "runs"),
-        )
-    if output is not None and is_book:
-        to.add("workbook", output, excel.files(calibration.contents(system), output, {}))
+    share = None if error is None else _share(error)
+    with session.progress("runs") as told:
+        calibration = conveyor.calibrate(line, measured, error=share, factors=factors, progress=told)
+    if output is not None and output.suffix.lower() == ".xlsx":
+        to.report(calibration.contents(system), output)
     elif output is not None:
         to.add("part of a spec", output, {output: calibration.fragment.encode()})
     session.answer(calibration.to_dict(), to, lambda: _show(calibration, system))
@@ -98,7 +82,7 @@ def _show(calibration: CalibrationStudy, system: System) -> None:
     screen = console()
     runs = calibration_tables.runs(calibration).only(*_OF_RUNS)
     for part in (calibration_tables.factors(calibration), calibration_tables.correlation(calibration), runs):
-        if not part.empty:
+        if part.rows:
             screen.print(grid(part, system), "")
             if part.note:
                 say(part.note, "")

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-import typer
-
-from conveyor.cli.app import AsParquet, Spec, TablesFolder, WebPage, Workbook, one_of, values
-from conveyor.cli.completion import compound_names
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import (
+    AsParquet,
+    Spec,
+    TablesFolder,
+    WebPage,
+    Workbook,
+    compound_names,
+    one_of,
+    option,
+    values,
+)
+from conveyor.cli.outputs import FIGURE
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import marks
-
-if TYPE_CHECKING:
-    from conveyor.analysis import Comparison
-    from conveyor.report.columns import Contents
-    from conveyor.units import System
 
 
 @command(
@@ -36,79 +36,58 @@ def compare(
     spec: Spec,
     compounds: Annotated[
         list[str],
-        typer.Option(
+        option(
+            "Shelf name or compound file; may be repeated.",
+            "NAME",
             "--compound",
             "-c",
-            metavar="NAME",
-            help="Shelf name or compound file; may be repeated.",
             autocompletion=compound_names,
         ),
     ],
     temperatures: Annotated[
         str | None,
-        typer.Option(
-            "--temperature",
-            metavar="VALUES",
-            help="Of the belt: from:to:step or a,b,c, in degC without a unit.",
-        ),
+        option("Of the belt: from:to:step or a,b,c, in degC without a unit.", "VALUES", "--temperature"),
     ] = None,
     speeds: Annotated[
         str | None,
-        typer.Option(
-            "--speed",
-            metavar="VALUES",
-            help="Of the belt: from:to:step or a,b,c, in m/s without a unit; else the spec's.",
+        option(
+            "Of the belt: from:to:step or a,b,c, in m/s without a unit; else the spec's.", "VALUES", "--speed"
         ),
     ] = None,
-    cover: Annotated[
-        str, typer.Option(metavar="WHICH", help="Cover made of the compounds: bottom, top or both.")
-    ] = "bottom",
+    cover: Annotated[str, option("Cover made of the compounds: bottom, top or both.", "WHICH")] = "bottom",
     base: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Name of the compound to compare with; else the first.")
+        str | None, option("Name of the compound to compare with; else the first.", "NAME")
     ] = None,
     extra_costs: Annotated[
         list[str] | None,
-        typer.Option(
-            "--extra-cost",
-            metavar="NAME=AMOUNT",
-            help="What its belt costs above the base's; may be repeated.",
-        ),
+        option("What its belt costs above the base's; may be repeated.", "NAME=AMOUNT", "--extra-cost"),
     ] = None,
     output: Workbook = None,
     html: WebPage = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
-    csv: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write every scene to this file (.csv).")
-    ] = None,
+    csv: Annotated[Path | None, option("Write every scene to this file (.csv).", "FILE")] = None,
     plot: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Draw power over temperature to this file (.png, .svg, .pdf)."),
+        Path | None, option("Draw power over temperature to this file (.png, .svg, .pdf).", "FILE")
     ] = None,
     speed_plot: Annotated[
-        Path | None,
-        typer.Option("--speed-plot", metavar="FILE", help="Draw power over belt speed to this file."),
+        Path | None, option("Draw power over belt speed to this file.", "FILE", "--speed-plot")
     ] = None,
     tan_delta: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="Draw the loss tangents and the band the rolls excite to this file."
-        ),
+        Path | None, option("Draw the loss tangents and the band the rolls excite to this file.", "FILE")
     ] = None,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     to = session.outputs(spec, *compounds)
-    to.file("--output", output, ".xlsx", kind=marks.REPORT)
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
-    to.tables(tables, parquet=parquet)
+    to.reports(output, html, tables, parquet=parquet)
     to.file("--csv", csv, ".csv")
-    for option, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
-        to.file(option, path, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+    for name, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
+        to.file(name, path, *FIGURE)
     from conveyor.analysis import compare_compounds
 
     line = session.read(spec)
     system = session.system(line)
-    with session.progress() as told:
+    with session.progress("compounds") as told:
         comparison = compare_compounds(
             line,
             compounds,
@@ -120,64 +99,25 @@ def compare(
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
             shelves=session.shelf or (),
-            progress=None if told is None else partial(told, "compounds"),
+            progress=told,
         )
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    from conveyor.report import comparison_tables
+    from conveyor.report import comparison_tables, files
 
-    contents = comparison_tables.of_comparison(comparison, system)
-    _reports(contents, to, output=output, html=html, tables=tables, parquet=parquet, csv=csv)
-    _figures(comparison, to, system, plot=plot, speed_plot=speed_plot, tan_delta=tan_delta)
-    from conveyor.cli.compare_tables import show
-
-    session.answer(comparison_tables.plain(comparison), to, lambda: show(contents))
-
-
-def _reports(
-    contents: Contents,
-    to: Outputs,
-    *,
-    output: Path | None,
-    html: Path | None,
-    tables: Path | None,
-    parquet: bool,
-    csv: Path | None,
-) -> None:
-    """Make the workbook, the page and the tables that are asked for."""
-    from conveyor.report import excel, files
-    from conveyor.report import html as page
-
-    if output is not None:
-        to.add("workbook", output, excel.files(contents, output))
-    if html is not None:
-        to.add("page", html, {html: page.build(contents).encode()})
-    if tables is not None:
-        to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
+    contents, draw = comparison_tables.of_comparison(comparison, system), comparison.plots
+    to.write(contents)
     if csv is not None:
         to.add("table", csv, {csv: files.csv(contents["scenes"].frame(contents.system))})
-
-
-def _figures(
-    comparison: Comparison,
-    to: Outputs,
-    system: System,
-    *,
-    plot: Path | None,
-    speed_plot: Path | None,
-    tan_delta: Path | None,
-) -> None:
-    """Draw the figures that are asked for."""
-    from conveyor.report.plots import drawn
-
-    for path, draw in (
-        (plot, comparison.plots.power_against_temperature),
-        (speed_plot, comparison.plots.power_against_speed),
-        (tan_delta, comparison.plots.loss_tangents),
-    ):
+    for path, figure in (
+        (plot, draw.power_against_temperature), (speed_plot, draw.power_against_speed), (tan_delta, draw.loss_tangents)
+    ):  # fmt: skip
         if path is not None:
-            to.add("figure", path, {path: drawn(draw(system=system), path)})
+            to.figure(figure(system=system), path)
+    from conveyor.cli.terminal import show_comparison
+
+    session.answer(comparison_tables.plain(comparison), to, lambda: show_comparison(contents))
 
 
 def _amount(given: str) -> tuple[str, float]:

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from enum import StrEnum
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from conveyor.cli.app import Spec
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import Spec, option
+from conveyor.cli.outputs import FIGURE, PAGE, Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import executor_of
 from conveyor.errors import InputError
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.dynamics.follow import CalculatedDynamics
@@ -30,10 +26,6 @@ class Sought(StrEnum):
     BRAKE = "brake"
     DELAY = "delay"
     TAKE_UP = "take-up"
-
-
-_KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png": marks.FIGURE, ".svg": marks.FIGURE,
-          ".pdf": marks.FIGURE}  # fmt: skip
 
 
 @command(
@@ -51,33 +43,27 @@ def dynamics(
     session: Session,
     spec: Spec,
     scenario: Annotated[
-        list[str] | None,
-        typer.Option("--scenario", "-s", metavar="NAME", help="Only this one; may be repeated."),
+        list[str] | None, option("Only this one; may be repeated.", "NAME", "--scenario", "-s")
     ] = None,
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
         ),
     ] = None,
-    error: Annotated[
-        float, typer.Option(metavar="SHARE", help="Error of the highest and lowest tension asked for.")
-    ] = 0.01,
+    error: Annotated[float, option("Error of the highest and lowest tension asked for.", "SHARE")] = 0.01,
     size: Annotated[
-        Sought | None,
-        typer.Option(
-            help="Find the least of it with which each scenario keeps every criterion.", case_sensitive=False
-        ),
+        Sought | None, option("Find the least of it with which each scenario keeps every criterion.")
     ] = None,
-    workers: Annotated[int, typer.Option(metavar="N", help="Processes.", min=1, max=64)] = 1,
+    workers: Annotated[int, option("Processes.", "N", min=1, max=64)] = 1,
 ) -> None:
     """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
     to = session.outputs(spec)
     for path in output or ():
-        to.file("--output", path, *_KINDS, kind=_KINDS.get(path.suffix.lower(), ""))
+        to.file("--output", path, ".xlsx", *PAGE, *FIGURE)
     from conveyor.dynamics.follow import follow
     from conveyor.report.dynamics_tables import of_dynamics, plain
 
@@ -85,10 +71,9 @@ def dynamics(
     system = session.system(line)
     chosen = _chosen(line, scenario)
     with ExitStack() as stack:
-        told = stack.enter_context(session.progress())
+        told = stack.enter_context(session.progress("scenarios"))
         executor = stack.enter_context(executor_of(None, workers)) if workers > 1 else None
-        how: Any = {"executor": executor, "workers": workers,
-                    "progress": None if told is None else partial(told, "scenarios")}  # fmt: skip
+        how: Any = {"executor": executor, "workers": workers, "progress": told}
         if size is None:
             followed = follow(line, chosen, error=error, **how)
         else:
@@ -98,9 +83,9 @@ def dynamics(
     contents = of_dynamics(followed, system)
     for path in output or ():
         _write(followed, contents, path, to)
-    from conveyor.cli.dynamics_tables import show
+    from conveyor.cli.terminal import show_dynamics
 
-    session.answer(plain(followed), to, lambda: show(contents))
+    session.answer(plain(followed), to, lambda: show_dynamics(contents))
 
 
 def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
@@ -117,19 +102,13 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
 
 def _write(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
     """Make a file of the kind its name says; of several scenarios a figure each."""
-    from conveyor.report import dynamics_tables, excel
-    from conveyor.report import html as page
     from conveyor.report.columns import slug
-    from conveyor.report.dynamics_plots import picture
-    from conveyor.report.plots import drawn
+    from conveyor.report.dynamics_tables import picture
 
-    ending = path.suffix.lower()
-    if ending == ".xlsx":
-        to.add("workbook", path, excel.files(contents, path, {}))
-    elif ending in {".html", ".htm"}:
-        to.add("page", path, {path: page.build(contents, dynamics_tables.PARTS).encode()})
-    else:
-        several = len(dynamics.followed) > 1
-        for one in dynamics.followed:
-            at = path.with_stem(f"{path.stem}_{slug(one.name)}") if several else path
-            to.add("figure", at, {at: drawn(picture(one, system=contents.system), at)})
+    if path.suffix.lower() not in FIGURE:
+        to.report(contents, path)
+        return
+    several = len(dynamics.followed) > 1
+    for one in dynamics.followed:
+        at = path.with_stem(f"{path.stem}_{slug(one.name)}") if several else path
+        to.figure(picture(one, system=contents.system), at)

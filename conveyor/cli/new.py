@@ -6,9 +6,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, cast
 
-import typer
-
-from conveyor.cli.app import Force, Quiet, Units, app, examples, say
+from conveyor.cli.app import Force, Quiet, Units, app, argument, examples, option, say
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError
 from conveyor.files.marks import TO_FILL_IN
@@ -43,16 +41,15 @@ class StarterKind(StrEnum):
     ),
 )
 def new(
-    spec: Annotated[Path, typer.Argument(help="Spec to write (.yaml).", show_default=False)],
+    spec: Annotated[Path, argument("Spec to write (.yaml).", show_default=False)],
     kind: Annotated[
         StarterKind,
-        typer.Option(
-            help="Conveyor the example values belong to; duty: of one to be sized. From shuttle on full examples in "
-            "SI, a study or search with the spec it varies beside it.",
-            case_sensitive=False,
+        option(
+            "Conveyor the example values belong to; duty: of one to be sized. From shuttle on full examples in "
+            "SI, a study or search with the spec it varies beside it."
         ),
     ] = StarterKind.OVERLAND,
-    units: Annotated[Units, typer.Option(help="System of units.", case_sensitive=False)] = Units.SI,
+    units: Annotated[Units, option("System of units.")] = Units.SI,
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:

@@ -6,9 +6,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import say
+from conveyor.cli.app import argument, option, say
+from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
 from conveyor.cli.study import said, spec_of
 from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
@@ -27,14 +26,9 @@ if TYPE_CHECKING:
 )
 def optimise(
     session: Session,
-    plan_file: Annotated[
-        Path, typer.Argument(metavar="SEARCH", help="Search: .yaml or .json.", show_default=False)
-    ],
+    plan_file: Annotated[Path, argument("Search: .yaml or .json.", "SEARCH", show_default=False)],
     output: Annotated[
-        Path,
-        typer.Option(
-            "-o", "--output", metavar="FILE", help="Write the best spec (.yaml).", show_default=False
-        ),
+        Path, option("Write the best spec (.yaml).", "FILE", "-o", "--output", show_default=False)
     ],
     workers: Workers = 1,
     scheduler: Scheduler = None,
@@ -42,7 +36,6 @@ def optimise(
     """Search the best design within limits; stopped, it goes on from FILE.answers beside the spec it writes."""
     begin(scheduler, workers)
     from conveyor import shelf as shelves
-    from conveyor.files import marks
     from conveyor.studies.campaign import Answers, Campaign
     from conveyor.studies.optimise import optimise as search
     from conveyor.study_file import named, read_search
@@ -54,7 +47,7 @@ def optimise(
     with named(plan_file):
         campaign = Campaign.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     to = session.outputs(plan_file, spec)
-    to.file("--output", output, ".yaml", ".yml", kind=marks.TO_FILL_IN)
+    to.file("--output", output, *SPEC)
     with ExitStack() as stack:
         known = stack.enter_context(Answers(output.with_name(f"{output.name}.answers")))
         before = len(known)

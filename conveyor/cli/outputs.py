@@ -6,13 +6,31 @@ An output that is also an input is always refused; an older file that is no such
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from conveyor.errors import InputError
 from conveyor.files import marks, saving
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from conveyor.cli.app import Progress
+    from conveyor.report.columns import Contents
+
+PAGE = (".html", ".htm")
+FIGURE = (".png", ".svg", ".pdf")
+SPEC = (".yaml", ".yml")
+_KINDS = {
+    ".xlsx": marks.REPORT,
+    **dict.fromkeys(PAGE, marks.PAGE),
+    **dict.fromkeys(FIGURE, marks.FIGURE),
+    **dict.fromkeys(SPEC, marks.TO_FILL_IN),
+}
+"""What an older file is that may be replaced, by its ending, if not said otherwise."""
 _LARGEST = 100_000_000
 """Bytes of an older file that is looked at; no output of this program is larger."""
 
@@ -27,8 +45,9 @@ class Outputs:
         self._folders: list[Path] = []
         self._contents: dict[Path, bytes] = {}
         self._said: list[str] = []
+        self._reports: list[Callable[[Contents], None]] = []
 
-    def file(self, option: str, path: Path | None, *endings: str, kind: str = "") -> None:
+    def file(self, option: str, path: Path | None, *endings: str, kind: str | None = None) -> None:
         """Refuse a file that cannot be written, has another ending, or would replace what is not of its kind."""
         if path is None:
             return
@@ -45,7 +64,7 @@ class Outputs:
             if _same(path, taken):
                 raise InputError(f"{option}: {path}: is the file of {other}, too; give each its own")
         self._asked.append((option, path))
-        self._refuse_older(path, kind)
+        self._refuse_older(path, _KINDS.get(path.suffix.lower(), "") if kind is None else kind)
 
     def folder(self, option: str, path: Path | None) -> None:
         """Refuse a folder that is none, or that neither exists nor can be made."""
@@ -69,6 +88,57 @@ class Outputs:
             raise InputError("--parquet: says how tables are written; give --tables FOLDER, too")
         if find_spec("pyarrow") is None:
             raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
+
+    def reports(
+        self,
+        output: Path | None = None,
+        html: Path | None = None,
+        tables: Path | None = None,
+        *,
+        parquet: bool = False,
+    ) -> None:
+        """Refuse the files of a report as `file` and `tables` do; `write` makes them."""
+        self.file("--output", output, ".xlsx")
+        self.file("--html", html, *PAGE)
+        self.tables(tables, parquet=parquet)
+        self._reports += [partial(self.report, path=path) for path in (output, html) if path is not None]
+        if tables is not None:
+            self._reports.append(partial(self.tabled, folder=tables, parquet=parquet))
+
+    def write(self, contents: Contents, told: Progress | None = None) -> None:
+        """Make the files of a report that were asked for."""
+        for done, make in enumerate(self._reports):
+            if told is not None:
+                told("writing", done, len(self._reports))
+            make(contents)
+
+    def report(self, contents: Contents, path: Path) -> None:
+        """Make the workbook of a report, or its page, as the name ends."""
+        from conveyor.report import excel, html
+
+        if path.suffix.lower() == ".xlsx":
+            self.add("workbook", path, excel.files(contents, path))
+        else:
+            self.add("page", path, {path: html.build(contents).encode()})
+
+    def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:
+        """Make a file of every table of a report."""
+        from conveyor.report import files
+
+        self.add("tables", folder, files.files(contents, folder, "parquet" if parquet else "csv"))
+
+    def figure(self, figure: Figure, path: Path) -> None:
+        """Make the file of a figure."""
+        from conveyor.report.plots import drawn
+
+        self.add("figure", path, {path: drawn(figure, path)})
+
+    def figures(self, figures: Mapping[str, Figure], folder: Path, kind: str = "png") -> None:
+        """Make a file of every figure, by its name."""
+        from conveyor.report.plots import drawn
+
+        paths = {folder / f"{name}.{kind}": figure for name, figure in figures.items()}
+        self.add("figures", folder, {path: drawn(figure, path) for path, figure in paths.items()})
 
     def add(self, what: str, where: Path, contents: Mapping[Path, bytes]) -> None:
         """Take what goes into a file and those beside it, or into the files of a folder."""

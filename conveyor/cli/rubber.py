@@ -9,11 +9,19 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Final
 
-import typer
-
-from conveyor.cli.app import Force, Quiet, Shelves, app, examples, one_of, say
-from conveyor.cli.completion import compound_names
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import (
+    Force,
+    Quiet,
+    Shelves,
+    app,
+    argument,
+    compound_names,
+    examples,
+    one_of,
+    option,
+    say,
+)
+from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
@@ -29,10 +37,7 @@ if TYPE_CHECKING:
 EXPORTED: Final = (".inp", ".mac", ".csv")
 Export = Annotated[
     list[Path] | None,
-    typer.Option(
-        metavar="FILE",
-        help="Write the series for Abaqus (.inp), Ansys (.mac) or pyvisco (.csv); may be repeated.",
-    ),
+    option("Write the series for Abaqus (.inp), Ansys (.mac) or pyvisco (.csv); may be repeated.", "FILE"),
 ]
 
 
@@ -49,105 +54,89 @@ Export = Annotated[
 def fit(
     data: Annotated[
         list[Path],
-        typer.Argument(
-            help="Files of one rubber: a master curve; or isotherms, sweeps, relaxation, temperature sweeps, "
+        argument(
+            "Files of one rubber: a master curve; or isotherms, sweeps, relaxation, temperature sweeps, "
             "shift factors, strain sweeps; or a Prony table. CSV, TXT or XLSX of any layout."
         ),
     ],
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write the compound file (.yaml) or the workbook (.xlsx); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write the compound file (.yaml) or the workbook (.xlsx); may be repeated.",
         ),
     ] = None,
     reference_temperature: Annotated[
         str | None,
-        typer.Option(
-            "--at", help='Temperature of the master curve, e.g. "20 degC"; else the file states it.'
-        ),
+        option('Temperature of the master curve, e.g. "20 degC"; else the file states it.', None, "--at"),
     ] = None,
-    name: Annotated[str | None, typer.Option(help="Name of the compound; else the file's.")] = None,
-    shift: Annotated[Path | None, typer.Option(help="File of shift factors: temperature and a_T.")] = None,
-    strain: Annotated[Path | None, typer.Option(help="File of strain sweeps (Payne effect).")] = None,
+    name: Annotated[str | None, option("Name of the compound; else the file's.")] = None,
+    shift: Annotated[Path | None, option("File of shift factors: temperature and a_T.")] = None,
+    strain: Annotated[Path | None, option("File of strain sweeps (Payne effect).")] = None,
     reference_strain: Annotated[
-        str | None, typer.Option(help='Strain amplitude of the master curve, e.g. "0.1 %".')
+        str | None, option('Strain amplitude of the master curve, e.g. "0.1 %".')
     ] = None,
-    equilibrium: Annotated[
-        str | None, typer.Option(help='Hold the equilibrium modulus, e.g. "4 MPa".')
-    ] = None,
+    equilibrium: Annotated[str | None, option('Hold the equilibrium modulus, e.g. "4 MPa".')] = None,
     terms_per_decade: Annotated[
-        float | None, typer.Option(help="Relaxation times per decade; else chosen by AICc.")
+        float | None, option("Relaxation times per decade; else chosen by AICc.")
     ] = None,
     vertical: Annotated[
         bool,
-        typer.Option(
+        option(
+            "Shift isotherms vertically, too; a master curve with --shift as b_T = T/T_ref.",
+            None,
             "--vertical",
-            help="Shift isotherms vertically, too; a master curve with --shift as b_T = T/T_ref.",
         ),
     ] = False,
-    by: Annotated[str, typer.Option(help="Modulus that places the isotherms: both, storage, loss.")] = "both",
-    law: Annotated[str, typer.Option(help="Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
+    by: Annotated[str, option("Modulus that places the isotherms: both, storage, loss.")] = "both",
+    law: Annotated[str, option("Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
     exclude: Annotated[
-        list[str] | None,
-        typer.Option(metavar="[FILE:]ROWS", help="Rows to leave out, 12-15,20; may be repeated."),
+        list[str] | None, option("Rows to leave out, 12-15,20; may be repeated.", "[FILE:]ROWS")
     ] = None,
     storage_error: Annotated[
-        str | None, typer.Option(help='Standard error of E\', "1 %"; rows weigh by its reciprocal.')
+        str | None, option('Standard error of E\', "1 %"; rows weigh by its reciprocal.')
     ] = None,
-    loss_error: Annotated[str | None, typer.Option(help="The same of E''; both or neither.")] = None,
-    plot: Annotated[
-        Path | None, typer.Option(help="Draw data, fit and band to this file (.png, .svg, .pdf).")
-    ] = None,
-    poisson: Annotated[float, typer.Option("--poisson", help="Poisson's ratio; also turns G into E.")] = 0.5,
-    frequency_unit: Annotated[
-        str | None, typer.Option(help="Where the file leaves it open: Hz, rad/s.")
-    ] = None,
-    modulus_unit: Annotated[str | None, typer.Option(help="Pa, kPa, MPa, GPa, psi, ...")] = None,
-    temperature_unit: Annotated[str | None, typer.Option(help="degC, degF, K.")] = None,
-    strain_unit: Annotated[str | None, typer.Option(help="%, 1, ...")] = None,
+    loss_error: Annotated[str | None, option("The same of E''; both or neither.")] = None,
+    plot: Annotated[Path | None, option("Draw data, fit and band to this file (.png, .svg, .pdf).")] = None,
+    poisson: Annotated[float, option("Poisson's ratio; also turns G into E.", None, "--poisson")] = 0.5,
+    frequency_unit: Annotated[str | None, option("Where the file leaves it open: Hz, rad/s.")] = None,
+    modulus_unit: Annotated[str | None, option("Pa, kPa, MPa, GPa, psi, ...")] = None,
+    temperature_unit: Annotated[str | None, option("degC, degF, K.")] = None,
+    strain_unit: Annotated[str | None, option("%, 1, ...")] = None,
     moduli: Annotated[
-        str | None,
-        typer.Option(help="E or G, where a file does not say whether its moduli are tensile or shear."),
+        str | None, option("E or G, where a file does not say whether its moduli are tensile or shear.")
     ] = None,
     instantaneous: Annotated[
-        str | None, typer.Option(help='Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
+        str | None, option('Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
     ] = None,
-    temperature: Annotated[
-        str | None, typer.Option(help='Of a file without a column for it, e.g. "20 degC".')
-    ] = None,
-    sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook.")] = None,
-    kind: Annotated[str | None, typer.Option(help="What the file holds, where it leaves it open.")] = None,
+    temperature: Annotated[str | None, option('Of a file without a column for it, e.g. "20 degC".')] = None,
+    sheet: Annotated[str | None, option("Sheet of a workbook.")] = None,
+    kind: Annotated[str | None, option("What the file holds, where it leaves it open.")] = None,
     accept: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="FINDING",
-            help="Accept what is refused as implausible for rubber: few-rows, modulus, contradiction; may be repeated.",
+        option(
+            "Accept what is refused as implausible for rubber: few-rows, modulus, contradiction; may be repeated.",
+            "FINDING",
         ),
     ] = None,
     html: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write the page to sign: verdict, figures, glossary (.html)."),
+        Path | None, option("Write the page to sign: verdict, figures, glossary (.html).", "FILE")
     ] = None,
     document: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME=WORDS",
-            help="On that page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
+        option(
+            "On that page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
+            "NAME=WORDS",
         ),
     ] = None,
     spec: Annotated[
-        Path | None,
-        typer.Option(metavar="SPEC", help="Conveyor whose rolls the window has to cover, for the verdict."),
+        Path | None, option("Conveyor whose rolls the window has to cover, for the verdict.", "SPEC")
     ] = None,
     export: Export = None,
     write_shift: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="Write the shift factors (.csv), to be edited and given to --shift."
-        ),
+        Path | None, option("Write the shift factors (.csv), to be edited and given to --shift.", "FILE")
     ] = None,
     force: Force = False,
     quiet: Quiet = False,
@@ -161,12 +150,10 @@ def fit(
     books = [path for path in output or () if path.suffix.lower() == ".xlsx"]
     compounds = [path for path in output or () if path not in books]
     for path in output or ():
-        to.file(
-            "--output", path, ".yaml", ".yml", ".xlsx", kind=marks.REPORT if path in books else marks.COMPOUND
-        )
-    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+        to.file("--output", path, *SPEC, ".xlsx", kind=None if path in books else marks.COMPOUND)
+    to.file("--plot", plot, *FIGURE)
     to.file("--write-shift", write_shift, ".csv")
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.file("--html", html, *PAGE)
     said = dict(_said(words) for words in document or ())
     for path in export or ():
         to.file("--export", path, *EXPORTED)
@@ -201,9 +188,7 @@ def fit(
         fitted = compound_file.from_files(data, request)
     lines = summary.lines(fitted)
     if plot is not None:
-        from conveyor.report import plots
-
-        to.add("figure", plot, {plot: plots.drawn(summary.figure(fitted), plot)})
+        to.figure(summary.figure(fitted), plot)
     for path in compounds:
         to.add("compound file", path, {path: shelf_of.dump(fitted.compound, marks.FITTED).encode()})
     if write_shift is not None:
@@ -234,7 +219,6 @@ def _judged(
     """Lines of the verdict; add the page to sign and the workbook."""
     from conveyor.fitting import page, tables, verdict
     from conveyor.fitting.compound import Tabulated
-    from conveyor.report import excel
     from conveyor.spec import load
 
     if isinstance(rubber, Tabulated):
@@ -242,7 +226,7 @@ def _judged(
     criteria = verdict.verdict(rubber, None if spec is None else load(spec))
     for path in paths:
         if path.suffix.lower() == ".xlsx":
-            to.add("workbook", path, excel.files(tables.of_fit(rubber, criteria, said), path, {}))
+            to.report(tables.of_fit(rubber, criteria, said), path)
         else:
             to.add("page", path, {path: page.build(rubber, criteria, said).encode()})
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
@@ -280,14 +264,12 @@ def _exported(compound: RubberCompound, paths: Sequence[Path] | None, to: Output
     )
 )
 def shelf(
-    name: Annotated[
-        str | None, typer.Argument(help="Show one compound.", autocompletion=compound_names)
-    ] = None,
-    at: Annotated[str, typer.Option(help="Temperature of the moduli shown.")] = "20 degC",
-    frequency: Annotated[str, typer.Option(help="Frequency of the moduli shown.")] = "10 Hz",
+    name: Annotated[str | None, argument("Show one compound.", autocompletion=compound_names)] = None,
+    at: Annotated[str, option("Temperature of the moduli shown.")] = "20 degC",
+    frequency: Annotated[str, option("Frequency of the moduli shown.")] = "10 Hz",
     plot: Annotated[
         Path | None,
-        typer.Option(help="Draw the compound, or the loss tangents of all, to this file (.png, .svg, .pdf)."),
+        option("Draw the compound, or the loss tangents of all, to this file (.png, .svg, .pdf)."),
     ] = None,
     export: Export = None,
     force: Force = False,
@@ -297,7 +279,7 @@ def shelf(
     import math
 
     to = Outputs(name, force=force)
-    to.file("--plot", plot, ".png", ".svg", ".pdf", kind=marks.FIGURE)
+    to.file("--plot", plot, *FIGURE)
     for path in export or ():
         to.file("--export", path, *EXPORTED)
     if export and name is None:
@@ -374,7 +356,7 @@ def _show(
     if plot is not None:
         from conveyor.report import plots
 
-        to.add("figure", plot, {plot: plots.drawn(figure(plots), plot)})
+        to.figure(figure(plots), plot)
     written = to.save()
     console.print(table)
     if written:

@@ -61,9 +61,9 @@ class Session:
             return self.units.value
         return "SI" if line is None else line.report.units
 
-    def progress(self) -> AbstractContextManager[Progress | None]:
-        """A bar on stderr; none where nothing or JSON is printed."""
-        return progress(silent=self.quiet or self.as_json)
+    def progress(self, what: str = "") -> AbstractContextManager[Progress | None]:
+        """A bar on stderr of what goes on; none where nothing or JSON is printed."""
+        return progress(what, silent=self.quiet or self.as_json)
 
     def answer(self, figures: object, to: Outputs, show: Callable[[], None]) -> None:
         """Write the files, then print the figures as JSON, or show them and name the files."""

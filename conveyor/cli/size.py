@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import AsParquet, TablesFolder
-from conveyor.cli.outputs import Outputs
+from conveyor.cli.app import AsParquet, TablesFolder, argument, option
+from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.cli.session import Session, command
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.report.columns import Contents
     from conveyor.sizing import CalculatedSizing
 
-_KINDS = {".xlsx": marks.REPORT, ".html": marks.PAGE, ".htm": marks.PAGE, ".png": marks.FIGURE, ".svg": marks.FIGURE,
-          ".pdf": marks.FIGURE, ".yaml": marks.TO_FILL_IN, ".yml": marks.TO_FILL_IN}  # fmt: skip
 _MOST = 50
 
 
@@ -34,18 +28,16 @@ _MOST = 50
 )
 def size(
     session: Session,
-    duty: Annotated[Path, typer.Argument(metavar="DUTY", help="Duty: .yaml or .json.", show_default=False)],
-    best: Annotated[
-        int, typer.Option("--best", "-n", metavar="N", help="Designs to rank.", min=1, max=_MOST)
-    ] = 3,
+    duty: Annotated[Path, argument("Duty: .yaml or .json.", "DUTY", show_default=False)],
+    best: Annotated[int, option("Designs to rank.", "N", "--best", "-n", min=1, max=_MOST)] = 3,
     output: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            "Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
+            "(.png, .svg, .pdf); may be repeated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
-            "(.png, .svg, .pdf); may be repeated.",
         ),
     ] = None,
     tables: TablesFolder = None,
@@ -59,30 +51,24 @@ def size(
     asked = [(path, path.suffix.lower()) for path in output or ()]
     to = session.outputs(duty)
     for path, ending in asked:
-        numbered = _ranked(path, best) if ending in {".yaml", ".yml"} else [path]
-        for each in numbered:
-            to.file("--output", each, *_KINDS, kind=_KINDS.get(ending, ""))
-    to.tables(tables, parquet=parquet)
+        for each in _ranked(path, best) if ending in SPEC else [path]:
+            to.file("--output", each, ".xlsx", *PAGE, *FIGURE, *SPEC)
+    to.reports(tables=tables, parquet=parquet)
     from conveyor import sizing
     from conveyor.report.sizing_tables import of_sizing, plain
     from conveyor.study_file import read_duty
 
     read = read_duty(duty, shelves=session.shelf or ())
-    with session.progress() as told:
-        designs = sizing.size(read, best=best, progress=None if told is None else partial(told, "designs"))
-    pictured = (
-        session.as_json or tables is not None or any(ending not in {".yaml", ".yml"} for _, ending in asked)
-    )
+    with session.progress("designs") as told:
+        designs = sizing.size(read, best=best, progress=told)
+    pictured = session.as_json or tables is not None or any(ending not in SPEC for _, ending in asked)
     contents = of_sizing(designs, session.system(read), vary=pictured)
     for path, ending in asked:
         _write(designs, contents, path, ending, to)
-    if tables is not None:
-        from conveyor.report import files
+    to.write(contents)
+    from conveyor.cli.terminal import show_sizing
 
-        to.add("tables", tables, files.files(contents, tables, "parquet" if parquet else "csv"))
-    from conveyor.cli.sizing_tables import show
-
-    session.answer(plain(contents, designs), to, lambda: show(contents))
+    session.answer(plain(contents, designs), to, lambda: show_sizing(contents))
 
 
 def _ranked(path: Path, best: int) -> list[Path]:
@@ -92,22 +78,17 @@ def _ranked(path: Path, best: int) -> list[Path]:
 
 def _write(sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
     """Make a file of the kind its name says."""
-    from conveyor.report import excel, sizing_tables
-    from conveyor.report import html as page
-    from conveyor.report.plots import drawn
     from conveyor.spec import dump
 
-    if ending in {".yaml", ".yml"}:
+    if ending in SPEC:
         names = _ranked(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
         made = {
             name: f"# Rank {rank} of conveyor size.\n{dump(design.conveyor)}".encode()
             for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1)
         }
         to.add("specs", path, made)
-    elif ending == ".xlsx":
-        to.add("workbook", path, excel.files(contents, path, {}))
-    elif ending in {".html", ".htm"}:
-        to.add("page", path, {path: page.build(contents, sizing_tables.PARTS).encode()})
-    else:
+    elif ending in FIGURE:
         around = next(drawing for drawing in contents.drawings if drawing.name == "around")
-        to.add("figure", path, {path: drawn(around.draw(), path)})
+        to.figure(around.draw(), path)
+    else:
+        to.report(contents, path)

@@ -10,9 +10,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from conveyor.cli.app import WebPage, say
+from conveyor.cli.app import WebPage, argument, option, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
@@ -43,29 +41,21 @@ _SHOWN = 3
 )
 def study(
     session: Session,
-    plan_file: Annotated[
-        Path, typer.Argument(metavar="STUDY", help="Study: .yaml or .json.", show_default=False)
-    ],
+    plan_file: Annotated[Path, argument("Study: .yaml or .json.", "STUDY", show_default=False)],
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
+            "FILE",
             "-o",
             "--output",
-            metavar="FILE",
-            help="Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
             show_default=False,
         ),
     ],
-    designs: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the designs (.csv, .parquet).")
-    ] = None,
+    designs: Annotated[Path | None, option("Write the designs (.csv, .parquet).", "FILE")] = None,
     html: WebPage = None,
-    plots: Annotated[
-        Path | None, typer.Option("--plots", metavar="FOLDER", help="Draw every figure into it (.png).")
-    ] = None,
-    specs: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Write the best ten designs into it as specs.")
-    ] = None,
+    plots: Annotated[Path | None, option("Draw every figure into it (.png).", "FOLDER", "--plots")] = None,
+    specs: Annotated[Path | None, option("Write the best ten designs into it as specs.", "FOLDER")] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
 ) -> None:
@@ -91,7 +81,7 @@ def study(
     to.folder("--output", output if parted else None)
     _asked(to, "--output", None if parted else output, table)
     _asked(to, "--designs", designs, designed)
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.reports(html=html)
     to.folder("--plots", plots)
     to.folder("--specs", specs)
     begun = perf_counter()
@@ -123,7 +113,7 @@ def study(
         if designs is not None:
             designed.write(designs, point_tables.design_rows(evaluated, running.designs(campaign, known)))
     contents = design_tables.of_study(evaluated, system)
-    _made(to, campaign, evaluated, contents, html=html, plots=plots, specs=specs)
+    _made(to, campaign, evaluated, contents, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
     def show() -> None:
@@ -149,27 +139,18 @@ def _made(
     study: Explored,
     contents: Contents,
     *,
-    html: Path | None,
     plots: Path | None,
     specs: Path | None,
 ) -> None:
     """Make the page, the figures and the specs that are asked for."""
-    from conveyor.report import design_tables
-    from conveyor.report import html as page
-    from conveyor.report.plots import drawn
-
-    if html is not None:
-        to.add("page", html, {html: page.build(contents, design_tables.PARTS).encode()})
+    to.write(contents)
     if plots is not None:
-        drawings = design_tables.drawings(study, contents.system)
-        files = {plots / f"{name}.png": figure for name, figure in drawings}
-        to.add("figures", plots, {path: drawn(figure, path) for path, figure in files.items()})
+        to.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, plots)
     if specs is not None:
         ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
-        told = {
-            path: spec_of(campaign, one, said(one, campaign, contents.system)) for path, one in made.items()
-        }
+        system = contents.system
+        told = {path: spec_of(campaign, one, said(one, campaign, system)) for path, one in made.items()}
         to.add("specs", specs, told)
 
 

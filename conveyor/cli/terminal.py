@@ -1,24 +1,40 @@
-"""How results look on a terminal: plain tables, no wider than it."""
+"""How results look on a terminal: plain tables, no wider than it; of every command what a designer looks for."""
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import textwrap
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.printable import printable
+from conveyor.units.presentation import Unit, headed, unit
+from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Table as Grid
     from rich.text import Text
 
-    from conveyor.report.columns import Table as Part
+    from conveyor.report.columns import Contents, Figure, Table
     from conveyor.units import System
 
 _PIPED: Final = 120  # columns where nobody's terminal limits them
 _NARROWEST: Final = 40
+_SUMS: Final = ("main", "secondary", "special", "lift", "total")
+_DOCUMENT: Final = ("project", "number", "client", "engineer", "revision")
+_MATTERS: Final = 3
+"""Inputs that are said to matter first."""
+_FIRST_ORDER: Final = 2  # rows of the band
+_SCENARIO: Final = (
+    "scenario", "highest_tension", "at", "in", "lowest_tension", "lowest_at", "lowest_in", "comes_to_rest", "way",
+)  # fmt: skip
+_DESIGN: Final = (
+    "rank", "belt_width", "speed", "trough", "belt", "rolls", "carry_sets", "return_sets", "drives", "motors",
+    "motor_power", "cost_a_year",
+)  # fmt: skip
 
 
 def console() -> Console:
@@ -36,12 +52,15 @@ def words(text: str, style: str = "") -> Text:
     return Text(printable(text), style=style)
 
 
-def table(title: str | None = None) -> Table:
-    """A table without a frame: a line below its head, nothing that a file of text does not hold."""
+def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collection[str] = ()) -> Grid:
+    """A table without a frame: a line below its head, nothing that a file of text does not hold.
+
+    Columns are numbers, but those whose heads are said to stand on the left.
+    """
     from rich import box
     from rich.table import Table
 
-    return Table(
+    made = Table(
         title=None if title is None else words(title, "bold"),
         title_justify="left",
         box=box.SIMPLE_HEAD,
@@ -49,12 +68,14 @@ def table(title: str | None = None) -> Table:
         pad_edge=False,
         padding=(0, 1),
     )
+    for head in heads:
+        of_words = head in left
+        made.add_column(words(head), justify="left" if of_words else "right", no_wrap=not of_words)
+    return made
 
 
-def grid(part: Part, system: System, title: str | None = None, *, large: bool = False) -> Table:
+def grid(part: Table, system: System, title: str | None = None, *, large: bool = False) -> Grid:
     """A table of the report, units below names; `large`: in kN where the report has N."""
-    from conveyor.units.presentation import unit
-
     made = table(part.heading if title is None else title)
     for column in part.columns:
         sign = unit(column.kind, system, large=large).sign
@@ -78,3 +99,319 @@ def grid(part: Part, system: System, title: str | None = None, *, large: bool = 
 def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str:
     """Break a line where the terminal ends, what follows indented."""
     return textwrap.fill(line, width - 1, initial_indent=first, subsequent_indent=further)
+
+
+def show_notes(screen: Console, notes: Sequence[str]) -> None:
+    """Print notes as two short lists, their lines no wider than the terminal."""
+    from conveyor.report.columns import HEADINGS, ordered
+
+    for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
+        if listed:
+            screen.print(words(f"\n{heading}", style=colour))
+        for note in listed:
+            screen.print(words(wrapped(note, screen.width, first="  - ", further="    ")))
+
+
+def show_power(contents: Contents) -> None:
+    """Print what a designer looks for, the most important first and what to doubt last."""
+    screen = console()
+    _head(screen, contents)
+    screen.print()
+    screen.print(_forces(contents))
+    if "defaults" in contents:
+        screen.print(words(wrapped(contents["defaults"].note, screen.width)))
+    screen.print()
+    screen.print(_sums(contents))
+    if "cema" in contents:
+        screen.print()
+        screen.print(_cema(contents))
+    _checks(screen, contents)
+    if "load_states" in contents:
+        screen.print()
+        screen.print(_states(contents["load_states"], contents.system))
+    if "governing_cases" in contents:
+        screen.print()
+        screen.print(_cases(contents["governing_cases"], contents.system))
+    if "duty_year" in contents:
+        screen.print()
+        screen.print(_year(contents["duty_year"].rows, contents.system))
+    if "power_band" in contents:
+        _ranges(screen, contents)
+    show_notes(screen, contents.lines("warning"))
+    error, balance = (
+        _figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error")
+    )
+    screen.print(
+        f"\nrelative error of the contact solutions: at most {error:.0e}; "
+        f"their energy balance closes to {balance:.0e}"
+    )
+
+
+def _figure(contents: Contents, key: str) -> Figure:
+    figure: Figure = next(row for row in contents["results"].rows if row.key == key)
+    return figure
+
+
+def _head(screen: Console, contents: Contents) -> None:
+    about, system = contents.document, contents.system
+    screen.print(words(about.title, style="bold"))
+    named = {"client": "for {}", "engineer": "by {}", "revision": "revision {}"}
+    said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT if name in about.said)
+    if about.said:
+        screen.print(words(", ".join(said)))
+    facts = {row.label: row.unit(system).brief(row.value) for row in contents["identity"].rows}
+    material = facts["material"].rpartition(", ")[0]  # without its density
+    screen.print(
+        words(
+            f"{material}, {facts['mass flow']} over {facts['length']}, lift {facts['lift']}\n"
+            f"belt {facts['belt width']} at {facts['belt speed']}, {facts['temperature of the covers']}"
+        )
+    )
+
+
+def _forces(contents: Contents) -> Grid:
+    system = contents.system
+    force, power = unit("force", system, large=True), unit("power", system, large=True)
+    sums = {row.key: row.value for row in contents["classical"].rows}
+    total = sums["total"][0]
+    whole = "effective tension Te" if system == "US" else "effective tension"
+    names = {"main": "main resistance", "total": whole}
+    rows: list[tuple[str, float, float | None]] = [
+        (row.label, row.value, None)
+        for row in (
+            _figure(contents, f"{name}_force") for name in ("indentation", "idler_rotation", "flexure")
+        )
+    ]
+    rows += [(names.get(key, key), *sums[key][:2]) for key in _SUMS]
+    classical = f"classical, f = {sums['friction_factor'][1]:g}"
+    made = table(None, ("force", "this calculation", "share", classical), left=("force",))
+    for name, value, other in rows:
+        share = percent(value / total, 1) if total else ""
+        beside = "" if other is None else force.said(other)
+        made.add_row(name, force.said(value), share, beside, end_section=name in {"flexure", "lift"})
+    made.add_section()
+    belt, motor, mains = (_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
+    made.add_row("belt power", power.said(belt))
+    made.add_row("motor power", power.said(motor), "", power.said(sums["motor"][1]), style="bold")
+    if mains != motor:
+        made.add_row("mains power", power.said(mains))
+    f, given = sums["friction_factor"][:2]
+    made.add_row("friction factor f", f"{f:.4f}", "", f"{given:.4f}")
+    return made
+
+
+def _sums(contents: Contents) -> Grid:
+    """Tensions and energy: a name and what it is."""
+    from rich.table import Table
+
+    force = unit("force", contents.system, large=True)
+    known = {row.key: row for row in contents["results"].rows}
+    tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
+    made = Table.grid(padding=(0, 2))
+    made.add_row(
+        "tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}"
+    )
+    made.add_row("take-up", _take_up(contents))
+    if "specific_energy" in known:
+        energy = known["specific_energy"]
+        made.add_row("energy", energy.unit(contents.system).said(energy.value))
+    year = [known[key] for key in ("energy_per_year", "cost_per_year") if key in known]
+    if year:
+        said = (
+            f"{row.unit(contents.system).shown(row.value):,.0f} {row.unit(contents.system).sign}"
+            for row in year
+        )
+        made.add_row("in a year", ", ".join(said))
+    return made
+
+
+def _cema(contents: Contents) -> Grid:
+    """The classic form of CEMA by cause, with its motor power."""
+    force, power = (unit(kind, contents.system) for kind in ("force", "power"))
+    made, items = table("CEMA classic", ("resistance", "force"), left=("resistance",)), contents["cema"]
+    for symbol, name, newtons in items.rows:
+        made.add_row(f"{symbol}, {name}", force.said(newtons))
+    made.add_section()
+    made.add_row("Te", force.said(items.totals()[-1]))
+    motor = next(row.value for row in contents["classical"].rows if row.key == "motor")
+    made.add_row("motor power", power.said(motor[-1]), style="bold")
+    return made
+
+
+def _take_up(contents: Contents) -> str:
+    """Setting of the take-up, its mass and travel."""
+    known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
+    force, mass, length = (unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
+    said = [force.said(known["take_up_setting"].value)]
+    if "take_up_mass" in known:
+        said.append(mass.said(known["take_up_mass"].value))
+    if "take_up_travel" in known:
+        said.append(f"travel {length.said(known['take_up_travel'].value)}")
+    return ", ".join(said)
+
+
+def _checks(screen: Console, contents: Contents) -> None:
+    rows = contents["checks"].rows
+    counts = {word: sum(check.verdict == word for check in rows) for word in ("pass", "FAIL", "not checked")}
+    said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    screen.print(words(f"checks: {said}", style="bold"))
+    cases = ["case"] if "case" in [column.key for column in contents["checks"].columns] else []
+    text = ("check", "calculated, required", *cases, "")
+    made = table(None, (*text[:2], "margin", *text[2:]), left=text)
+    for check in rows:
+        if check.leads or check.verdict == "FAIL":
+            cells = [check.subject, f"{check.found}, {check.asked}", unit("margin").written(check.margin)]
+            cells += [*([check.case] if cases else []), check.verdict]
+            made.add_row(*map(words, cells), style="red" if check.verdict == "FAIL" else "")
+    screen.print(made)
+
+
+def _states(states: Table, system: System) -> Grid:
+    figures = {
+        "motor_power": "motor",
+        "largest_tension": "max. tension",
+        "take_up_tension_asked_for": "take-up",
+    }
+    text = ("state", "sections loaded", "at")
+    made = table("load states", (*text, *figures.values()), left=text)
+    columns = {column.key: column for column in states.columns}
+    for row in states.rows:
+        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
+        at = unit("temperature", system).brief(columns["temperature"].get(row))
+        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
+    return made
+
+
+def _cases(cases: Table, system: System) -> Grid:
+    made = table("governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at"))
+    get = {column.key: column.get for column in cases.columns}
+    for row in cases.rows:
+        at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
+        value = unit(row.kind, system, large=True).said(get["value"](row))
+        made.add_row(row.label, value, words(get["case"](row)), at)
+    return made
+
+
+def _year(figures: Iterable[Figure], system: System) -> Grid:
+    made = table("the year", ("figure", "value"), left=("figure",))
+    for figure in figures:
+        value = figure.unit(system).shown(figure.value)
+        written = f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}"
+        made.add_row(words(headed(figure.label, figure.kind, system)), written)
+    return made
+
+
+def _ranges(screen: Console, contents: Contents) -> None:
+    power, band = unit("power", contents.system, large=True), contents["power_band"]
+    ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
+    said = " to ".join(power.said(end(band.rows[0])) for end in ends)
+    exact = [
+        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER:]
+    ]
+    inputs = contents["sensitivity"]
+    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
+    screen.print(words("\nuncertainty", style="bold"))
+    said = f"motor power {said} (90 % interval){''.join(exact)}; most sensitive to: {first}"
+    screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))
+
+
+def show_comparison(contents: Contents) -> None:
+    """Print the ranking and its remarks."""
+    facts = dict(contents.document.facts)
+    title = f"{contents.document.title}: {facts['cover']} cover, against {facts['savings against']}"
+    ranked = contents["ranking"]
+    columns = _of_ranking(ranked, contents.by_key.get("costs"), contents.system)
+    made = table(title, columns, left=("compound",))
+    for row in ranked.rows:
+        made.add_row(*(words(shown(row)) for shown in columns.values()))
+    screen = console()
+    screen.print(made)
+    show_notes(screen, contents.lines("warning"))
+
+
+def _of_ranking(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
+    """Headings and what stands under them, of what the ranking knows."""
+    power, speed, warmth = (unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
+
+    def band(row: Any) -> str:
+        return (
+            ""
+            if row.low is None or row.high is None
+            else f"{_number(power, row.low)}-{_number(power, row.high)}"
+        )
+
+    columns: dict[str, Callable[[Any], str]] = {"compound": lambda row: str(row.compound)}
+    if len({row.speed for row in ranked.rows}) > 1:
+        columns[speed.sign] = lambda row: f"{speed.shown(row.speed):.4g}"
+    columns[_over("mean", power)] = lambda row: _number(power, row.motor)
+    if any(row.low is not None for row in ranked.rows):
+        columns[_over("90 % band", power)] = band
+    columns["change"] = lambda row: "" if row.change is None else f"{100.0 * row.change:+.1f} %"
+    columns[_over("peak", power)] = lambda row: _number(power, row.peak)
+    columns[_over("at", warmth)] = lambda row: (
+        "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
+    )
+    saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
+    if saved:
+        money = unit(saved[0].kind, system)
+        columns[_over("saved/a", money)] = lambda row: _number(money, row.saving)
+    if any(row.payback is not None for row in ranked.rows):
+        years = unit("years", system)
+        columns[_over("payback", years)] = lambda row: _number(years, row.payback)
+    return columns
+
+
+def _over(words: str, written: Unit) -> str:
+    return f"{words}\n[{written.sign}]"
+
+
+def _number(written: Unit, given: float | None) -> str:
+    if given is None:
+        return ""
+    value = written.shown(given)
+    if math.isinf(value):
+        return written.written(given)
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"
+
+
+def show_dynamics(contents: Contents) -> None:
+    """Print the scenarios, then checks that fail and assumptions."""
+    shown = contents["scenarios"].only(*_SCENARIO)
+    screen = console()
+    screen.print(grid(shown, contents.system, contents.document.title, large=True))
+    if "scenario_sizes" in contents:
+        _sizes(screen, contents)
+    counted = [row.verdict for row in contents["checks"].rows]
+    screen.print(f"\nchecks: {counted.count('pass')} pass, {counted.count('FAIL')} FAIL")
+    show_notes(screen, [*contents.lines("warning"), *contents.lines("assumption")])
+
+
+def _sizes(screen: Console, contents: Contents) -> None:
+    """What was sought, how well it is known, and what decides."""
+    shown = contents["scenario_sizes"]
+    by_key = {column.key: column for column in shown.columns}
+    for row in shown.rows:
+        written = row.unit(contents.system)
+        error, most = by_key["to"].get(row), by_key["serves_up_to"].get(row)
+        said = f"{by_key['scenario'].get(row)}: {row.label} {written.said(by_key['found'].get(row))}"
+        said += "" if error is None else f", to {percent(error, 1)}"
+        said += "" if most is None else f"; up to {written.said(most)} serves"
+        governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
+        said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"
+        screen.print(words(said))
+
+
+def show_sizing(contents: Contents) -> None:
+    """Print the designs, what tells them apart, and remarks."""
+    from conveyor.report.columns import merged
+
+    every = contents["designs"]
+    title = f"{contents.document.title}: designs"
+    screen = console()
+    screen.print(grid(every.only(*_DESIGN), contents.system, title, large=True))
+    why = next(column for column in every.columns if column.key == "why")
+    for rank, row in enumerate(every.rows, start=1):
+        screen.print(words(f"{rank}: {why.get(row)}"))
+    screen.print(words("\nbasis and limitations", style="bold"))
+    for line in merged(contents.lines("assumption")):
+        screen.print(words(wrapped(line, screen.width, first="  - ", further="    ")))

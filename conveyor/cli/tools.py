@@ -5,9 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from conveyor.cli.app import AsJson, Force, Quiet, Shelves, Units, app, examples, print_json, print_text, say
+from conveyor.cli.app import (
+    AsJson,
+    Force,
+    Quiet,
+    Shelves,
+    Units,
+    app,
+    argument,
+    examples,
+    option,
+    print_json,
+    print_text,
+    say,
+)
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.marks import TO_FILL_IN
@@ -20,20 +31,16 @@ from conveyor.files.marks import TO_FILL_IN
     )
 )
 def contact(
-    radius: Annotated[float, typer.Option(help="R over the spacing, in (0, 0.5].")],
-    pressure: Annotated[float | None, typer.Option(help="Mean pressure 2(1-nu^2)p/(E0 k R).")] = None,
-    penetration: Annotated[
-        float | None, typer.Option(help="Penetration over R, held in place of the pressure.")
-    ] = None,
-    support: Annotated[str, typer.Option(help="free, confined or half-space.")] = "confined",
-    thickness: Annotated[float, typer.Option(help="k h; inf allowed.")] = float("inf"),
-    instantaneous: Annotated[
-        float | None, typer.Option(help="E0/E_inf; else 1 - sum of the weights.")
-    ] = None,
-    weight: Annotated[list[float] | None, typer.Option(help="Creep weight; may be repeated.")] = None,
-    time: Annotated[list[float] | None, typer.Option(help="zeta = V tau k of each weight.")] = None,
-    poisson: Annotated[float, typer.Option(help="Poisson's ratio.")] = 0.5,
-    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-6,
+    radius: Annotated[float, option("R over the spacing, in (0, 0.5].")],
+    pressure: Annotated[float | None, option("Mean pressure 2(1-nu^2)p/(E0 k R).")] = None,
+    penetration: Annotated[float | None, option("Penetration over R, held in place of the pressure.")] = None,
+    support: Annotated[str, option("free, confined or half-space.")] = "confined",
+    thickness: Annotated[float, option("k h; inf allowed.")] = float("inf"),
+    instantaneous: Annotated[float | None, option("E0/E_inf; else 1 - sum of the weights.")] = None,
+    weight: Annotated[list[float] | None, option("Creep weight; may be repeated.")] = None,
+    time: Annotated[list[float] | None, option("zeta = V tau k of each weight.")] = None,
+    poisson: Annotated[float, option("Poisson's ratio.")] = 0.5,
+    rtol: Annotated[float, option("Relative tolerance.")] = 1e-6,
     as_json: AsJson = False,
 ) -> None:
     """Solve one dimensionless rolling contact."""
@@ -76,12 +83,9 @@ def contact(
     ),
 )
 def template(
-    output: Annotated[Path, typer.Argument(help="Workbook to write (.xlsx).", show_default=False)],
-    spec: Annotated[Path | None, typer.Option("--from", help="Fill it in from this spec.")] = None,
-    units: Annotated[
-        Units | None,
-        typer.Option(help="System of units of the example; a spec has its own.", case_sensitive=False),
-    ] = None,
+    output: Annotated[Path, argument("Workbook to write (.xlsx).", show_default=False)],
+    spec: Annotated[Path | None, option("Fill it in from this spec.", None, "--from")] = None,
+    units: Annotated[Units | None, option("System of units of the example; a spec has its own.")] = None,
     force: Force = False,
     quiet: Quiet = False,
     shelf: Shelves = None,
@@ -116,11 +120,9 @@ def template(
 )
 def schema(
     markdown: Annotated[
-        bool, typer.Option("--markdown", help="Print the reference of all fields for people, as markdown.")
+        bool, option("Print the reference of all fields for people, as markdown.", None, "--markdown")
     ] = False,
-    result: Annotated[
-        bool, typer.Option("--result", help="Print the JSON schema of what --json prints.")
-    ] = False,
+    result: Annotated[bool, option("Print the JSON schema of what --json prints.", None, "--result")] = False,
 ) -> None:
     """Print the JSON schema of a spec, for editors, or of results; or the reference of the file formats."""
     if markdown and result:
@@ -150,10 +152,8 @@ def validate(quiet: Quiet = False) -> None:
     from conveyor.cli.terminal import console, table
 
     checks = validation.run()
-    made = table()
-    made.add_column("reference")
-    for heading in ("expected", "got", "deviation", "allowed", ""):
-        made.add_column(heading, no_wrap=True, justify="right")
+    heads = ("reference", "expected", "got", "deviation", "allowed", "")
+    made = table(None, heads, left=("reference",))
     for check in checks:
         made.add_row(
             f"{check.source}: {check.quantity}",

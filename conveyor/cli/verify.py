@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
-from conveyor.cli.app import WebPage, Workbook, say, values
+from conveyor.cli.app import WebPage, Workbook, argument, option, say, values
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
-from conveyor.files import marks
 
 if TYPE_CHECKING:
     from conveyor.analysis import VerificationSheet
@@ -39,36 +35,24 @@ _AXES = {
 def verify_sheet(
     session: Session,
     compounds: Annotated[
-        list[str],
-        typer.Argument(metavar="COMPOUND...", help="Shelf names or compound files.", show_default=False),
+        list[str], argument("Shelf names or compound files.", "COMPOUND...", show_default=False)
     ],
     spec: Annotated[
-        Path | None,
-        typer.Option("--spec", metavar="SPEC", help="Conveyor whose most loaded carry set is shown as well."),
+        Path | None, option("Conveyor whose most loaded carry set is shown as well.", "SPEC", "--spec")
     ] = None,
     load: Annotated[
-        str | None,
-        typer.Option(metavar="VALUES", help="Line loads: from:to:step or a,b,c; else 1 to 8 N/mm."),
+        str | None, option("Line loads: from:to:step or a,b,c; else 1 to 8 N/mm.", "VALUES")
     ] = None,
     temperature: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUES", help="Of the cover; else -20 to 40 degC as far as compounds are known."
-        ),
+        str | None, option("Of the cover; else -20 to 40 degC as far as compounds are known.", "VALUES")
     ] = None,
-    roll: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="Diameters of rolls; else 159, 194, 219 mm.")
-    ] = None,
-    speed: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="Of the belt; else 2.5, 5, 7.5 m/s.")
-    ] = None,
-    cover: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="Thickness of the cover; else 6, 7, 8 mm.")
-    ] = None,
+    roll: Annotated[str | None, option("Diameters of rolls; else 159, 194, 219 mm.", "VALUES")] = None,
+    speed: Annotated[str | None, option("Of the belt; else 2.5, 5, 7.5 m/s.", "VALUES")] = None,
+    cover: Annotated[str | None, option("Thickness of the cover; else 6, 7, 8 mm.", "VALUES")] = None,
     softened: Annotated[
         bool,
-        typer.Option(
-            "--softened", help="Moduli at the strain of every roll, where known: half a second a figure."
+        option(
+            "Moduli at the strain of every roll, where known: half a second a figure.", None, "--softened"
         ),
     ] = False,
     output: Workbook = None,
@@ -76,13 +60,10 @@ def verify_sheet(
 ) -> None:
     """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = session.outputs(spec, *compounds)
-    to.file("--output", output, ".xlsx", kind=marks.REPORT)
-    to.file("--html", html, ".html", ".htm", kind=marks.PAGE)
+    to.reports(output, html)
     if output is None and html is None and not session.as_json:
         raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
     import conveyor
-    from conveyor.report import excel, verification_tables
-    from conveyor.report import html as page
 
     line = None if spec is None else session.read(spec)
     given = dict(zip(_AXES, (load, temperature, roll, speed, cover), strict=True))
@@ -91,20 +72,11 @@ def verify_sheet(
         for option, text in given.items()
         if text is not None
     }
-    with session.progress() as told:
+    with session.progress("compounds") as told:
         sheet = conveyor.verify_sheet(
-            compounds,
-            conveyor=line,
-            softened=softened,
-            shelves=session.shelf or (),
-            progress=None if told is None else partial(told, "compounds"),
-            **axes,
+            compounds, conveyor=line, softened=softened, shelves=session.shelf or (), progress=told, **axes
         )
-    contents = sheet.contents(session.system(line))
-    if output is not None:
-        to.add("workbook", output, excel.files(contents, output, excel.VERIFICATION_SHEETS))
-    if html is not None:
-        to.add("page", html, {html: page.build(contents, verification_tables.PARTS).encode()})
+    to.write(sheet.contents(session.system(line)))
     session.answer(sheet.to_dict(), to, lambda: _show(sheet))
 
 

@@ -7,19 +7,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
+from conveyor.cli.app import option
 from conveyor.errors import ConveyorError, InputError
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-Workers = Annotated[
-    int, typer.Option(metavar="N", help="Processes, or workers of the cluster.", min=1, max=1024)
-]
+Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=1024)]
 Scheduler = Annotated[
-    str | None,
-    typer.Option(metavar="ADDRESS", help="Of a Dask cluster (package distributed); else this machine."),
+    str | None, option("Of a Dask cluster (package distributed); else this machine.", "ADDRESS")
 ]
 
 

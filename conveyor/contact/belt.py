@@ -204,7 +204,7 @@ def _cover(q: Array, modulus: ComplexArray, side: float) -> _Matrix:
     decay = np.exp(-2.0 * q)
     twice_sum = -0.5 * np.expm1(-4.0 * q) + 2.0 * q * decay  # 2 (s c + q) e^{-2q}
     unit = modulus / (0.5 * (1.0 + decay) ** 2 + 2.0 * q * q * decay)
-    return unit * twice_sum, unit * (2.0 * side * q * q * decay), unit * sinh_minus_scaled(2.0 * q)
+    return unit * twice_sum, unit * (2.0 * side * q * q * decay), unit * sinh_minus_scaled(2.0 * q, decay)
 
 
 def _condensed(

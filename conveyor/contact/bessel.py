@@ -165,13 +165,6 @@ class ProductIK:
         for v in range(order):
             np.multiply(self._high[v], r[v], out=self._high[v + 1])
 
-    def __getitem__(self, chosen: NDArray[np.int_]) -> ProductIK:
-        """The same of some of the k half widths."""
-        part = object.__new__(ProductIK)
-        for name in ("_deficit", "_diagonal", "_ratio", "_rise", "_high"):
-            setattr(part, name, getattr(self, name)[:, chosen])
-        return part
-
     def falling(self, order: int) -> Array:
         """K_v/K_order of v = 0 … order, shape (order + 1, k, t)."""
         ratios = np.ones((order + 1, *self._rise.shape[1:]))

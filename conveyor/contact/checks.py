@@ -8,16 +8,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.circle import slope_expansion
 from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, nested, of_order
+from conveyor.contact.spectral import Contact, nested, of_orders
 
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
+_MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING = 16  # samples: a ripple of the highest order changes sign after four
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
@@ -47,8 +47,9 @@ def errors_of_lower(
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
     and δ(3n/4) the error at n is δ(3n/4)²/δ(n/2) for geometric convergence; four times that covers n^-3, and δ(3n/4)
-    is the most. Twice that bounds it down to n^-1.4. Edges shift with ε and with the half width that another load
-    takes, |δp/p| of it at most; they converge more slowly, so twice their shift from 3n/4 is taken.
+    is the most. 2.3 times that bounds it down to n^-1.25, and where an unresolved edge layer makes it grow like n².
+    Edges shift with ε and with the half width that another load takes, |δp/p| of it at most; they converge more
+    slowly, so twice their shift from 3n/4 is taken.
 
     Parameters
     ----------
@@ -66,10 +67,8 @@ def errors_of_lower(
     OrderErrors
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
-    slopes = slope_expansion(contact.alpha, contact.eps, rho, matrices[1].shape[2] + 2)
     change = []
-    for matrix in matrices:
-        lower = of_order(matrix, slopes, contact, rho)
+    for lower in of_orders(matrices, contact, rho):
         friction = relative_difference(lower.friction, contact.friction)
         load = lower.pressure / contact.pressure - 1.0
         shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
@@ -79,7 +78,7 @@ def errors_of_lower(
     left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
-    return OrderErrors(left, 2.0 * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
+    return OrderErrors(left, _MOST * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
 
 
 def by_energy(energy: Array, most: Array) -> Array:
@@ -164,17 +163,20 @@ def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool
     return np.asarray(beside | (contact.alpha + np.abs(contact.eps) > WRAPPED * rho))
 
 
-def overlaps(scene: Scene, contact: Contact, depth: float) -> bool:
+def overlaps(scene: Scene, contact: Contact, depth: float | None = None) -> bool:
     """Whether the layer's surface lies inside the roll outside the strips; one strip an entry of `contact`.
 
-    Between strips, and out to the ends of the roll's half circle.
+    Between strips, and out to the ends of the roll's half circle. Where Δ/R is not known the surface half way to
+    the first strip's edge tells it, to a tenth of the tolerance.
     """
     rho = scene.problem.rho
     rank = np.argsort(contact.eps)
     low, high = (contact.eps - contact.alpha)[rank], (contact.eps + contact.alpha)[rank]
     place = np.linspace(0.0, 1.0, _GAP_POINTS + 2)[1:-1]
     starts, ends = np.append(-rho, high), np.append(low, rho)
-    x = (starts[:, None] + place * (ends - starts)[:, None]).ravel()
-    roll = depth - 1.0 + np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0))
+    inside = contact.eps[0] + 0.5 * contact.alpha[0]
+    x = np.append((starts[:, None] + place * (ends - starts)[:, None]).ravel(), inside)
+    roll = np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0)) - 1.0
     gap = SpectralFields(scene.problem.layer, scene.creep, contact, rho).outside(x, _GAP_REACH) - roll
-    return bool(gap.min() < -_GAP_TOLERANCE * abs(depth))
+    depth = float(gap[-1]) if depth is None else depth
+    return bool(gap[:-1].min() < depth - _GAP_TOLERANCE * abs(depth))

@@ -38,48 +38,31 @@ def _shown(nearest: float, count: int) -> int:
     return count if rate * (count - 2) <= _NEGLIGIBLE else max(4, int(_NEGLIGIBLE / rate) + 2)
 
 
-def _parts(y: Array, e: Array, rho: Array) -> tuple[Array, Array, Array, Array]:
-    """Even and odd part of t/sqrt(1-t²) at t = (±y + e)/ρ, times two, and their derivatives by e.
+def _parts(y: Array, e: Array, rho: Array) -> tuple[Array, Array]:
+    """Even and odd part of t/sqrt(1-t²) at t = (±y + e)/ρ, times two, and their two derivatives by e, (3, b, k) each.
 
     Formed apart, so that a contact almost centred (e → 0) keeps the relative precision of its even part.
     """
-    t1, t2 = (y + e) / rho, (y - e) / rho
-    c1, c2 = 1.0 - t1 * t1, 1.0 - t2 * t2
-    r1, r2 = 1.0 / np.sqrt(c1), 1.0 / np.sqrt(c2)
-    h1, h2 = t1 * r1, t2 * r2
-    odd = h1 + h2
+    t = np.empty((2, *np.broadcast_shapes(y.shape, e.shape)))
+    np.add(y, e, out=t[0])
+    np.subtract(y, e, out=t[1])
+    t /= rho
+    c = 1.0 - t * t
+    root = 1.0 / np.sqrt(c)
+    shape = np.empty((3, *t.shape))
+    np.multiply(t, root, out=shape[0])
+    np.divide(root, c * rho, out=shape[1])
+    # d²(t/sqrt(1-t²))/dt² = 3 t (1-t²)^(-5/2)
+    np.multiply(shape[1], 3.0 * t / (c * rho), out=shape[2])
+    total, difference = shape[:, 0] + shape[:, 1], shape[:, 0] - shape[:, 1]
+    total[1], difference[1] = difference[1], total[1].copy()
     # h1 - h2 without cancellation where both have one sign: (h1² - h2²)/(h1 + h2)
-    same = y > np.abs(e)
-    total = np.where(same, odd, 1.0)
-    even = np.where(same, 4.0 * y * e / (rho * rho * c1 * c2 * total), h1 - h2)
-    d1, d2 = r1 / (c1 * rho), r2 / (c2 * rho)
-    return even, odd, d1 + d2, d1 - d2
+    np.divide(4.0 * y * e, rho * rho * c[0] * c[1] * total[0], out=difference[0], where=y > np.abs(e))
+    return difference, total
 
 
 def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
-    """T_i coefficients of the slope and of its first two derivatives by ε, shape (b, count, 3)."""
-    radius = np.zeros(alpha.shape) + rho
-    few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
-    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
-    y, e, radii = alpha[:, None] * s, eps[:, None], radius[:, None]
-    even, odd, even_change, odd_change = _parts(y, e, radii)
-    t1, t2 = (y + e) / radii, (y - e) / radii
-    # d²(t/sqrt(1-t²))/dt² = 3 t (1-t²)^(-5/2)
-    h1, h2 = t1 * (1.0 - t1 * t1) ** -2.5, t2 * (1.0 - t2 * t2) ** -2.5
-    bend = 3.0 / (radii * radii)
-    value = np.zeros((alpha.size, count, 3))
-    for start, parts in (
-        (0, (even, even_change, bend * (h1 - h2))),
-        (1, (odd, odd_change, bend * (h1 + h2))),
-    ):
-        back = transform[start::2].T * -0.5
-        for k, part in enumerate(parts):
-            value[:, start:few:2, k] = (part @ back) / radii
-    return value
-
-
-def slope_coefficients(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
-    """T_i coefficients of the slope w'(X) over the contact.
+    """T_i coefficients g_i of the slope w'(X) over contacts and its first two derivatives by ε, shape (b, count, 3).
 
     Parameters
     ----------
@@ -89,20 +72,16 @@ def slope_coefficients(alpha: Array, eps: Array, rho: Array | float, count: int)
         k R [-].
     count : int
         Number of coefficients.
-
-    Returns
-    -------
-    ndarray, shape (b, count)
-        g_i.
     """
     radius = np.zeros(alpha.shape) + rho
     few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
     s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
-    even, odd, _, _ = _parts(alpha[:, None] * s, eps[:, None], radius[:, None])
-    value = np.zeros((alpha.size, count))
-    for start, part in ((0, even), (1, odd)):
-        value[:, start:few:2] = (part @ (transform[start::2].T * -0.5)) / radius[:, None]
-    return value
+    value = np.zeros((3, alpha.size, count))
+    both = _parts(alpha[:, None] * s, eps[:, None], radius[:, None])
+    for start, part in enumerate(both):
+        value[:, :, start:few:2] = part @ (transform[start::2].T * -0.5)
+    value /= radius[:, None]
+    return value.transpose(1, 2, 0)
 
 
 def eccentricity(
@@ -150,7 +129,7 @@ def _newton(
     y, radii = alpha[:, None] * s, radius[:, None]
     settled = np.zeros(alpha.size, dtype=bool)
     for _ in range(_NEWTON_STEPS):
-        even, odd, even_change, odd_change = _parts(y, eps[:, None], radii)
+        (even, even_change, _), (odd, odd_change, _) = _parts(y, eps[:, None], radii)
         miss = np.einsum("bk,bk->b", even_weights, even) + np.einsum("bk,bk->b", odd_weights, odd)
         rise = np.einsum("bk,bk->b", even_weights, even_change) + np.einsum(
             "bk,bk->b", odd_weights, odd_change

@@ -54,8 +54,10 @@ class CreepSpectrum:
             raise InputError("weights and times: two lists of numbers are needed") from None
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
-        if not np.all(np.isfinite(d) & (d > 0.0)):
-            raise InputError(f"weights = {d.tolist()}: each weight is a finite positive number")
+        if not np.all((d <= 1.0 + _SUM_TOLERANCE) & (d > 0.0)):
+            raise InputError(
+                f"weights = {d.tolist()}: each weight is positive, the instantaneous part and all weights add to 1"
+            )
         if not np.all((z == 0.0) | ((z >= _TIMES[0]) & (z <= _TIMES[1]))):
             raise InputError(
                 f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {_TIMES[0]:g} to {_TIMES[1]:g}"

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.contact.excitation import excited_harmonics
 from conveyor.contact.fields import peak
 from conveyor.contact.problem import ContactProblem
-from conveyor.contact.sampling import Sampled, columns
+from conveyor.contact.sampling import Sampled, columns, points
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.solution import SolveStats
 from conveyor.contact.spectral import Contact, penetration
@@ -28,7 +28,6 @@ Array = NDArray[np.float64]
 
 _NEWTON_STEPS = 40
 _LAST_STEP = 1e-9  # leaves its square
-_INNER = 1.0 - 1e-6  # the loads end a hundredth before the sampled half widths do
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +105,35 @@ class LoadCurve:
         RangeError
             A pressure outside the curve: it is not extrapolated.
         """
+        p, t, width = self._places(pressure)
+        _, friction, eps = chebyshev.chebval(t, self._columns)
+        friction = friction * width
+        times = self.problem.creep.times
+        return LoadSolutions(
+            pressure=p,
+            friction=friction,
+            half_width=width,
+            eccentricity=eps * width,
+            dissipation=friction * p * (float(times[0]) if times.size else 0.0),
+            energy_error=np.full(p.shape, self.energy_error),
+            error_estimate=np.full(p.shape, self.error),
+            stats=self.stats,
+            _later=partial(self._figure, t, width),
+        )
+
+    def friction(self, pressure: ArrayLike) -> Array:
+        """Friction μ at mean pressures p̃_m, as `at`; nothing else is formed.
+
+        Raises
+        ------
+        RangeError
+            As `at`.
+        """
+        _, t, width = self._places(pressure)
+        return np.asarray(chebyshev.chebval(t, self._columns[:, 1]) * width)
+
+    def _places(self, pressure: ArrayLike) -> tuple[Array, Array, Array]:
+        """Mean pressures p̃_m, their places t and half widths a/R."""
         p = np.asarray(pressure, dtype=float)
         slack = 1e-12
         if not np.all((p >= self.lowest * (1.0 - slack)) & (p <= self.highest * (1.0 + slack))):
@@ -114,22 +142,7 @@ class LoadCurve:
                 f"to {self.highest:.6g}"
             )
         t = self._place(np.log(p))
-        alpha = np.exp(self._centre + self._half * t)
-        rho = self.problem.rho
-        _, friction, eps = chebyshev.chebval(t, self._columns)
-        friction = friction * alpha / rho
-        times = self.problem.creep.times
-        return LoadSolutions(
-            pressure=p,
-            friction=friction,
-            half_width=alpha / rho,
-            eccentricity=eps * alpha / rho,
-            dissipation=friction * p * (float(times[0]) if times.size else 0.0),
-            energy_error=np.full(p.shape, self.energy_error),
-            error_estimate=np.full(p.shape, self.error),
-            stats=self.stats,
-            _later=partial(self._figure, t, alpha / rho),
-        )
+        return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
 
     def _figure(self, t: Array, width: Array, name: str) -> Array:
         if name == "penetration":
@@ -189,17 +202,15 @@ class LoadCurve:
         ]
 
     def _place(self, log_p: Array) -> Array:
-        """Place t in [-1, 1] with ln p(t) = log_p: Newton from the chord, on a monotone smooth function."""
+        """Place t in [-1, 1] with ln p(t) = log_p: Newton from the chords, on a monotone smooth function."""
         column = self._columns[:, 0]
-        degree = np.arange(column.size)
-        low, high = (-1.0) ** degree @ column, column.sum()
-        t: Array = 2.0 * (log_p - low) / (high - low) - 1.0
+        rise, degree = chebyshev.chebder(column), column.size - 1
+        sampled = points(degree)[::-1]
+        t: Array = np.interp(log_p, chebyshev.chebval(sampled, column), sampled)
         for _ in range(_NEWTON_STEPS):
-            angle = np.arccos(np.clip(t, -_INNER, _INNER))
-            turn = angle[..., None] * degree
-            slope = np.sin(turn) @ (degree * column) / np.sin(angle)  # T_k' = k sin(kθ)/sin θ
-            step = (np.cos(turn) @ column - log_p) / slope
-            t = np.cos(angle) - step
+            every = chebyshev.chebvander(t, degree).reshape(*t.shape, -1)
+            step = (every @ column - log_p) / (every[..., :-1] @ rise)
+            t = t - step
             if np.all(np.abs(step) < _LAST_STEP):
                 break
         return t

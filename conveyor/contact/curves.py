@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.arguments import checked
-from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     by_energy,
     may_touch_elsewhere,
@@ -25,7 +24,6 @@ from conveyor.contact.checks import (
     relative_difference,
 )
 from conveyor.contact.curve import LoadCurve, LoadSolutions
-from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.narrow import (
     CHUNK,
     RANGE,
@@ -41,11 +39,12 @@ from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
 from conveyor.contact.scene import instantly_relaxed
-from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels_beyond, short_rule
+from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels_beyond, short_rules
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import Contact, assemble, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.tabled import Tabled
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
@@ -167,7 +166,10 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
     >>> loads.friction.round(6).tolist()
     [0.086769, 0.192195]
     """
-    p = np.asarray(pressures, dtype=float)
+    try:
+        p = np.asarray(pressures, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("pressures: give numbers, one or more finite positive mean pressures") from None
     if p.size == 0 or not np.all(np.isfinite(p) & (p > 0.0)):
         raise InputError("pressures: give one or more finite positive mean pressures")
     try:
@@ -226,13 +228,12 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
 
 def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], rtol: float) -> _Sampler:
     """Between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
-    solving, checking = grades_for(rtol)
+    grades = grades_for(rtol)
     low, high = np.log(guesses[0]) - RANGE, np.log(guesses[1]) + RANGE
-    rule = short_rule(group.layers, group.creeps, np.exp(high), solving)
-    check = short_rule(group.layers, group.creeps, np.exp(high), checking, rule)
+    rule, check = short_rules(group.layers, group.creeps, np.exp(high), grades)
     rows = np.arange(lowest.size)
     return _Sampler(
-        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, solving.error, rows, narrow=True
+        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, grades[0].error, rows, narrow=True
     )
 
 
@@ -310,12 +311,11 @@ class _Sampler:
         """Contacts of order n of some rows at places t of their half width."""
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
         every = np.repeat(rows, t.size)
-        creeps = self.group.creeps[every]
-        ik = ProductIK(n, alpha[:, None] / creeps.times)
-        matrix = assemble(self.rule[every], creeps, alpha, n, ik)
+        tabled = Tabled.of(self.group.creeps[every], alpha)
+        matrix = tabled.matrices(self.rule[every], n)
         contact = equilibrium(matrix, alpha, self.group.rho[every])
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
-        return _Batch(rows, t.size, contact, matrix, ik, np.asarray(valid))
+        return _Batch(rows, t.size, contact, matrix, tabled, np.asarray(valid))
 
     def _enclosed(self, first: _Batch) -> NDArray[np.bool_]:
         """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
@@ -376,7 +376,7 @@ class _Sampler:
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
         by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
-        by_loss = friction_by_loss(self.check[every], self.group.creeps[every], batch.contact, rho, batch.ik)
+        by_loss = batch.tabled.friction_by_loss(self.check[every], batch.contact, rho)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
         each = (by_order.friction, energy, by_energy(energy, by_order.most))
         error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
@@ -411,7 +411,7 @@ class _Batch:
     count: int
     contact: Contact
     matrix: Array
-    ik: ProductIK
+    tabled: Tabled
     valid: NDArray[np.bool_]
 
     @property
@@ -424,7 +424,7 @@ class _Batch:
             count,
             chosen_rows(self.contact, at),
             self.matrix[at],
-            self.ik[at],
+            self.tabled[at],
             self.valid[rows],
         )
 

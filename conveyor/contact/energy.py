@@ -29,10 +29,9 @@ def friction_by_loss(
     creep: CreepSpectrum | Creeps,
     contact: Contact,
     rho: Array | float,
-    ik: ProductIK | None = None,
 ) -> Array:
-    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,); `ik` are the contacts' Bessel products where known."""
-    friction: Array = 2.0 * rho * loss(rule, creep, contact, ik) / contact.pressure
+    """μ = τ̃_m/p̃_m from the loss compliance, shape (b,)."""
+    friction: Array = 2.0 * rho * loss(rule, creep, contact) / contact.pressure
     return friction
 
 
@@ -77,9 +76,7 @@ def belt_losses(belt: BeltSupport, creep: CreepSpectrum, strips: Sequence[Strip]
     return lost.real, lost.imag
 
 
-def loss(
-    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact, ik: ProductIK | None = None
-) -> Array:
+def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
     """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
     Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
@@ -94,6 +91,6 @@ def loss(
     power = spectrum.real**2 + spectrum.imag**2
     total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:
-        ik = ProductIK(n, contact.alpha[:, None] / creep.times) if ik is None else ik
+        ik = ProductIK(n, contact.alpha[:, None] / creep.times)
         total += 0.25 * ik.quadratic(creep.weights * creep.times, weighted)
     return total

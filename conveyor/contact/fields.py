@@ -220,5 +220,6 @@ def surface_series(
             wave = (
                 2.0 * weights[i : i + step] * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]) / part
             )
-            out[chosen] += np.real(np.exp(1j * np.multiply.outer(x[chosen], part)) @ wave)
+            turn = np.multiply.outer(x[chosen], part)
+            out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
     return out

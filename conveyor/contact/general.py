@@ -8,6 +8,8 @@ the spectral window keep the grid's answer with the grid's error.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +22,7 @@ from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene
 from conveyor.contact.single import LOAD_FLOOR, ROUNDING, SIGN_ORDER, remarks
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.strips import Strips, friction_by_loss, settle
+from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
 from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
@@ -28,27 +30,35 @@ Array = NDArray[np.float64]
 _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
-_LAST_TRY, _FAILURES = 64, 2  # orders that may have no contact near the grid's
+_LAST_TRY, _FAILURES = 64, 2  # orders that may have no contact near the grid's, where that shows the strips
 _SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 _POLISHES = 3  # grids whose strips are tried
+_NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, largest step, steps
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
-_NO_LIMIT = "twelve decades below a mean pressure of {:.3g} none was found that a coarse grid carries"
 _LIMIT_FINER = 1 << _FIRST_POLISH  # times the coarsest grid
-_FAR_BEYOND = 1.5  # times the limit of a coarse grid: no finer one will carry the load
-_LIMIT_ABOUT, _LIMIT_WIDTH = 0.5, 2e-2  # of ln p: where 64 nodes have the limit, and to what 256 name it
-_LIMIT_DECADES = 12.0  # that are searched
+_FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
+_CANCELLED = "the strips' forces cancel: friction is that of the loss compliance"
 _ON_GRID = "the strips are known on a grid of {} nodes only"
 
 
-def overloaded(scene: Scene) -> Outcome | None:
-    """The refusal of a load far beyond what a coarse grid carries; None where that is not plain."""
+class _Start(NamedTuple):
+    """Centres and half widths X of strips to begin with, and the orders that may have no contact near them."""
+
+    centre: Array
+    alpha: Array
+    failures: int
+
+
+def at_first_sight(scene: Scene) -> Outcome | GridContact | None:
+    """The refusal of a load far beyond what a coarse grid carries, or the contact there; None where that has none."""
+    load, coarse = scene.problem.pressure, Grid(scene.problem, _coarsest(scene.problem.rho))
     try:
-        grid = solve_grid(scene.problem, _coarsest(scene.problem.rho))
+        grid, about = coarse.raised(load)
+        limit = _limit(coarse, about, load) if _FAR_BEYOND * about < load else math.inf
     except NoSolutionError:
         return None
-    limit = _limit_passed(scene, grid, 0)
-    return None if limit is None else _overloaded(grid, limit)
+    return _overloaded(grid, limit) if _FAR_BEYOND * limit < load else grid
 
 
 def by_strips(scene: Scene, rtol: float) -> Outcome:
@@ -64,36 +74,58 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
         except NoSolutionError as unsettled:
             failure = str(unsettled)
             break
-        limit = _limit_passed(scene, grids[-1], doubling)
-        if limit is not None:
-            return _overloaded(grids[-1], limit)
+        if grids[-1].at_roll_end and (doubling >= _WRAP_LEVEL or points == _MOST_POINTS):
+            break
         steady = doubling >= _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
-        if steady and polishes < _POLISHES and _seen(grids[-1]):
+        start = _first_strips(scene, grids[-1]) if steady and polishes < _POLISHES else None
+        if start is not None:
             polishes += 1
-            outcome = _polished(scene, grids[-1], rtol)
+            outcome = _polished(scene, grids[-1], start, rtol)
             if outcome is not None:
                 return outcome
         points *= 2
     if not grids:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        return _overloaded(grids[-1], _limit(scene, grids[-1]))
+        coarse = Grid(scene.problem, _coarsest(scene.problem.rho))
+        return _overloaded(grids[-1], _limit(coarse, None, grids[-1].mean_pressure))
     return _on_grid(scene, grids, rtol)
 
 
-def _seen(grid: GridContact) -> bool:
-    """Whether every strip, and every gap between two, spans a few nodes."""
-    step = 2.0 * math.pi / grid.points
-    widths = grid.strips[:, 1] - grid.strips[:, 0]
-    gaps = grid.strips[1:, 0] - grid.strips[:-1, 1]
-    return bool((widths > _STRIP_NODES * step).all() and (gaps > _GAP_NODES * step).all())
+def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
+    """Centres and half widths X of the grid's strips; where it does not resolve one, the half width under its force.
 
-
-def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
-    """The grid's strips spectrally, the order raised until friction settles; None where they are not the contact."""
+    None where that one touches its neighbours, or where strips or the roll's end are too near.
+    """
+    step, rho = 2.0 * math.pi / grid.points, scene.problem.rho
+    if grid.at_roll_end or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any():
+        return None
     centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
+    unseen = np.flatnonzero(alpha <= 0.5 * _STRIP_NODES * step)
+    if not unseen.size:
+        return _Start(centre, alpha, _FAILURES)
+    inside = [np.abs(grid.x - x) <= a for x, a in zip(centre, alpha, strict=True)]
+    force = np.array([grid.pressure[nodes].sum() for nodes in inside])
+    centre = np.array([grid.pressure[nodes] @ grid.x[nodes] for nodes in inside]) / force
+    alpha[unseen] = _NARROW * step
+    for _ in range(_FITS):
+        carried = loads(scene, centre[None], alpha[None])[0] * grid.points / force
+        alpha[unseen] /= np.sqrt(np.clip(carried[unseen], _FIT**-2, _FIT**2))
+        if (
+            (alpha + np.abs(centre) >= rho).any()
+            or smallest_gap(centre, alpha) <= 0.0
+            or too_close(centre, alpha)
+        ):
+            return None
+    return _Start(centre, alpha, 0)
+
+
+def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Outcome | None:
+    """The grid's strips spectrally, the order raised until friction settles; None where they are not the contact."""
+    centre, alpha, allowed = start
+    scene.rules.clear()  # made for wider strips, and longer
     tight = max(1e-3 * rtol, LOAD_FLOOR)
-    n, before, failures = ORDERS[0], None, 0
+    n, before, failures, friction_before = ORDERS[0], None, 0, math.inf
     while True:
         strips = settle(
             scene, n, centre, alpha, tight, jacobian=before.jacobian if before is not None else None
@@ -101,23 +133,26 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
         if strips is None:
             # a low order may have no contact near the grid's
             failures += 1
-            if failures > _FAILURES or n >= _LAST_TRY:
+            if failures > allowed or n >= _LAST_TRY:
                 return None
-            centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
-            n, before = next_order(n, 1.0, rtol), None
+            centre, alpha = start.centre, start.alpha
+            n, before, friction_before = next_order(n, 1.0, rtol), None, math.inf
             continue
-        error, scale = 1.0, _scale(scene, strips.friction)
-        if before is not None:
-            error = abs(before.friction - strips.friction) / scale
+        friction, scale = strips.friction, _scale(scene, strips.friction)
+        cancelled = tight * strips.gross_friction > rtol * scale
+        if cancelled:
+            friction = friction_by_loss(scene, strips)
+            scale = _scale(scene, friction)
+        error = min(abs(friction_before - friction) / scale, 1.0)
         pressing = sign(strips.contact, rtol)
         if pressing is Sign.PULLING and error <= _SETTLED:
             return None
-        exhausted = n == ORDERS[-1] or error <= strips.rounding / scale
-        if error <= rtol or exhausted:
-            energy = abs(friction_by_loss(scene, strips) - strips.friction) / scale
-            error = max(error, energy / ENERGY_OVER_ERROR, strips.rounding / scale, ROUNDING)
+        if error <= rtol or n == ORDERS[-1]:
+            by_loss = friction if cancelled else friction_by_loss(scene, strips)
+            energy = abs(by_loss - strips.friction) / scale
+            error = max(error, 0.0 if cancelled else energy / ENERGY_OVER_ERROR, ROUNDING)
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
-            if (error <= rtol and decided) or exhausted:
+            if (error <= rtol and decided) or n == ORDERS[-1]:
                 if overlaps(scene, strips.contact, strips.depth):
                     return None
                 fields = SpectralFields(
@@ -125,13 +160,13 @@ def _polished(scene: Scene, grid: GridContact, rtol: float) -> Outcome | None:
                 )
                 return Outcome(
                     status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
-                    found=_found(strips, before, fields, (error, energy)),
+                    found=replace(_found(strips, before, fields, (error, energy)), friction=friction),
                     order=n,
                     grid=grid.points,
                     way="strips",
-                    remarks=remarks(pressing),
+                    remarks=(*remarks(pressing), *((_CANCELLED,) if cancelled else ())),
                 )
-        before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
+        before, centre, alpha, friction_before = strips, strips.contact.eps, strips.contact.alpha, friction
         n = next_order(n, error if error < 1.0 else 0.0, rtol)
 
 
@@ -194,74 +229,21 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
     )
 
 
-def _overloaded(grid: GridContact, limit: float | None) -> Outcome:
-    said = _NO_LIMIT.format(grid.mean_pressure) if limit is None else _LIMIT.format(limit)
-    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(said,))
+def _overloaded(grid: GridContact, limit: float) -> Outcome:
+    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
 
 
-def _limit_passed(scene: Scene, grid: GridContact, doubling: int) -> float | None:
-    """The limit of a load that wraps the roll: seen on a fine grid, or on a coarse one far beyond its limit."""
-    if not grid.at_roll_end or 0 < doubling < _WRAP_LEVEL:
-        return None
-    limit = _limit(scene, grid)
-    if limit is None:
-        return None
-    return limit if doubling >= _WRAP_LEVEL or grid.mean_pressure > _FAR_BEYOND * limit else None
+def _limit(coarse: Grid, about: float | None, load: float) -> float:
+    """The mean pressure from which on the contact touches the last of 256 nodes on the roll, `load` at most.
 
-
-def _limit(scene: Scene, wrapped: GridContact) -> float | None:
-    """The mean pressure that brings the contact to the last of 256 nodes on the roll, sought about where 64 have it.
-
-    None where twelve decades hold none.
+    `about` is that of 64 nodes, the coarse grid's.
     """
-    nodes = _coarsest(scene.problem.rho)
-    about = _least_wrapped(Grid(scene.problem, nodes), wrapped, _LIMIT_ABOUT, 2.0)
-    if about is None:
-        return None
-    finer = Grid(scene.problem, _LIMIT_FINER * nodes)
-    load = about.mean_pressure * math.exp(_LIMIT_ABOUT)
-    while load < wrapped.mean_pressure:
-        start = _settled(finer, load, about)
-        if start is not None and start.at_roll_end:
-            wrapped = start
-            break
-        load *= math.exp(2.0 * _LIMIT_ABOUT)
-    is_wrapped = _least_wrapped(finer, wrapped, _LIMIT_WIDTH, 2.0 * _LIMIT_ABOUT)
-    return None if is_wrapped is None else is_wrapped.mean_pressure
-
-
-def _settled(grid: Grid, load: float, *starts: GridContact) -> GridContact | None:
-    """The contact under a load, from the first of these contacts that leads to it."""
-    for start in starts:
-        try:
-            return grid.contact(load, start)
-        except NoSolutionError:
-            continue
-    return None
-
-
-def _least_wrapped(grid: Grid, wrapped: GridContact, width: float, stride: float) -> GridContact | None:
-    """A contact at the roll's end that leaves it where ln p is less by `width`; None where no load does.
-
-    Loads that do not settle are told by neither side: the search keeps to those beside them that wrap.
-    """
-    lightest = math.log(wrapped.mean_pressure) - _LIMIT_DECADES * math.log(10.0)
-    high, low, carried = math.log(wrapped.mean_pressure), -math.inf, wrapped
-    while high - low > width:
-        step = min(stride, 0.5 * (high - low))
-        wrapped_one = None
-        while wrapped_one is None and step >= 0.5 * width:
-            wrapped_one = _settled(grid, math.exp(high - step), wrapped, carried)
-            step *= 1.0 if wrapped_one is not None else 0.5
-        if wrapped_one is None:
-            break
-        if wrapped_one.at_roll_end:
-            high, wrapped = high - step, wrapped_one
-        else:
-            low, carried = high - step, wrapped_one
-        if high < lightest:
-            return None
-    return wrapped
+    try:
+        below = coarse.contact(0.5 * min(coarse.raised(load)[1] if about is None else about, load))
+        finer = Grid(coarse.problem, _LIMIT_FINER * coarse.points)
+        return min(load, finer.raised(load, below)[1])
+    except NoSolutionError:
+        return load
 
 
 def _coarsest(rho: float) -> int:

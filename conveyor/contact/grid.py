@@ -37,6 +37,8 @@ _ALIASES = 6  # explicit ones; beyond, S varies by less than 1e-2 and the sum is
 _ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
 _DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
 _PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
+_FEW = 520  # nodes on the roll whose load is raised from nothing where block exchanges do not settle
+_EXCHANGES, _FEW_EXCHANGES = 40, 4  # a node, from nothing (1 to 20 seen) and from another load
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
 _DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
@@ -140,17 +142,56 @@ class Grid:
         index = np.arange(-reach, reach + 1)[: points - 1]
         self.x = np.asarray(index * (2.0 * math.pi / points), dtype=np.float64)
         self.problem = problem
+        turn = self.x / problem.rho
+        self._drop = np.asarray(turn * turn / (1.0 + np.sqrt(1.0 - turn * turn)), dtype=np.float64)
         self._surface = _Surface.of(problem, points, index)
 
     def contact(
         self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
     ) -> GridContact:
         """Contact under a mean pressure p̃_m, or at a depth Δ/R in its place."""
+        active = np.abs(self.x) < 0.5 * self.problem.rho if start is None else _inside(self.x, start.strips)
+        try:
+            return self._contact(active, pressure, depth)
+        except NoSolutionError:
+            if self.x.size > _FEW or depth is not None:
+                raise
+            return self.raised(pressure)[0]
+
+    def raised(self, pressure: float, start: GridContact | None = None) -> tuple[GridContact, float]:
+        """Contact under a mean pressure p̃_m raised from nothing, and the p̃_m from which on it touches the roll's end.
+
+        That is infinite where it does not. Raised from the load of `start`, a contact on another grid, where that leads
+        to one here. For some hundred nodes: each exchange of the active set costs their square.
+        """
+        if start is not None:
+            try:
+                begun = self._contact(_inside(self.x, start.strips), start.mean_pressure, None)
+                return self._lowered(begun.pressure > 0.0, begun.mean_pressure, pressure, _FEW_EXCHANGES)
+            except NoSolutionError:
+                pass  # what rounding makes of two nodes that touch at once may run in circles
+        return self._lowered(np.zeros(self.x.size, dtype=bool), 0.0, pressure, _EXCHANGES)
+
+    def _lowered(
+        self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int
+    ) -> tuple[GridContact, float]:
+        """`raised` from the nodes in contact under a smaller mean pressure."""
+        surface, height = self._surface, 0.0
+        if carried:
+            height = _equations(surface, self._drop, np.flatnonzero(active), carried, None)[1]
+        tableau = _Tableau(surface.dense(np.arange(self.x.size)), self._drop, active, height)
+        limit = tableau.lower(pressure * self.points, exchanges * self.x.size) / self.points
+        return self._contact(tableau.active, pressure, None), limit
+
+    @property
+    def points(self) -> int:
+        """Nodes in a period."""
+        return self._surface.points
+
+    def _contact(self, active: NDArray[np.bool_], pressure: float, depth: float | None) -> GridContact:
         surface, turn = self._surface, self.x / self.problem.rho
         slope = turn / np.sqrt(1.0 - turn * turn)
-        drop = turn * turn / (1.0 + np.sqrt(1.0 - turn * turn))
-        active = np.abs(turn) < 0.5 if start is None else _inside(self.x, start.strips)
-        p, delta, pivots = _pivot(surface, drop, active, pressure, depth)
+        p, delta, pivots = _pivot(surface, self._drop, active, pressure, depth)
         mean = float(p.sum()) / surface.points
         return GridContact(
             x=self.x,
@@ -324,6 +365,8 @@ def _pivot(
             fewest, patience = count, _PATIENCE
         elif patience > 0:
             patience -= 1
+        elif drop.size <= _FEW and depth is None:
+            break
         else:
             last = np.flatnonzero(wrong)[-1]
             wrong = np.arange(wrong.size) == last
@@ -331,6 +374,58 @@ def _pivot(
         if not active.any():
             active[np.argmin(drop)] = True
     raise NoSolutionError(f"the active set of the grid did not settle in {pivots - 1} exchanges")
+
+
+class _Tableau:
+    """Pressures and gaps of all nodes by principal pivots: each exchange of a node is one on the diagonal.
+
+    Of every node pressure or gap is zero; the other is constant + slope δ, with δ the roll's raised depth, `height`.
+    The matrix is positive definite: its diagonal stays positive, and as the roll is lowered there is one way on.
+    """
+
+    def __init__(self, matrix: Array, drop: Array, active: NDArray[np.bool_], height: float) -> None:
+        a, b = np.flatnonzero(active), np.flatnonzero(~active)
+        self.active, self.height = active.copy(), height
+        self.table, self.lines = np.array(matrix, order="F"), np.stack([drop, -np.ones(drop.size)], axis=1)
+        if a.size:
+            inverse, over = np.linalg.inv(matrix[np.ix_(a, a)]), matrix[np.ix_(a, b)]
+            under = matrix[np.ix_(b, a)] @ inverse
+            self.lines[b] -= under @ self.lines[a]
+            self.lines[a] = -inverse @ self.lines[a]
+            self.table[np.ix_(a, a)], self.table[np.ix_(a, b)] = inverse, -inverse @ over
+            self.table[np.ix_(b, a)], self.table[np.ix_(b, b)] = under, matrix[np.ix_(b, b)] - under @ over
+
+    def lower(self, load: float, exchanges: int) -> float:
+        """Lower the roll until Σ p = `load`; the Σ p from which on an end node is in contact, infinite if none is."""
+        limit = 0.0 if self._at_end() else math.inf
+        for _ in range(exchanges):
+            constant, slope = self.lines.T
+            ready = np.divide(-constant, slope, out=np.full(slope.size, math.inf), where=slope < 0.0)
+            node = int(np.argmin(ready))
+            self.height = max(self.height, float(ready[node]))
+            carried = math.inf
+            if math.isfinite(self.height):
+                carried = float(constant[self.active].sum() + self.height * slope[self.active].sum())
+            if carried >= load:
+                return limit
+            self._exchange(node)
+            limit = min(limit, carried) if self._at_end() else math.inf
+        raise NoSolutionError(f"the load on the grid did not rise within {exchanges} exchanges")
+
+    def _at_end(self) -> bool:
+        return bool(self.active[0] or self.active[-1])
+
+    def _exchange(self, node: int) -> None:
+        """A node's pressure for its gap, or the other way round."""
+        from scipy.linalg.blas import dger  # 10 ms that contacts without a grid do without
+
+        inverse = 1.0 / self.table[node, node]
+        column, row, line = self.table[:, node].copy(), self.table[node].copy(), self.lines[node] * inverse
+        self.lines -= np.outer(column, line)
+        self.table = dger(-inverse, column, row, a=self.table, overwrite_a=1)
+        self.table[node], self.table[:, node] = -row * inverse, column * inverse
+        self.lines[node], self.table[node, node] = -line, inverse
+        self.active[node] ^= True
 
 
 def _equations(

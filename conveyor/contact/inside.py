@@ -187,15 +187,16 @@ class Inside:
 
 
 def _strips(solution: ContactSolution) -> list[_Strip]:
-    """Sine coefficients of every strip's pressure, exact where the contact was solved spectrally."""
-    terms = solution.stats.order or _GRID_TERMS
-    angle = np.arange(1, terms + 1) * (math.pi / (terms + 1))
+    """Sine coefficients of every strip's pressure: those it was solved by, of a contact on a grid those sampled."""
+    if (known := solution.strips) is not None:
+        return [_Strip(*strip) for strip in known]
+    angle = np.arange(1, _GRID_TERMS + 1) * (math.pi / (_GRID_TERMS + 1))
     out = []
     for low, high in solution.patches:
         centre, half = 0.5 * (low + high), 0.5 * (high - low)
         values = solution.pressure(centre + half * np.cos(angle))
         odd = np.concatenate([[0.0], values, [0.0], -values[::-1]])
-        c = -np.fft.rfft(odd).imag[1 : terms + 1] / (terms + 1)
+        c = -np.fft.rfft(odd).imag[1 : _GRID_TERMS + 1] / (_GRID_TERMS + 1)
         rho = solution.problem.rho
         out.append(_Strip(rho * centre, rho * half, c))
     return out

@@ -73,6 +73,21 @@ def confined_shapes(q: Array, y: Array, t: Array, nu: float) -> Shapes:
     )
 
 
+def incompressible_shapes(q: Array, y: Array, t: Array) -> tuple[Array, Array]:
+    """D and T of an incompressible bonded layer alone, as `confined_shapes` has them at ν = ½, for many depths.
+
+    Parameters
+    ----------
+    q, y, t : ndarray
+        Thickness, depth and height m k h, m k z, m k (h - z) [-], broadcastable.
+    """
+    high, up, deep = np.exp(-2.0 * q), np.exp(-2.0 * t), np.exp(-y)
+    unit = deep / ((1.0 + high) ** 2 + 4.0 * q * q * high)
+    bent, slope = 2.0 * q * t, (1.0 + high) * y
+    down = up * deep * deep
+    return (slope * (1.0 - up) + bent * (up + down)) * unit, (slope * (1.0 + up) - bent * (up - down)) * unit
+
+
 def free_shapes(q: Array, y: Array, t: Array, nu: float) -> Shapes:
     """D, T, H, U of a layer whose far face carries nothing.
 

@@ -6,6 +6,7 @@ confined incompressible layer; its text and figures treat the free one (see docs
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -17,6 +18,7 @@ ComplexArray = NDArray[np.complex128]
 
 HALF_SPACE_DEPTH = 20.0  # q beyond which |L - 1| <= 4 q² exp(-2q) < 1e-14, below the rounding of the matrix
 _SERIES_BELOW = 1.0
+_SERIES = [1.0 / math.factorial(2 * n + 1) for n in range(9, 0, -1)]  # of sinh x - x
 
 
 class Creep(Protocol):
@@ -122,10 +124,12 @@ def free_symbol(q: Array) -> Array:
     >>> float(free_symbol(np.array([1e-4]))[0]) * 1e-12 / 6  # doctest: +ELLIPSIS
     1.0000000...
     """
-    decay = np.exp(-2.0 * q)
+    root = np.exp(-q)
+    decay = root * root
     numerator = -0.5 * np.expm1(-4.0 * q) + 2.0 * q * decay
-    grown = -0.5 * np.expm1(-2.0 * q) + q * np.exp(-q)
-    return numerator / (2.0 * sinh_minus_scaled(q) * grown)
+    grown = -0.5 * np.expm1(-2.0 * q) + q * root
+    symbol: Array = numerator / (2.0 * sinh_minus_scaled(q, root) * grown)
+    return symbol
 
 
 def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:
@@ -145,18 +149,17 @@ def confined_symbol(q: Array, poisson: Array | float = 0.5) -> Array:
     """
     kappa = 3.0 - 4.0 * poisson
     decay = np.exp(-2.0 * q)
-    numerator = 2.0 * kappa * sinh_minus_scaled(2.0 * q) + 8.0 * (1.0 - 2.0 * poisson) * q * decay
+    numerator = 2.0 * kappa * sinh_minus_scaled(2.0 * q, decay) + 8.0 * (1.0 - 2.0 * poisson) * q * decay
     denominator = kappa * (1.0 + decay * decay) + (4.0 * q * q + 1.0 + kappa * kappa) * decay
     return numerator / denominator
 
 
-def sinh_minus_scaled(x: Array) -> Array:
-    """(sinh x - x) e^{-x} of x ≥ 0, by its Taylor series below 1 (ten terms: 1e-17 of the first)."""
-    small = np.minimum(x, _SERIES_BELOW)
-    square = small * small
-    series = np.ones_like(small)
-    for n in range(9, 0, -1):
-        series = 1.0 + square / ((2 * n + 2) * (2 * n + 3)) * series
-    series *= small * square / 6.0 * np.exp(-small)
-    direct = 0.5 * (1.0 - np.exp(-2.0 * x)) - x * np.exp(-x)
-    return np.where(x < _SERIES_BELOW, series, direct)
+def sinh_minus_scaled(x: Array, decay: Array) -> Array:
+    """(sinh x - x) e^{-x} of x ≥ 0 and e^{-x}, by its Taylor series below 1 (nine terms: 1e-17 of the first)."""
+    square = np.minimum(x, _SERIES_BELOW) ** 2
+    series = square * _SERIES[0]
+    for coefficient in _SERIES[1:]:
+        series += coefficient
+        series *= square
+    small = x < _SERIES_BELOW
+    return np.where(small, series * x, 0.5 * (1.0 - decay * decay) - x * decay) * np.where(small, decay, 1.0)

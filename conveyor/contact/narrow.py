@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK
 from conveyor.contact.checks import (
     WRAPPED,
     by_energy,
@@ -26,8 +25,8 @@ from conveyor.contact.checks import (
     relative_difference,
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
-from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields
+from conveyor.contact.moved import within
 from conveyor.contact.orders import lowest_order, order_for
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.contact.scene import Scene, instantly_relaxed
@@ -40,12 +39,13 @@ from conveyor.contact.short_rule import (
     cap_of,
     grades_for,
     panels_beyond,
-    short_rule,
+    short_rules,
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
+from conveyor.contact.spectral import Contact, equilibrium
 from conveyor.contact.stack import Stack, kind, stacked
+from conveyor.contact.tabled import Tabled
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
@@ -58,6 +58,8 @@ ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 
 _NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last step leaves its square
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
+_LOAD_LOOSE = 0.5  # of rtol: order's error and what is left of the load, together
+_PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
@@ -69,7 +71,7 @@ _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.1, 1.5  # d ln p over the search's half range; ln of half widths
-CHUNK = 100  # scenes whose tables stay in the processor's cache
+CHUNK = 200  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
 _GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
 
@@ -124,7 +126,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         return [None] * len(problems)
     outcomes: list[Outcome | Near | Left | None] = [Left.ANY] * len(problems)
     creeps = [instantly_relaxed(p.creep) for p in problems]
-    grade = grades_for(rtol)[0]
+    grades = grades_for(rtol)
     for members in alike(problems):
         group = Group.of([problems[i] for i in members], [creeps[i] for i in members])
         widest = np.minimum(_ROLL * group.rho, CAPS[-1]) / ROOM
@@ -133,11 +135,10 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
         for _ in range(_GUESSES_TRIED):
             alpha = np.minimum(alpha, widest)
             strayed = []
-            for chosen in _chunks(group, alpha, rows, grade):
+            for chosen in _chunks(group, alpha, rows, grades[0]):
                 part = group[chosen]
-                search = Search(
-                    part, short_rule(part.layers, part.creeps, ROOM * alpha[chosen], grade), alpha[chosen]
-                )
+                rules = short_rules(part.layers, part.creeps, ROOM * alpha[chosen], grades)
+                search = Search(part, rules, alpha[chosen], rtol)
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
                 strayed.append(chosen[search.stray])
@@ -154,7 +155,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
     caps = np.array([cap_of(width) for width in half_width])
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
-    order = order[panels[order] <= _MOST_PANELS]
+    order = order[(panels[order] <= _MOST_PANELS) & within(1.0 / group.creeps.times)[rows[order]]]
     for cap in np.unique(caps[order]):
         same = rows[order[caps[order] == cap]]
         step = CHUNK if cap == WIDEST else _WIDE_CHUNK
@@ -173,7 +174,8 @@ def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
-    return np.asarray((half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS))
+    slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
+    return np.asarray(slim & within(1.0 / group.creeps.times))
 
 
 def guess(group: Group) -> Array:
@@ -199,10 +201,10 @@ def guess(group: Group) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _points() -> tuple[Array, Array]:
-    """Chebyshev points of the search in units of its half range, and from values there to polynomial coefficients."""
+def _points() -> tuple[tuple[float, ...], Array]:
+    """Half widths over the guess at Chebyshev points of the search, and from values there to a cubic's coefficients."""
     t = np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))
-    return t, np.linalg.inv(np.vander(t, increasing=True)).T
+    return tuple(np.exp(RANGE * t).tolist()), np.linalg.inv(np.vander(t, increasing=True)).T
 
 
 class Search:
@@ -213,25 +215,26 @@ class Search:
     contact there as soon as it is near.
     """
 
-    def __init__(self, group: Group, rule: ShortRule, alpha: Array) -> None:
-        self.group, self.rule = group, rule
+    def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
+        self.group, self.tolerance = group, _PLACE_SHARE * rtol
+        self.rule, self.check = rules
         self.middle = np.log(alpha)
-        t, transform = _points()
+        ratios, transform = _points()
         size = alpha.size
-        sampled = np.exp(self.middle[:, None] + RANGE * t).ravel()
-        every = np.repeat(np.arange(size), _SAMPLES)
-        rho = group.rho[every]
-        matrix = assemble(rule[every], group.creeps[every], sampled, _SEARCH)
-        contact = equilibrium(matrix, sampled, rho, tolerance=_ROUGH)
+        sampled = np.multiply.outer(alpha, ratios).ravel()
+        matrix = Tabled.of(group.creeps, alpha).matrices(self.rule, _SEARCH, ratios)
+        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
         good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
-        self.load = (
-            np.log(np.where(contact.pressure > 0.0, contact.pressure, 1.0)).reshape(size, -1) @ transform
+        # cubics of ln p, ε/α and ln |μ|
+        self.lossy = (contact.friction != 0.0).reshape(size, _SAMPLES).all(axis=1)
+        sampled_figures = np.stack(
+            [
+                _log(contact.pressure, contact.pressure > 0.0),
+                contact.eps / sampled,
+                _log(contact.friction, contact.friction != 0.0),
+            ]
         )
-        self.shift = (contact.eps / sampled).reshape(size, -1) @ transform
-        lossy = (contact.friction != 0.0).reshape(size, _SAMPLES).all(axis=1)
-        log_mu = np.log(np.abs(np.where(contact.friction != 0.0, contact.friction, 1.0)))
-        self.drag = log_mu.reshape(size, -1) @ transform
-        self.lossy = lossy
+        self.cubics = sampled_figures.reshape(3, size, _SAMPLES) @ transform
         self.place, self._from = np.zeros((2, size))
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
@@ -243,14 +246,14 @@ class Search:
     @property
     def extrapolated(self) -> Array:
         """Half widths where a straight line through the middle meets the load: for those far outside."""
-        rise = np.where(self.load[:, 1] > _FLATTEST, self.load[:, 1], _FLATTEST)
-        away = RANGE * (self.group.target - self.load[:, 0]) / rise
+        load = self.cubics[0]
+        away = RANGE * (self.group.target - load[:, 0]) / np.maximum(load[:, 1], _FLATTEST)
         values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
         return values
 
     def move(self, rows: Index) -> None:
         """Newton on the cubic and its offset, to the place where the load is met; rows far outside are given up."""
-        cubic = self.load[rows]
+        cubic = self.cubics[0, rows]
         wanted = self.group.target[rows] - self.offset[rows]
         t = self.place[rows]
         for _ in range(_NEWTON_STEPS):
@@ -258,7 +261,7 @@ class Search:
             rising = rise > 0.0
             last = t
             t = np.where(rising, t - (_value(cubic, t) - wanted) / np.where(rising, rise, 1.0), _OUTSIDE)
-            t = np.clip(t, -_OUTSIDE, _OUTSIDE)
+            t = np.minimum(np.maximum(t, -_OUTSIDE), _OUTSIDE)
             if (np.abs(t - last) <= _LAST_STEP).all():
                 break
         self.place[rows] = t
@@ -266,26 +269,24 @@ class Search:
 
     def place_and_slope(self, row: int) -> tuple[float, float]:
         """Ln α of the present place and d ln p̃_m/d ln α there."""
-        t, load = float(self.place[row]), self.load[row]
+        t, load = float(self.place[row]), self.cubics[0, row]
         slope = (load[1] + t * (2.0 * load[2] + t * 3.0 * load[3])) / RANGE
         return float(self.middle[row] + RANGE * t), float(slope)
 
     def exponent(self, rows: Index) -> Array:
         """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
-        t = self.place[rows]
-        slope = _slope(self.drag[rows], t) / _slope(self.load[rows], t)
-        out: Array = np.where(self.lossy[rows], slope, 0.0)
+        load, _, drag = _slope(self.cubics[:, rows], self.place[rows])
+        out: Array = np.where(self.lossy[rows], drag / load, 0.0)
         return out
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, ProductIK]:
-        """Contacts of some rows at order n, matrices, ln p - target, Bessel products; moves on to the next places."""
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, Tabled]:
+        """Contacts of some rows at order n, their matrices, ln p - target, tables; moves on to the next places."""
         t = self._from[rows] = self.place[rows]
         alpha = np.exp(self.middle[rows] + RANGE * t)
-        creeps = self.group.creeps[rows]
-        ik = ProductIK(n, alpha[:, None] / creeps.times)
-        matrix = assemble(self.rule[rows], creeps, alpha, n, ik)
-        start = alpha * _value(self.shift[rows], t)
-        contact = equilibrium(matrix, alpha, self.group.rho[rows], start)
+        tabled = Tabled.of(self.group.creeps[rows], alpha)
+        matrix = tabled.matrices(self.rule[rows], n)
+        start = alpha * _value(self.cubics[1, rows], t)
+        contact = equilibrium(matrix, alpha, self.group.rho[rows], start, self.tolerance)
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
@@ -297,21 +298,22 @@ class Search:
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, matrix, miss, ik
+        return contact, matrix, miss, tabled
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go; the friction it may miss."""
-        here, there = self._from[rows], self.place[rows]
-        load, shift, drag = self.load[rows], self.shift[rows], self.drag[rows]
+        t_from, t_to = self._from[rows], self.place[rows]
+        cubics = self.cubics[:, rows]
+        here = _value(cubics, t_from)
+        heavier, shifted, dragged = _value(cubics, t_to) - here
         lossy = self.lossy[rows] & (contact.friction != 0.0)
-        wider = np.exp(RANGE * (there - here))
-        heavier = np.exp(_value(load, there) - _value(load, here))
-        dragged = np.exp(np.where(lossy, _value(drag, there) - _value(drag, here), 0.0))
+        wider, heavier = np.exp(RANGE * (t_to - t_from)), np.exp(heavier)
+        dragged = np.exp(np.where(lossy, dragged, 0.0))
         alpha = contact.alpha * wider
-        eps = wider * contact.eps + alpha * (_value(shift, there) - _value(shift, here))
-        log_mu = np.log(np.abs(np.where(lossy, contact.friction, 1.0)))
-        off = np.where(lossy, np.abs(log_mu - _value(drag, here)) + _CUT * np.abs(drag[:, 3]), 0.0)
-        off += np.abs(self.group.target[rows] + miss - _value(load, here)) + _CUT * np.abs(load[:, 3])
+        eps = wider * contact.eps + alpha * shifted
+        off = np.abs(_log(contact.friction, lossy) - here[2]) + _CUT * np.abs(cubics[2, :, 3])
+        off = np.where(lossy, off, 0.0)
+        off += np.abs(self.group.target[rows] + miss - here[0]) + _CUT * np.abs(cubics[0, :, 3])
         met = Contact(
             alpha,
             eps,
@@ -323,15 +325,21 @@ class Search:
         return met, _CARRIED * off * np.abs(miss)
 
 
+def _log(values: Array, told: NDArray[np.bool_]) -> Array:
+    """Ln |values| where it means something, else zero."""
+    logs: Array = np.log(np.abs(np.where(told, values, 1.0)))
+    return logs
+
+
 def _value(cubic: Array, t: Array) -> Array:
-    """Cubics of coefficients of shape (b, 4) at t."""
-    value: Array = cubic[:, 0] + t * (cubic[:, 1] + t * (cubic[:, 2] + t * cubic[:, 3]))
+    """Cubics of coefficients of shape (..., b, 4) at t."""
+    value: Array = cubic[..., 0] + t * (cubic[..., 1] + t * (cubic[..., 2] + t * cubic[..., 3]))
     return value
 
 
 def _slope(cubic: Array, t: Array) -> Array:
     """Their derivatives."""
-    slope: Array = cubic[:, 1] + t * (2.0 * cubic[:, 2] + t * 3.0 * cubic[:, 3])
+    slope: Array = cubic[..., 1] + t * (2.0 * cubic[..., 2] + t * 3.0 * cubic[..., 3])
     return slope
 
 
@@ -350,11 +358,11 @@ class _Closing:
         waiting = np.flatnonzero(self.search.alive)
         while waiting.size:
             n = int(self.wanted[waiting].min())
-            same = np.flatnonzero(self.wanted[waiting] == n)[: max(1, _MOST_ENTRIES // (n * n))]
-            self._close(waiting[same], n)
+            untried = np.ones(waiting.size, dtype=bool)
+            untried[np.flatnonzero(self.wanted[waiting] == n)[: max(1, _MOST_ENTRIES // (n * n))]] = False
+            self._close(waiting[~untried], n)
             # those that were neither closed nor are to be raised did not meet their load
-            open_ = (self.wanted[waiting] > n) | ~np.isin(np.arange(waiting.size), same)
-            waiting = waiting[open_ & self.search.alive[waiting]]
+            waiting = waiting[((self.wanted[waiting] > n) | untried) & self.search.alive[waiting]]
         return self.done
 
     def _close(self, rows: Index, n: int) -> None:
@@ -362,19 +370,20 @@ class _Closing:
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             exponent = search.exponent(rows)
-            contact, matrix, miss, ik = search.evaluate(rows, n)
+            contact, matrix, miss, tabled = search.evaluate(rows, n)
             if step == 0:
                 by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
             met, left = search.carried(rows, contact, miss)
-            near = fine & met.inside & (left <= self.tight)
+            error = self.error[rows] + left
+            near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
             at = np.flatnonzero(near)
             if at.size:
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
-                self._accept(rows[at], evaluated, closed, ik[at], self.error[rows[at]] + left[at])
+                self._accept((rows[at], tabled[at]), evaluated, closed, error[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -388,13 +397,12 @@ class _Closing:
             self.search.alive[row] = False
             self.done[row] = Near(*self.search.place_and_slope(row))
 
-    def _accept(self, rows: Index, contact: Contact, closed: Contact, ik: ProductIK, error: Array) -> None:
+    def _accept(self, scenes: tuple[Index, Tabled], contact: Contact, closed: Contact, error: Array) -> None:
         """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
-        search, group, rtol = self.search, self.search.group, self.rtol
+        search, rtol, (rows, tabled) = self.search, self.rtol, scenes
         grade = grades_for(rtol)[1]
-        check = short_rule(group.layers[rows], group.creeps[rows], contact.alpha, grade, search.rule[rows])
-        rho = group.rho[rows]
-        by_loss = friction_by_loss(check, group.creeps[rows], contact, rho, ik)
+        rho = search.group.rho[rows]
+        by_loss = tabled.friction_by_loss(search.check[rows], contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
@@ -407,7 +415,7 @@ class _Closing:
             elif estimate[k] > rtol or not pressing[k]:
                 self._raise(row, n, float(by_loss_error[k]))
             else:
-                one = chosen_rows(closed, np.array([k]))
+                one = chosen_rows(closed, slice(k, k + 1))
                 errors = float(estimate[k]), float(energy[k])
                 self.done[row] = self._found(row, one, errors, outside=bool(outside[k]))
 
@@ -418,12 +426,8 @@ class _Closing:
         search, group = self.search, self.search.group
         problem, creep = group.problems[row], group.given[row]
         alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
-        depth = None
-        if outside:
-            scene = Scene(problem, creep)
-            depth = float(penetration(scene.rule(alpha), creep, contact, problem.rho)[0])
-            if overlaps(scene, contact, depth):
-                return Left.STRIPS
+        if outside and overlaps(Scene(problem, creep), contact):
+            return Left.STRIPS
         return Outcome(
             Status.OK,
             Found(
@@ -435,7 +439,7 @@ class _Closing:
                 energy_error=errors[1],
                 error_estimate=errors[0],
                 edge_error=float(self.edges[row]),
-                fields=SpectralFields(problem.layer, creep, contact, problem.rho, depth),
+                fields=SpectralFields(problem.layer, creep, contact, problem.rho),
             ),
             order=int(contact.c.shape[1]),
             matrices=int(search.matrices[row]),
@@ -445,7 +449,7 @@ class _Closing:
         )
 
 
-def chosen_rows(contact: Contact, at: Index) -> Contact:
+def chosen_rows(contact: Contact, at: Index | slice) -> Contact:
     """Some contacts of a batch."""
     return Contact(
         contact.alpha[at],

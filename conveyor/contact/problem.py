@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 
 import numpy as np
 
@@ -33,6 +34,7 @@ _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
 _HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
 _SMALLEST_ROLL = 1e-12
+_TRIED = 5  # wave numbers at which a layer of one's own is tried
 
 
 class Status(Enum):
@@ -97,14 +99,8 @@ class ContactProblem:
     poisson: float = 0.5
 
     def __post_init__(self) -> None:
-        if isinstance(self.support, BeltSupport) and self.poisson != 0.5:
-            raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
-        if isinstance(self.support, str) and self.support not in _SUPPORTS:
-            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
-        if not isinstance(self.support, str) and not all(
-            hasattr(self.support, name) for name in ("reach", "symbol")
-        ):
-            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if not isinstance(self.creep, CreepSpectrum):
+            raise InputError(f"creep = {self.creep!r}: a CreepSpectrum is needed")
         for name in ("radius", "thickness", "pressure", "poisson"):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -125,13 +121,26 @@ class ContactProblem:
             )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
+        self._check_support()
+
+    def _check_support(self) -> None:
+        if isinstance(self.support, BeltSupport) and self.poisson != 0.5:
+            raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
+        if isinstance(self.support, str) and self.support not in _SUPPORTS:
+            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if not isinstance(self.support, str) and not all(
+            hasattr(self.support, name) for name in ("reach", "symbol")
+        ):
+            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if not isinstance(self.support, (str, BeltSupport)):
+            _check_symbol(self.support, self.creep)
 
     @property
     def rho(self) -> float:
         """ρ = k R [-]."""
         return 2.0 * math.pi * self.radius
 
-    @property
+    @cached_property
     def layer(self) -> Layer:
         """The layer whose symbol the solver uses."""
         if not isinstance(self.support, str):
@@ -141,6 +150,17 @@ class ContactProblem:
         if self.support == "free":
             return Free(self.thickness)
         return Confined(self.thickness, self.poisson)
+
+
+def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
+    """Refuse a layer of one's own whose symbol is no compliance at some waves, the longest among them."""
+    m = np.geomspace(1.0, 1e4, _TRIED)
+    symbol = np.asarray(layer.symbol(m, creep))
+    if symbol.shape != m.shape or not (np.isfinite(symbol).all() and (symbol.real > 0.0).all()):
+        raise InputError(
+            f"support = {layer!r}: symbol(m, creep) of {m.size} wave numbers must be as many finite complex numbers "
+            f"with a positive real part, not {symbol.tolist()}"
+        )
 
 
 def check_rtol(rtol: float) -> None:

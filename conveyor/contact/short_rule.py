@@ -14,14 +14,17 @@ layer's part S - j is left, on Gauss panels of each scene's own.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.creep import Creeps
+from conveyor.contact.moved import LOGS, log_stencils, logs, moved
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.stack import Stack
 
@@ -68,31 +71,18 @@ def grades_for(rtol: float) -> tuple[Grade, Grade]:
 
 @dataclass(frozen=True, eq=False)
 class ShortRule:
-    """Nodes m and complex weights of F/m for each scene, shape (b, k); valid up to `half_width`, shape (b,).
-
-    `unit` are the weights of ∫_0^1 j f dm on its first nodes, the same in every rule of a creep spectrum and a cap.
-    """
+    """Nodes m and complex weights of F/m for each scene, shape (b, k)."""
 
     nodes: Array
     weights: ComplexArray
-    half_width: Array
-    unit: ComplexArray
-    cap: float = WIDEST
-
-    def repeated(self, count: int) -> ShortRule:
-        """One scene's rule for `count` contacts of it."""
-        return self[np.zeros(count, dtype=int)]
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
-        return ShortRule(
-            self.nodes[chosen], self.weights[chosen], self.half_width[chosen], self.unit[chosen], self.cap
-        )
+        return ShortRule(self.nodes[chosen], self.weights[chosen])
 
 
 def full_rule(rule: Rule) -> ShortRule:
     """One scene's full rule as a batch of one."""
-    empty = np.empty((1, 0), dtype=complex)
-    return ShortRule(rule.nodes[None], rule.weights[None], np.array([rule.half_width]), empty)
+    return ShortRule(rule.nodes[None], rule.weights[None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,10 +96,8 @@ class _Window:
     end: float
     coarse: Array
     spread: Array  # (unit + inner, K)
-    legendre: Array  # Legendre moments to weights on [0, 1]
-    unit: Array
-    unit_spread: Array  # weights times values on [0, 1] to those nodes
-    slow: float
+    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner) of narrow contacts
+    terms: ComplexArray  # the same of single terms with 1/ζ on the grid of logarithms
 
 
 _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
@@ -145,10 +133,12 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
     measure = (half * gauss).ravel()
     unit, slow, plain = _UNITS[cap == WIDEST]
     unit_x, unit_gauss = _gauss(unit)
-    unit_weights = 0.5 * unit_gauss
-    plain_x, plain_gauss = _gauss(plain)
-    degrees = np.arange(unit)
-    values = special.eval_legendre(degrees[:, None], unit_x)
+    inner = np.concatenate([integers, panels])
+    zeta = 1.0 / logs()
+    terms, ones = _unit_weights(zeta, unit, slow, plain), 0.5 * unit_gauss
+    if cap == WIDEST:  # wide windows have too many nodes for a table
+        terms = np.concatenate([terms, 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))], axis=1)
+        ones = np.concatenate([ones, np.ones(inner.size)])
     coarse_x, coarse_gauss = _gauss(count)
     fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
@@ -156,18 +146,15 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
         special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
     )
     return _Window(
-        inner=np.concatenate([integers, panels]),
+        inner=inner,
         ramp=0.5 * special.erfc((integers - centre) / width),
         measure=measure,
         rest=0.5 * special.erfc((centre - panels) / width),
         end=end,
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
-        legendre=(2.0 * degrees[:, None] + 1.0) * values * unit_weights,
-        unit=0.5 * (plain_x + 1.0),
-        unit_spread=(0.5 * plain_gauss * special.eval_legendre(degrees[:, None], plain_x)).T
-        @ ((2.0 * degrees[:, None] + 1.0) * values * unit_weights),
-        slow=slow,
+        plain=ones,
+        terms=terms,
     )
 
 
@@ -176,40 +163,62 @@ def cap_of(half_width: float) -> float:
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
-def short_rule(
-    layers: Stack, creeps: Creeps, half_width: Array, grade: Grade, like: ShortRule | None = None
-) -> ShortRule:
-    """Rules of b scenes, each valid for contacts up to its half width α [-], at most 2.4.
+def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
+    """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
-    All scenes take as many nodes as the one that needs most: hand over like with like. `like` are rules of another
-    grade for the same spectra.
+    All scenes take as many nodes as the one that needs most: hand over like with like. Times must lie `within`.
     """
-    cap = cap_of(float(half_width.max())) if like is None else like.cap
-    end = float(math.ceil(2.0 * _RAMP * _width(grade, cap)))
-    phase = float(half_width.max()) * end
-    # a function that turns ±c radians is a polynomial of degree c + O(c^(1/3)) to rounding
-    steps = 4.0 if cap == WIDEST else 16.0
-    count = int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
-    window = _window(grade, count, cap)
-    beyond, measure = _beyond(layers.reach(grade.depth), half_width, grade, window.end)
-    inner = np.broadcast_to(window.inner, (half_width.size, window.inner.size))
-    m = np.concatenate([inner, beyond], axis=1)
-    j = creeps.compliance(m)
-    symbol = layers.symbol(m, j)
+    widest = float(half_width.max())
+    cap = cap_of(widest)
+    windows = [_window(grade, _count(grade, cap, widest), cap) for grade in grades]
+    panels = [
+        _beyond(layers.reach(grade.depth), half_width, grade, window.end)
+        for grade, window in zip(grades, windows, strict=True)
+    ]
+    (terms,) = moved(log_stencils(1.0 / creeps.times), LOGS, creeps.weights)
+    units, nodes, compliances = [], [], []
+    for window, (beyond, _) in zip(windows, panels, strict=True):
+        known = (terms @ window.terms.view(float)).view(complex)
+        known += creeps.instantaneous[:, None] * window.plain
+        unit = _UNITS[cap == WIDEST][0]
+        units.append(known[:, :unit])
+        nodes.append(_beside(window.inner, beyond))
+        j = known[:, unit:] if cap == WIDEST else creeps.compliance(window.inner[None])
+        compliances.append(np.concatenate([j, creeps.compliance(beyond)], axis=1))
+    symbol = layers.symbol(np.concatenate(nodes, axis=1), np.concatenate(compliances, axis=1))
+    ends = np.cumsum([m.shape[1] for m in nodes]).tolist()
+    symbols = [symbol[:, start:end] for start, end in pairwise([0, *ends])]
+    return list(map(_rule, windows, panels, units, compliances, symbols))
+
+
+def _rule(
+    window: _Window, panels: tuple[Array, Array], unit: ComplexArray, j: ComplexArray, symbol: ComplexArray
+) -> ShortRule:
+    """Rule of one window and the panels beyond it, from what unit weights, j and S are at its nodes."""
+    beyond, measure = panels
     cut, end = window.ramp.size, window.inner.size
-    unit = _unit_weights(creeps, window) if like is None else like.unit
-    panels = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
-    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], panels], axis=1)
-    weights = (fine @ window.spread) / window.coarse
-    outside = measure * (symbol[:, end:] - j[:, end:]) / beyond
-    nodes = np.broadcast_to(window.coarse, weights.shape)
-    return ShortRule(
-        np.concatenate([nodes, beyond], axis=1),
-        np.concatenate([weights, outside], axis=1),
-        half_width,
-        unit,
-        cap,
-    )
+    inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
+    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], inside], axis=1)
+    # complex @ real would make the real one complex first
+    parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
+    weights = parts[: fine.shape[0]] + 1j * parts[fine.shape[0] :]
+    rest = measure * (symbol[:, end:] - j[:, end:]) / beyond
+    return ShortRule(_beside(window.coarse, beyond), np.concatenate([weights, rest], axis=1))
+
+
+def _beside(shared: Array, own: Array) -> Array:
+    """Nodes of every scene, shape (k,), beside those of each, shape (b, l)."""
+    out = np.empty((own.shape[0], shared.size + own.shape[1]))
+    out[:, : shared.size] = shared
+    out[:, shared.size :] = own
+    return out
+
+
+def _count(grade: Grade, cap: float, widest: float) -> int:
+    """Coarse nodes of a window: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3))."""
+    phase = widest * math.ceil(2.0 * _RAMP * _width(grade, cap))
+    steps = 4.0 if cap == WIDEST else 16.0
+    return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
 
 def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[Array, Array]:
@@ -234,21 +243,17 @@ def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.i
     return np.ceil(np.maximum(by_phase, by_stretch)).astype(int)
 
 
-def _unit_weights(creeps: Creeps, window: _Window) -> ComplexArray:
-    """Weights of ∫_0^1 j f dm on the nodes of [0, 1], shape (b, u)."""
-    slow = creeps.times > window.slow
-    plain = Creeps(
-        creeps.instantaneous, np.where(slow, 0.0, creeps.weights), np.where(slow, 1.0, creeps.times)
+def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArray:
+    """Weights of ∫_0^1 f/(1-imζ) dm on Gauss nodes of [0, 1], shape (t, unit); ζ of shape (t,)."""
+    degrees = np.arange(unit)[:, None]
+    x, gauss = _gauss(plain)
+    nodes = 0.5 * (x + 1.0)
+    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
+        1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
     )
-    weights: ComplexArray = plain.compliance(window.unit[None, :]) @ window.unit_spread
-    if slow.any():
-        scene = np.nonzero(slow)[0]
-        moments = _moments(creeps.times[slow], window.legendre.shape[0]) * creeps.weights[slow]
-        ends = np.flatnonzero(np.diff(scene, prepend=-1))  # terms come scene by scene
-        total = np.zeros((creeps.times.shape[0], moments.shape[0]), dtype=complex)
-        total[scene[ends]] = np.add.reduceat(moments, ends, axis=1).T
-        weights += total @ window.legendre
-    return weights
+    moments[:, zeta > slow] = _moments(zeta[zeta > slow], unit)
+    x, gauss = _gauss(unit)
+    return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))
 
 
 def _moments(zeta: Array, count: int) -> ComplexArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +33,13 @@ _CORE, _WIDEST_CORE = 64, 512
 _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
+_BEYOND_REACH, _FAR = (
+    2.0,
+    100.0,
+)  # that of the longest tail, and an error over rtol, where climbing is of no use
 _UNRESOLVED = 2.4  # power of n that they fall with before
+# of a single layer not yet resolved: friction errs by 2 to 7 times the energy where its error, rising with n, peaks
+_LAYER_OVER_ENERGY, _STEADY = 10.0, 2.0  # that multiple; power of n from which on errors are seen to fall
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -98,6 +105,7 @@ def _converged(
     tolerance = _FIRST_LOAD_TOLERANCE
     n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
     longest = _longest(scene.creep.weights.size)
+    lost: tuple[int, float] | None = None
     while True:
         state = carry(scene, search, n, tolerance, last)
         if state is None:
@@ -109,7 +117,9 @@ def _converged(
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
         following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
-        if error <= rtol or following is None:
+        reach = _resolution(scene, state.contact, longest) if last > n else math.inf
+        if error <= rtol or following is None or reach < _BEYOND_REACH:
+            settled = error <= rtol or following is None
             if state.miss > tight and tolerance > tight:
                 tolerance = tight
                 continue
@@ -117,11 +127,17 @@ def _converged(
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
-            left = error * (last / longest) ** _UNRESOLVED
-            if following is not None and left > rtol and _out_of_reach(scene, contact, last, longest):
+            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < _RESOLVED:
                 following = None
+            here = last, float(energy[0])
+            if last > n and not _falls(lost, here):
+                if _resolution(scene, contact, last) < _RESOLVED:
+                    error = max(error, _LAYER_OVER_ENERGY * here[1])
+                if reach < _BEYOND_REACH and lost is not None and error > _FAR * rtol:
+                    following = None
+            lost = here
             if (error <= rtol and decided) or following is None:
-                return state, contact, error, float(energy[0]), float(by_order.edges[0])
+                return state, contact, error, here[1], float(by_order.edges[0])
         n, last = following
         search.renew()
 
@@ -146,11 +162,16 @@ def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: in
     return (n, 4 * last) if 4 * last <= longest else None
 
 
-def _out_of_reach(scene: Scene, contact: Contact, last: int, longest: int) -> bool:
-    """Whether the longest tail will not resolve the edge layer."""
+def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
+    """Whether the energy's error falls from one last order to the next as it does for layers of every width."""
+    return before is not None and now[1] * now[0] ** _STEADY <= before[1] * before[0] ** _STEADY
+
+
+def _resolution(scene: Scene, contact: Contact, last: int) -> float:
+    """Square of an order times the edge layer's share of the half width; infinite of an elastic contact."""
     creep = scene.creep
-    if last < _FIRST_TAIL or not creep.weights.size:
-        return False
+    if not creep.weights.size:
+        return math.inf
     # j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m
     layer = creep.instantaneous / (float(contact.alpha[0]) * float(np.sum(creep.weights / creep.times)))
-    return layer * longest**2 < _RESOLVED
+    return layer * last**2

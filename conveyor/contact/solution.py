@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.belt import BeltSupport
-from conveyor.contact.energy import belt_losses
+from conveyor.contact.energy import Strip, belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
 from conveyor.contact.layers import Confined, HalfSpace
 from conveyor.contact.problem import ContactProblem, Status
-from conveyor.errors import NoSolutionError
+from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
 
@@ -234,6 +234,12 @@ class ContactSolution:
         patches: Array = self._need().strips / self.problem.rho
         return patches
 
+    @property
+    def strips(self) -> list[Strip] | None:
+        """Centre and half width X, and sine coefficients of p̃, of every strip; None of a contact known on a grid."""
+        fields = self._need().fields
+        return fields.strips if isinstance(fields, SpectralFields) else None
+
     @cached_property
     def peak_pressure(self) -> float:
         """Largest pressure p̃ [-]."""
@@ -247,9 +253,13 @@ class ContactSolution:
 
         Raises
         ------
+        InputError
+            Shares outside (0, 1), or not ascending.
         NoSolutionError
             Nothing is lost (an elastic layer), or the contact is known on a grid only.
         """
+        if not np.all(np.diff([0.0, *shares, 1.0]) > 0.0):
+            raise InputError(f"shares = {shares!r}: ascending numbers between 0 and 1")
         fields = self._lossy("excitation")
         return excited_harmonics(fields.layer, fields.creep, fields.strips, shares)
 
@@ -297,7 +307,12 @@ class ContactSolution:
 
     def _beside_roll(self, x: ArrayLike) -> Array:
         """x/R of the same place at the nearest roll: within half a period of the contact's centre."""
-        at = np.array(x, dtype=float)
+        try:
+            at = np.array(x, dtype=float)
+        except (TypeError, ValueError):
+            raise InputError(f"x = {x!r}: places x/R are numbers") from None
+        if not np.isfinite(at).all():
+            raise InputError("x: places x/R are finite numbers")
         period = 2.0 * np.pi / self.problem.rho
         near: Array = at - period * np.round((at - self.eccentricity) / period)
         return near

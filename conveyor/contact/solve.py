@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.arguments import checked
-from conveyor.contact.general import by_strips, overloaded
+from conveyor.contact.general import at_first_sight, by_strips
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
@@ -129,12 +129,9 @@ def solve_many(
 
 
 def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = None) -> ContactSolution:
-    """One strip by its half width; any number of strips where that is not the answer."""
+    """One strip by its half width; any number of strips where that is not the answer, or where several are seen."""
     try:
-        outcome = overloaded(scene) if left is Left.ANY else None
-        if outcome is None and left is not Left.STRIPS:
-            outcome = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
-        outcome = outcome or by_strips(scene, rtol)
+        outcome = _found(scene, rtol, left)
     except RuleTooLongError:
         outcome = Outcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")
@@ -148,6 +145,21 @@ def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = N
     if scene.depth is not None and outcome.found is not None:
         problem = replace(problem, pressure=outcome.found.mean_pressure)
     return _solution(problem, outcome, throw)
+
+
+def _found(scene: Scene, rtol: float, left: Left | Near | None) -> Outcome:
+    seen = at_first_sight(scene) if left is Left.ANY else None
+    if isinstance(seen, Outcome):
+        return seen
+    if left is Left.STRIPS:
+        return by_strips(scene, rtol)
+    outcome = by_strips(scene, rtol) if seen is not None and len(seen.strips) > 1 else None
+    if outcome is not None and (
+        outcome.found is None or len(outcome.found.strips) > 1 or outcome.status is Status.OK
+    ):
+        return outcome
+    one = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
+    return one or outcome or by_strips(scene, rtol)
 
 
 def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:

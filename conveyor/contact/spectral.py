@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.bessel import ProductIK, bessel_j
-from conveyor.contact.circle import eccentricity, mean_drop, slope_coefficients, slope_expansion
+from conveyor.contact.circle import eccentricity, mean_drop, slope_expansion
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.short_rule import ShortRule
@@ -26,7 +26,8 @@ from conveyor.contact.short_rule import ShortRule
 Array = NDArray[np.float64]
 
 _SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.7  # (a + |e|)/R up to which one step may find it
+_NEAR = 0.7  # (a + |e|)/R up to which a step or two find it
+_STEPS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,15 +129,20 @@ def equilibrium(
         unit = np.zeros((n, 1))
         unit[0] = 1.0
         eps = alpha * (matrix[:, :1] @ np.linalg.solve(matrix[:, 1:], unit))[:, 0, 0]
-    reach = (alpha + np.abs(eps)) / radius
-    near = reach < _NEAR
-    near_eps = np.where(near, eps, 0.0)
-    near_alpha = np.where(near, alpha, 0.5 * radius)
-    slope, c, step = _balanced(matrix, slope_expansion(near_alpha, near_eps, radius, n + 2))
-    place = near_eps + step
-    # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
-    left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
-    settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
+    for _ in range(_STEPS):
+        reach = (alpha + np.abs(eps)) / radius
+        near = reach < _NEAR
+        near_eps = np.where(near, eps, 0.0)
+        near_alpha = np.where(near, alpha, 0.5 * radius)
+        slopes = slope_expansion(near_alpha, near_eps, radius, n + 2)
+        slope, c, step = _balanced(matrix, slopes, slopes[:, 1 : n + 1])
+        place = near_eps + step
+        # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
+        left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
+        settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
+        if (settled | ~near).all():
+            break
+        eps = np.where(np.abs(step) < 0.5 * (radius - near_alpha), place, eps)
     contact = pressed(c, slope, (near_alpha, place), radius)
     if settled.all():
         return contact
@@ -147,16 +153,21 @@ def equilibrium(
     return contact
 
 
-def _balanced(matrix: Array, slopes: Array) -> tuple[Array, Array, Array]:
-    """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step."""
-    n = matrix.shape[2]
-    answers = np.linalg.solve(matrix[:, 1:], slopes[:, 1 : n + 1])
+def _balanced(matrix: Array, slopes: Array, right: Array) -> tuple[Array, Array, Array]:
+    """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step.
+
+    `right` are the slopes of the rows below the first.
+    """
+    answers = np.linalg.solve(matrix[:, 1:], right)
     miss, rise, bend = ((matrix[:, :1] @ answers)[:, 0] - slopes[:, 0]).T
     step = -miss / rise
     for _ in range(2):
         step = -(miss + 0.5 * bend * step * step) / rise
-    powers = np.stack([np.ones_like(step), step, 0.5 * step * step], axis=1)[:, :, None]
-    return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
+    powers = np.empty((step.size, 3, 1))
+    powers[:, 0, 0], powers[:, 1, 0], powers[:, 2, 0] = 1.0, step, 0.5 * step * step
+    slope: Array = (slopes @ powers)[..., 0]
+    c: Array = np.asarray((answers @ powers)[..., 0], dtype=np.float64)
+    return slope, c, np.asarray(step)
 
 
 def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:
@@ -165,7 +176,7 @@ def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contac
     eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
     safe, eps = np.where(inside, alpha, 0.5 * radius), np.where(inside, eps, 0.0)
     n = matrix.shape[2]
-    slope = slope_coefficients(safe, eps, radius, n + 2)
+    slope = slope_expansion(safe, eps, radius, n + 2)[..., 0]
     c = np.asarray(np.linalg.solve(matrix[:, 1:], slope[:, 1 : n + 1, None])[..., 0], dtype=np.float64)
     return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
 
@@ -177,15 +188,31 @@ def nested(matrix: Array) -> tuple[Array, Array]:
     return half, most
 
 
-def of_order(lower: Array, slopes: Array, contact: Contact, rho: Array | float) -> Contact:
-    """Contacts by the matrices of a lower order, shape (b, n+1, n), at the half widths of those of a higher one.
+def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> tuple[Contact, Contact]:
+    """Contacts by matrices of two lower orders, shapes (b, n+1, n), at the half widths of those of a higher one.
 
-    To second order in the shift of the eccentricity; `slopes` is their `slope_expansion`.
+    To second order in the shift of the eccentricity. Both are solved as of the higher of the two orders, the lower one
+    with no pressure in its missing coefficients.
     """
-    slope, c, step = _balanced(lower, slopes[:, : lower.shape[2] + 2])
-    contact_there = pressed(c, slope, (contact.alpha, contact.eps + step), rho)
-    inside = (contact.alpha + np.abs(contact_there.eps) < rho) & (contact_there.pressure > 0.0)
-    return replace(contact_there, inside=inside)
+    low, n, b = lower[0].shape[2], lower[1].shape[2], contact.alpha.size
+    matrix = np.zeros((2, b, n + 1, n))
+    matrix[1] = lower[1]
+    matrix[0, :, : low + 1, :low] = lower[0]
+    missing = np.arange(low, n)
+    matrix[0, :, missing + 1, missing] = 1.0
+    slopes = np.empty((2, b, n + 2, 3))
+    slopes[:] = slope_expansion(contact.alpha, contact.eps, rho, n + 2)
+    right = slopes[:, :, 1 : n + 1].copy()
+    right[0, :, low:] = 0.0
+    slope, c, step = (
+        part.reshape(2, b, *part.shape[1:])
+        for part in _balanced(*(part.reshape(2 * b, *part.shape[2:]) for part in (matrix, slopes, right)))
+    )
+    found = [pressed(c[k], slope[k], (contact.alpha, contact.eps + step[k]), rho) for k in (0, 1)]
+    first, second = (
+        replace(one, inside=(one.alpha + np.abs(one.eps) < rho) & (one.pressure > 0.0)) for one in found
+    )
+    return first, second
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.bessel import bessel_j
-from conveyor.contact.circle import mean_drop, slope_coefficients
+from conveyor.contact.circle import mean_drop, slope_expansion
 from conveyor.contact.energy import loss
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
 from conveyor.contact.scene import Scene
@@ -31,13 +31,17 @@ ComplexArray = NDArray[np.complex128]
 
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
 _LONGEST = 20_000  # terms of the window: gaps below 13 x 12.5/20,000 = 0.008 stay on the grid
+_FEW = 8  # orders that tell a strip's load
 _CHUNK = 4_000_000
-_NEWTON_STEPS = 12
+_NEWTON_STEPS = 24
 _SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
-_ROUNDING = 1e-13  # of each strip's force, at a condition number of 100
 _STALLED = 100.0  # times the tolerance: steps that shrink no more are rounding
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
-_LARGEST_STEP = 0.5  # of the narrowest half width
+_LARGEST_STEP, _LARGEST_LOG, _ROOM = (
+    0.5,
+    1.0,
+    0.25,
+)  # of the narrowest half width, of ln α, of the room of a strip
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +63,9 @@ class Strips:
         return float(self.contact.pressure.sum())
 
     @property
-    def rounding(self) -> float:
-        """Rounding of the friction's sum over strips, whose forces may cancel, μ [-]."""
-        return _ROUNDING * float(np.abs(self.contact.friction) @ self.contact.pressure) / self.pressure
+    def gross_friction(self) -> float:
+        """Sum of the strips' forces regardless of their sign, over the load, μ [-]: they may cancel."""
+        return float(np.abs(self.contact.friction) @ self.contact.pressure) / self.pressure
 
     @property
     def friction(self) -> float:
@@ -114,6 +118,9 @@ def settle(
         if jacobian is None:
             jacobian = ((residual[1:] - residual[0]) / steps[:, None]).T
         step = np.linalg.solve(jacobian, residual[0])
+        allowed = np.append(
+            np.maximum(_room(x, a, rho), _LARGEST_STEP * a.min()), np.full(count, _LARGEST_LOG)
+        )
         largest = float(np.abs(step / unit).max())
         if largest <= tolerance or (largest <= _STALLED * tolerance and largest > _SHRINKS * last):
             return trial.strips(jacobian)
@@ -122,8 +129,24 @@ def settle(
             jacobian, before = None, math.inf
             continue
         before = largest
-        place = place - step * min(1.0, _LARGEST_STEP / largest)
+        place = place - step * min(1.0, float((allowed / np.maximum(np.abs(step), allowed)).min()))
     return None
+
+
+def _room(centre: Array, alpha: Array, rho: float) -> Array:
+    """How far each strip may be moved at once: a share of its distance from its neighbours and from the roll's end."""
+    ends = np.concatenate([centre - alpha, centre + alpha, [-rho, rho]])
+    away = np.abs(np.subtract.outer(centre, ends))
+    away[np.arange(alpha.size), np.arange(alpha.size)] = math.inf
+    away[np.arange(alpha.size), np.arange(alpha.size) + alpha.size] = math.inf
+    room: Array = _ROOM * (away.min(axis=1) - alpha)
+    return room
+
+
+def loads(scene: Scene, centre: Array, alpha: Array) -> Array:
+    """Shares of p̃_m of strips that take the roll's shape at given places, shape (k, l) like these."""
+    carried: Array = 0.25 * alpha * _Places(scene, _FEW, centre, alpha).c[:, :, 0]
+    return carried
 
 
 class _Places:
@@ -139,7 +162,7 @@ class _Places:
         self.rule: Rule = scene.rule(float(alpha.max()))
         own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
         scene.matrices += k * count
-        slope = slope_coefficients(alpha.ravel(), centre.ravel(), rho, n + 2)
+        slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
         full = np.zeros((k, count, n + 1, count, n))
         heights = np.zeros((k, count, count, n))

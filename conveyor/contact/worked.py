@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.bessel import bessel_j
+from conveyor.contact.creep import Creeps
 from conveyor.contact.inside import FAR, HARMONICS, MIDDLE, NEAR, OCTAVE, RAMP, Inside
 from conveyor.contact.interior import interior, path_amplitude
-from conveyor.contact.layer_shapes import confined_shapes
-from conveyor.contact.layers import Confined
+from conveyor.contact.layer_shapes import incompressible_shapes
+from conveyor.contact.layers import Confined, confined_symbol
 from conveyor.contact.single import DENSE
 from conveyor.contact.solution import ContactSolution
 
@@ -33,7 +34,9 @@ _REACH: Final = 1.2
 """Thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4."""
 _GRADED: Final = (0.0, 0.02, 0.1, 0.4, 1.2)
 """Edges of panels in m α, where the strain rises from nothing as (m h)²."""
-_PHASE: Final = 8.0  # radians a panel at most: 8 Gauss nodes integrate its waves to 1e-6
+_PHASE: Final = (
+    12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
+)
 _GAUSS: Final = 8
 _CHUNK: Final = 8  # contacts at once: few enough for the cache
 
@@ -51,7 +54,7 @@ class _Waves(NamedTuple):
 def _waves(x: Array, end: float) -> _Waves:
     """The integral for places x/α, shape (nx,), windowed to end at u = `end`."""
     span = float(np.abs(x).max())
-    count = math.ceil((end - _GRADED[-1]) * span / _PHASE)
+    count = math.ceil((end - _GRADED[-1]) * (1.0 + span) / _PHASE)
     edges = np.concatenate([_GRADED, np.linspace(_GRADED[-1], end, count + 1)[1:]])
     at, gauss = np.polynomial.legendre.leggauss(_GAUSS)
     half = 0.5 * np.diff(edges)[:, None]
@@ -147,6 +150,7 @@ def _strains(
     """Working strain and wave number of contacts of one order."""
     strips = [one.strips[0] for one in inside]
     alpha, c = np.array([strip.alpha for strip in strips]), np.array([strip.c for strip in strips])
+    creeps = Creeps.of([one.problem.creep for one in inside])
     thickness = np.array([one.thickness for one in inside]) / alpha
     z, weights = (
         np.array(part)[:, 1:-1] for part in zip(*(one.depths(depths) for one in inside), strict=True)
@@ -156,14 +160,12 @@ def _strains(
     losing = np.zeros(0)
     for waves, bessel in tables:
         u = waves.u
-        D, T, _, _ = confined_shapes(
-            thickness[:, None, None] * u,
-            z[:, :, None] * u,
-            np.maximum(thickness[:, None] - z, 0.0)[:, :, None] * u,
-            0.5,
+        q = thickness[:, None] * u
+        D, T = incompressible_shapes(
+            q[:, None, :], z[:, :, None] * u, np.maximum(thickness[:, None] - z, 0.0)[:, :, None] * u
         )
         m = u / alpha[:, None]
-        creep = np.array([one.problem.creep.compliance(k) for one, k in zip(inside, m, strict=True)])
+        creep = creeps.compliance(m)
         # p̃̂ and dm/m with it: the sum's 2 Σ is 2 ∫ dm
         pressure = np.empty(m.shape, dtype=complex)
         pressure.real = c[:, ::2] @ bessel[::2]
@@ -173,13 +175,9 @@ def _strains(
         difference.append(_turned(D, strained, waves))
         shear.append(_turned(T, 1j * strained, waves))
         if losing.size == 0:
-            square = (waves.weights / alpha[:, None]) * np.abs(pressure) ** 2
-            density = (D * D + T * T) @ (square * m * creep.imag)[:, :, None]
-            losing = density[:, :, 0]
-            surface = np.array(
-                [one.layer.symbol(k, one.problem.creep).imag for one, k in zip(inside, m, strict=True)]
-            )
-            lost = square * surface
+            square = (waves.weights / alpha[:, None]) * np.abs(pressure) ** 2 * creep.imag
+            losing = ((D * D + T * T) @ (square * m)[:, :, None])[:, :, 0]
+            lost = square * confined_symbol(q)
             mean = np.exp(np.sum(lost * np.log(m), axis=1) / lost.sum(axis=1))
     scale = np.array([one.scale for one in inside])[:, None, None]
     d, g = (2.0 * scale * np.concatenate(part, axis=2) for part in (difference, shear))

@@ -94,9 +94,8 @@ def _strength(scenario: Followed) -> Iterator[Check]:
                        source=most, why=why, where=where)  # fmt: skip
     if belt.rating is not None:
         tension = scenario.highest / belt.width
-        why = said("the belt bears {}", (tension, "belt rating"))
         yield compared("dynamic_rating", "belt tension per width", tension, "at most", RATED_START * belt.rating,
-                       "belt rating", source=_MORE, why=why, where=where)  # fmt: skip
+                       "belt rating", source=_MORE, why="the belt bears {calculated}", where=where)  # fmt: skip
 
 
 def _splice(scenario: Followed) -> Iterator[Check]:
@@ -109,10 +108,9 @@ def _splice(scenario: Followed) -> Iterator[Check]:
         scenario.highest / (RATED_START * belt.width), splice_strength=belt.splice_strength,
         s0=SPLICE_SAFETY[belt.splice_making], s1=DUTY_SAFETY[belt.duty],
     )  # fmt: skip
-    why = said("a splice there requires a belt of {}, given: {}", (needed, "belt strength"),
-               (belt.strength, "belt strength"))  # fmt: skip
     yield compared(
-        "dynamic_splice", "belt strength for the splice", belt.strength, "at least", needed, "belt strength", why=why,
+        "dynamic_splice", "belt strength for the splice", belt.strength, "at least", needed, "belt strength",
+        why="a splice there requires a belt of {required}, given: {calculated}",
         source=f"DIN 22101:2002, {_MORE}", where=f"{scenario.place(i)}, {scenario.record.highest_at[i]:.1f} s",
     )  # fmt: skip
 
@@ -123,17 +121,17 @@ def _sag(scenario: Followed) -> Iterator[Check]:
     sag, at = float(scenario.sag[i]), f"{scenario.place(i)}, {scenario.record.lowest_at[i]:.1f} s"
     least = float(scenario.cells.slack[i])
     help_ = "raise the take-up's tension, or slow the motion by ramps or flywheels"
-    slack = said(f"the belt goes slack in {quoted(scenario.place(i))} at {scenario.record.lowest_at[i]:.1f} s: down "
-                 f"to {{}}; {help_}", (float(scenario.record.lowest[i]), "force"))  # fmt: skip
     yield compared(
-        "dynamic_slack", "belt is taut", float(scenario.record.lowest[i]), "at least", least, "force", why=slack,
-        where=at,
-        source=f"sag of {percent(SLACK_SAG.value)} of the span, general knowledge",
+        "dynamic_slack", "belt is taut", float(scenario.record.lowest[i]), "at least", least, "force", where=at,
+        why=f"the belt goes slack in {quoted(scenario.place(i))} at {scenario.record.lowest_at[i]:.1f} s: down to "
+        f"{{calculated}}; {help_}", source=f"sag of {percent(SLACK_SAG.value)} of the span, general knowledge",
     )  # fmt: skip
     most = MOVING_SAG.value
-    why = said(f"the belt sags by {percent(sag)} of the span in {quoted(scenario.place(i))}; {help_}")
-    made = compared("dynamic_sag", "sag over the span", sag, "at most", most, "fraction", why=why, where=at)
-    yield replace(made, found=said(percent(sag)), asked=said(f"at most {percent(most)} (general knowledge)"))
+    yield compared(
+        "dynamic_sag", "sag over the span", sag, "at most", most, "fraction", wording=said(percent(sag)),
+        asked=said(f"at most {percent(most)} (general knowledge)"), where=at,
+        why=f"the belt sags by {percent(sag)} of the span in {quoted(scenario.place(i))}; {help_}",
+    )  # fmt: skip
 
 
 def _lift_off(scenario: Followed) -> Iterator[Check]:
@@ -145,8 +143,7 @@ def _lift_off(scenario: Followed) -> Iterator[Check]:
         stretch, radius = stretches[f"{peak.section}, {peak.strand}"], abs(sections[peak.section].radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=stretch.inclination,
                                 gravity=scenario.line.gravity)  # fmt: skip
-        why = said("the empty belt lifts off on the concave curve of {}; at least {} are needed", (radius, "length"),
-                   (least, "length"))  # fmt: skip
+        why = "the empty belt lifts off on the concave curve of {calculated}; at least {required} are needed"
         yield compared("dynamic_lift_off", f"empty belt stays down, {quoted(peak.section)}, {peak.strand}", radius,
                        "at least", least, "length", why=why, where=f"{peak.highest_at:.1f} s")  # fmt: skip
 
@@ -154,16 +151,12 @@ def _lift_off(scenario: Followed) -> Iterator[Check]:
 def _grip(scenario: Followed) -> Iterator[Check]:
     for d, drive in enumerate(scenario.ride.drives):
         way, heat = float(scenario.record.slipped[d]), float(scenario.record.heat[d])
-        why = said(
-            f'the belt slips on "{quoted(drive.name)}" by {{}} and heats it with {heat / 1e6:.3g} MJ; raise the '
-            "take-up's tension, the wrap or the friction, or slow the motion",
-            (way, "length"),
-        )
-        made = compared(
-            "dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", why=why
-        )
-        yield replace(made, found=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
-                      asked=said("no slip"))  # fmt: skip
+        yield compared(
+            "dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", asked=said("no slip"),
+            wording=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
+            why=f'the belt slips on "{quoted(drive.name)}" by {{calculated}} and heats it with {heat / 1e6:.3g} MJ; '
+            "raise the take-up's tension, the wrap or the friction, or slow the motion",
+        )  # fmt: skip
 
 
 def _torque(scenario: Followed) -> Iterator[Check]:
@@ -172,10 +165,11 @@ def _torque(scenario: Followed) -> Iterator[Check]:
         name, most = quoted(drive.name), float(scenario.ride.limits()[d].max() / scenario.ride.rated[d])
         size = np.abs(scenario.torque[:, d])
         held = float((size >= (1.0 - _AT_LIMIT) * most).sum()) * scenario.record.step
-        made = compared("dynamic_torque", f"torque of {name} over rated", float(size.max()), "at most",
-                        (1.0 + _AT_LIMIT) * most, "safety", source="its limit")  # fmt: skip
         words = f", at its limit for {held:.1f} s" if held else ""
-        yield replace(made, found=said(f"{{}}{words}", (float(size.max()), "safety")))
+        yield compared(
+            "dynamic_torque", f"torque of {name} over rated", float(size.max()), "at most", (1.0 + _AT_LIMIT) * most,
+            "safety", source="its limit", wording=said(f"{{}}{words}", (float(size.max()), "safety")),
+        )  # fmt: skip
         if drive.power is not None:
             turned = scenario.record.drives["motor"][:, d] * scenario.record.drives["rim"][:, d]
             power = float(np.abs(turned).max()) / scenario.line.efficiency
@@ -191,10 +185,10 @@ def _torque(scenario: Followed) -> Iterator[Check]:
 def _backward(scenario: Followed) -> Iterator[Check]:
     """A belt does not roll back; what holds it does so by the spec's word."""
     least = float(scenario.belt_speed.min())
-    why = said("the belt rolls back at {}: a backstop or a brake is needed", (-least, "speed"))
     yield compared(
         "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACKWARD * scenario.line.speed,
-        "speed", source="the swing of a wave, general knowledge", why=why,
+        "speed", source="the swing of a wave, general knowledge",
+        why="the belt rolls back at {calculated}: a backstop or a brake is needed",
     )  # fmt: skip
     for d, drive in enumerate(scenario.ride.drives):
         held = max(0.0, -float(scenario.record.drives["holding"][:, d].min()))
@@ -216,8 +210,7 @@ def _take_up(scenario: Followed) -> Iterator[Check]:
         return
     way = float(np.ptp(scenario.travel))
     room = duty.whole - duty.tensioning
-    why = said("the carriage of the take-up moves by {}; its computed travel, with the belt taut, is {}",
-               (way, "length"), (room, "length"))  # fmt: skip
+    why = "the carriage of the take-up moves by {calculated}; its computed travel, with the belt taut, is {required}"
     yield compared("dynamic_travel", "way of the take-up's carriage", way, "at most", room, "length", why=why)
 
 
@@ -231,15 +224,12 @@ def _end(scenario: Followed) -> Iterator[Check]:
         why = said("the belt does not stop; {} at the end", (float(scenario.belt_speed[-1]), "speed"))
         yield Check("dynamic_rest", said("stopping"), scenario.rests_at, None, "duration", words, said("a stop"),
                     verdict(holds=scenario.rests_at is not None), why)  # fmt: skip
-        why = said("the belt runs away to {}", (top, "speed"))
         yield compared("dynamic_overspeed", "speed of the belt", top, "at most", OVERSPEED * full, "speed",
-                       source="general knowledge", why=why)  # fmt: skip
+                       source="general knowledge", why="the belt runs away to {calculated}")  # fmt: skip
     elif not scenario.ride.scene.running:
         end = float(scenario.belt_speed[-1])
-        why = said("the belt reaches {}", (end, "speed"))
-        yield compared(
-            "dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed", why=why
-        )
+        yield compared("dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed",
+                       why="the belt reaches {calculated}")  # fmt: skip
 
 
 def _bulk(scenario: Followed) -> Iterator[Check]:
@@ -259,8 +249,7 @@ def _bulk(scenario: Followed) -> Iterator[Check]:
         ]
     if worst:
         _, most, allowed, section = max(worst)
-        why = said(f'the bulk slides in "{quoted(section)}": {{}}, {{}} are allowed', (most, "acceleration"),
-                   (allowed, "acceleration"))  # fmt: skip
+        why = f'the bulk slides in "{quoted(section)}": {{calculated}}, {{required}} are allowed'
         yield compared("dynamic_bulk", "no material slip", most, "at most", allowed, "acceleration", why=why,
                        where=section)  # fmt: skip
 

@@ -156,7 +156,7 @@ def _table(library: Library) -> pd.DataFrame:
         }
         for name, held in entries(library).items()
     }
-    frame = pd.DataFrame.from_dict(rows, orient="index").rename_axis(library)
+    frame = pd.DataFrame(list(rows.values()), index=pd.Index(rows, name=library))
     last = ["note", "general knowledge", "source"]
     return frame[[*(column for column in frame.columns if column not in last), *last]]
 

@@ -76,7 +76,7 @@ def _verdict(fitted: Fitted, criteria: Sequence[Criterion]) -> Html:
 def _tables(fitted: Fitted) -> list[Html]:
     """Tables behind the figures, with their headings as captions."""
     every = (tables.shifts(fitted), tables.laws(fitted), tables.files(fitted))
-    return [table(shown, shown.heading) for shown in every if not shown.empty]
+    return [table(shown, shown.heading) for shown in every if shown.rows]
 
 
 def _glossary() -> Html:

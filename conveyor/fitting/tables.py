@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from operator import attrgetter, itemgetter
+from operator import itemgetter
 from typing import Final
 
 import numpy as np
@@ -48,7 +48,7 @@ def of_fit(
         Table("provenance", "Read and done", "Made by", plain[1:], (("", marks.maker()),)),
     )  # fmt: skip
     head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper)
-    return Contents(head, tuple(part for part in parts if not part.empty), "SI")
+    return Contents(head, parts, "SI")
 
 
 def said(fitted: Fitted, document: Mapping[str, str]) -> dict[str, str]:
@@ -60,11 +60,11 @@ def said(fitted: Fitted, document: Mapping[str, str]) -> dict[str, str]:
 def judged(criteria: Sequence[Criterion]) -> Table:
     """One row a criterion."""
     columns = (
-        Column("criterion", "text", attrgetter("name")),
-        Column("calculated", "text", attrgetter("calculated")),
-        Column("required", "text", attrgetter("required")),
-        Column("verdict", "verdict", attrgetter("verdict")),
-        Column("what it says", "text", attrgetter("why")),
+        Column("criterion", "text", "name"),
+        Column("calculated", "text", "calculated"),
+        Column("required", "text", "required"),
+        Column("verdict", "verdict", "verdict"),
+        Column("what it says", "text", "why"),
     )
     return Table("criteria", "Verdict", "Criteria", columns, tuple(criteria))
 
@@ -102,12 +102,12 @@ def shifts(fitted: Fitted) -> Table:
 def laws(fitted: Fitted) -> Table:
     """How well each law follows the shifts."""
     columns = (
-        Column("law", "text", attrgetter("name")),
-        Column("rms", "decades", attrgetter("rms")),
-        Column("worst", "decades", attrgetter("worst")),
-        Column("at", "temperature", attrgetter("worst_temperature")),
-        Column("a shift left out is missed by", "decades", attrgetter("left_out")),
-        Column("remark", "text", attrgetter("remark")),
+        Column("law", "text", "name"),
+        Column("rms", "decades", "rms"),
+        Column("worst", "decades", "worst"),
+        Column("at", "temperature", "worst_temperature"),
+        Column("a shift left out is missed by", "decades", "left_out"),
+        Column("remark", "text", "remark"),
     )
     return Table(
         "laws", "Shifts", "Shift laws", columns, tuple(law for law in fitted.laws if law.law is not None)

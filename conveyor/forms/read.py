@@ -2,25 +2,262 @@
 
 from __future__ import annotations
 
+import difflib
+import math
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import Any, Final
 
+from openpyxl.utils import get_column_letter
 from pydantic import BaseModel
 
 from conveyor.errors import InputError
 from conveyor.files.content import file_content
 from conveyor.files.document import first_lines
-from conveyor.files.workbook import MAGIC, Limits, Sheet, read_sheets
-from conveyor.forms.entries import NAMED, Content, FieldEntry, Item, SheetReader, problem_of
+from conveyor.files.workbook import MAGIC, Limits, Sheet, SheetCell, read_sheets
 from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Path
-from conveyor.forms.plan import Plan, references, whole, written_out
+from conveyor.forms.plan import Form, ListSheet, Plan, references, whole, written_out
 from conveyor.forms.values import from_cells
 from conveyor.models import Conveyor
 from conveyor.models.base import field_path
 from conveyor.models.wording import Location
+
+KEY, VALUE, UNIT = "Key", "Value", "Unit"
+"""Headers by which the columns of a form are found."""
+NUMBER, PARENT = "#", "^"
+"""Keys of the columns of a list that number its items and name the item of the list above."""
+NAMED: Final = "@"
+"""Key of the name that a written-out compound is referred to by."""
+UNIT_OF: Final = "[unit]"
+_HEADER_ROWS: Final = 60
+"""Rows in which the header of a form or list is looked for."""
+
+
+def problem_of(cell: SheetCell) -> str:
+    """Why a cell cannot be taken for a value; "" where it can."""
+    if cell.kind == "no result":
+        return (
+            "holds a formula without a result; open the workbook in a spreadsheet program, let it calculate "
+            "and save it, or type the value"
+        )
+    if cell.kind == "error":
+        return f"holds the error {cell.value}; correct its formula or type the value"
+    if cell.kind == "date":
+        return (
+            f"holds a date or time ({cell.value}): the spreadsheet program took the number for one; "
+            "format the cell as a number and type it again"
+        )
+    infinite = isinstance(cell.value, float) and not math.isfinite(cell.value)
+    return "holds a number that is not finite" if infinite else ""
+
+
+def address(sheet: str, row: int, column: int) -> str:
+    """Write the place of a cell as spreadsheets do.
+
+    Examples
+    --------
+    >>> address("Belt", 4, 3), address("Rubber compound 1", 4, 3)
+    ('Belt!C4', "'Rubber compound 1'!C4")
+    """
+    quoted = sheet if sheet.isidentifier() else "'" + sheet.replace("'", "''") + "'"
+    return f"{quoted}!{get_column_letter(column)}{row}"
+
+
+@dataclass(frozen=True)
+class FieldEntry:
+    """The cells of one field."""
+
+    place: str
+    value: SheetCell | None
+    unit: SheetCell | None
+    unit_place: str
+
+
+@dataclass(frozen=True)
+class Item:
+    """A row of a list: where, its number, the number of the item it belongs to, its fields."""
+
+    place: str
+    number: int | None
+    parent: int | None
+    entries: dict[Path, FieldEntry]
+
+
+@dataclass
+class Content:
+    """The entries of all sheets of a plan, and where each sheet begins."""
+
+    plan: Plan
+    entries: dict[Path, FieldEntry] = field(default_factory=dict)
+    items: dict[str, list[Item]] = field(default_factory=dict)
+    places: dict[str, str] = field(default_factory=dict)
+
+
+class SheetReader:
+    """Reads the sheets of a plan and notes every problem it meets."""
+
+    def __init__(self, path: str, grids: dict[str, Sheet]) -> None:
+        self.path, self.grids = path, grids
+        self.problems: list[str] = []
+
+    def refuse(self, place: str, message: str) -> None:
+        """Note a problem of a cell."""
+        self.problems.append(f"{self.path}:{place} {message}")
+
+    def content(self, plan: Plan) -> Content:
+        """Read every sheet of a plan."""
+        wanted = [*(form.name for form in plan.forms), *(sheet.name for sheet in plan.tables)]
+        content = Content(plan, places={name: address(name, 1, 1) for name in wanted})
+        if not set(wanted) & set(self.grids):
+            self.problems.append(
+                f'{self.path}: none of the template\'s sheets is in it, such as "{wanted[0]}"; '
+                "write a template with: conveyor template input.xlsx"
+            )
+            return content
+        for form in plan.forms:
+            grid = self._sheet(form.name, required=form.required)
+            if grid is not None:
+                self._form(grid, form, content)
+        for sheet in plan.tables:
+            grid = self._sheet(sheet.name, required=sheet.table.required)
+            content.items[sheet.name] = [] if grid is None else self._table(grid, sheet, content)
+        for sheet in plan.tables:
+            if sheet.parent is not None:
+                self._check_parents(content, sheet, sheet.parent)
+        return content
+
+    def _sheet(self, name: str, *, required: bool) -> Sheet | None:
+        """Return a sheet; one that may be empty may be missing too, unless another looks like it."""
+        if name in self.grids:
+            return self.grids[name]
+        folded = {other.casefold().strip(): other for other in self.grids}
+        near = difflib.get_close_matches(name.casefold(), folded, n=1, cutoff=0.8)
+        if required or near:
+            guess = f'; is it "{folded[near[0]]}"? Give it its name back' if near else ""
+            listed = ", ".join(f'"{other}"' for other in list(self.grids)[:20])
+            self.problems.append(
+                f'{self.path}: sheet "{name}" is missing{guess}; sheets found: {listed}; '
+                "write a new template with: conveyor template input.xlsx"
+            )
+        return None
+
+    def _form(self, grid: Sheet, form: Form, content: Content) -> None:
+        top, columns = self._header(grid, (KEY, VALUE, UNIT))
+        if not columns:
+            return
+        wanted = {".".join(row.path): row.path for row in form.rows if isinstance(row.part, Leaf)}
+        wanted[NAMED] = (NAMED,)
+        self._refuse_merged(grid, top, {columns[name] for name in (KEY, VALUE, UNIT)})
+        first: dict[str, int] = {}
+        for row in (row for row in grid.rows() if row > top):
+            key, place = grid.text(row, columns[KEY]), address(grid.name, row, columns[VALUE])
+            value, unit = grid.cells.get((row, columns[VALUE])), grid.cells.get((row, columns[UNIT]))
+            if not key:
+                if value is not None:
+                    self.refuse(place, f'a value in a row without a field (column "{KEY}"); remove it')
+            elif key not in wanted:
+                self._unknown(address(grid.name, row, columns[KEY]), key, wanted)
+            elif key in first:
+                self.refuse(place, f"{key}: given twice, first in row {first[key]}; remove one of the rows")
+            else:
+                first[key] = row
+                unit_place = address(grid.name, row, columns[UNIT])
+                content.entries[wanted[key]] = FieldEntry(place, value, unit, unit_place)
+
+    def _table(self, grid: Sheet, sheet: ListSheet, content: Content) -> list[Item]:
+        top, columns = self._header(grid, (NUMBER,))
+        if not columns:
+            return []
+        content.places[sheet.name] = address(grid.name, top, columns[NUMBER])
+        known = {".".join(column.path): column.path for column in sheet.columns}
+        allowed = [*known, *(f"{key} {UNIT_OF}" for key in known), NUMBER, PARENT]
+        for key, column in columns.items():
+            if key not in allowed:
+                self._unknown(address(grid.name, top, column), key, allowed)
+        self._refuse_merged(grid, top, set(columns.values()))
+        items = []
+        for row in (row for row in grid.rows() if row > top):
+            entries = {
+                path: _entry(grid, row, columns[key], columns.get(f"{key} {UNIT_OF}"))
+                for key, path in known.items()
+                if key in columns
+            }
+            if any(entry.value is not None for entry in entries.values()):
+                number = self._whole(grid, row, columns[NUMBER])
+                parent = self._whole(grid, row, columns[PARENT]) if PARENT in columns else None
+                items.append(Item(address(grid.name, row, columns[NUMBER]), number, parent, entries))
+            else:
+                self._refuse_strays(grid, row, set(columns.values()))
+        return items
+
+    def _header(self, grid: Sheet, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
+        """Find the row that names the columns, and its names; no names where there is none."""
+        for row in range(1, _HEADER_ROWS + 1):
+            columns: dict[str, int] = {}
+            twice = []
+            for column in sorted(c for r, c in grid.cells if r == row):
+                name = grid.text(row, column)
+                if name in columns:
+                    twice.append((column, name))
+                columns.setdefault(name, column)
+            if all(name in columns for name in needed):
+                for column, name in twice:
+                    self.refuse(address(grid.name, row, column), f'column "{name}" twice; remove one')
+                return row, {name: column for name, column in columns.items() if name}
+        listed = ", ".join(f'"{name}"' for name in needed)
+        self.problems.append(
+            f'{self.path}: sheet "{grid.name}" has no row with {listed} in its first {_HEADER_ROWS}; '
+            "write a new template with: conveyor template input.xlsx"
+        )
+        return 0, {}
+
+    def _unknown(self, place: str, key: str, known: Iterable[str]) -> None:
+        near = difflib.get_close_matches(key, list(known), n=1)
+        guess = f'; did you mean "{near[0]}"?' if near else ""
+        self.refuse(place, f'unknown key "{key[:80]}"{guess}')
+
+    def _refuse_merged(self, grid: Sheet, top: int, columns: set[int]) -> None:
+        for first_row, first, last_row, last in grid.merged:
+            if last_row > top and any(first <= column <= last for column in columns):
+                begin = address(grid.name, first_row, first)
+                end = address(grid.name, last_row, last).rpartition("!")[2]
+                self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
+
+    def _refuse_strays(self, grid: Sheet, row: int, columns: set[int]) -> None:
+        """Refuse what stands beside the columns of a list in a row that gives no item."""
+        for (r, column), cell in grid.cells.items():
+            if r == row and column not in columns and not problem_of(cell):
+                place = address(grid.name, row, column)
+                self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
+
+    def _whole(self, grid: Sheet, row: int, column: int) -> int | None:
+        cell = grid.cells.get((row, column))
+        if cell is None:
+            return None
+        value = cell.value
+        if isinstance(value, int | float) and not isinstance(value, bool) and value == int(value):
+            return int(value)
+        message = problem_of(cell) or f'got "{value}", expected the number of an item'
+        self.refuse(address(grid.name, row, column), message)
+        return None
+
+    def _check_parents(self, content: Content, sheet: ListSheet, parent: str) -> None:
+        above = [item.number for item in content.items[parent]]
+        for item in content.items[sheet.name]:
+            count = above.count(item.parent) if item.parent is not None else 0
+            if count != 1:
+                given = "nothing" if item.parent is None else item.parent
+                which = "no row has" if count == 0 else "several rows have"
+                self.refuse(item.place, f'belongs to No. {given} of sheet "{parent}", a number that {which}')
+
+
+def _entry(grid: Sheet, row: int, column: int, of_unit: int | None) -> FieldEntry:
+    unit = None if of_unit is None else grid.cells.get((row, of_unit))
+    unit_place = "" if of_unit is None else address(grid.name, row, of_unit)
+    return FieldEntry(address(grid.name, row, column), grid.cells.get((row, column)), unit, unit_place)
+
 
 LARGEST_FILE: Final = 3_000_000
 """Bytes; a template of a thousand sections has a twentieth of it."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_answer, to_problem
+from conveyor.indentation import RollContact, no_answer, to_problems
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 LOAD_EXPONENT = 4.0 / 3.0
 """Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
 _STRAIN_RTOL = 5e-3  # of the working strain: sweeps are repeated to a few per cent
-_CONTACT_RTOL = 1e-4
+_CONTACT_RTOL = 1e-3
 INSIDE: Final = (12, 32)
 """Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
 against 28 and 96."""
@@ -93,6 +93,8 @@ class WorkedCover:
         Of the cover [K].
     swept : PronySeries or None
         Beyond the sweeps: the series at the nearest temperature they reach.
+    inside : tuple of int
+        Depths and points at which the strain is taken.
     """
 
     contact: RollContact
@@ -100,13 +102,14 @@ class WorkedCover:
     factors: AmplitudeFactors
     temperature: float
     swept: PronySeries | None = None
+    inside: tuple[int, int] = INSIDE
 
 
 SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 """Series at the working strain, and that strain."""
 
 
-def softened_each(works: Sequence[WorkedCover], *, inside: tuple[int, int] = INSIDE) -> list[SoftCover]:
+def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
     """Series of covers at the strains of the rolls' own contacts, as `softened_many`; the first refusal is raised.
 
     Raises
@@ -117,47 +120,44 @@ def softened_each(works: Sequence[WorkedCover], *, inside: tuple[int, int] = INS
         The strain is outside the sweeps.
     """
     covers: list[SoftCover] = []
-    for soft in softened_many(works, inside=inside):
+    for soft in softened_many(works):
         if not isinstance(soft, tuple):
             raise soft
         covers.append(soft)
     return covers
 
 
-def softened_many(
-    works: Sequence[WorkedCover], *, inside: tuple[int, int] = INSIDE
-) -> list[SoftCover | NoSolutionError | RangeError]:
+def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionError | RangeError]:
     """Series of covers at the strains of the rolls' own contacts, solved side by side.
 
     Parameters
     ----------
     works : sequence of WorkedCover
         Covers.
-    inside : tuple of int
-        Depths and points at which the strain is taken.
 
     Returns
     -------
     list
         In their order the covers, or why there is none.
     """
-    finely = itertools.chain([COARSE], itertools.repeat(inside))
+    coarsely = itertools.chain([True], itertools.repeat(False))
 
     def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
-        depths, points = next(finely)  # the first strain is but a start
-        problems = [
-            to_problem(replace(works[i].contact, rubber=one), works[i].line_load)
-            for i, one in zip(asked, series, strict=True)
-        ]
-        solved = solve_many(problems, _CONTACT_RTOL)
-        answered = [one for one in solved if one.status is Status.OK]
-        strained = iter(working_strains(answered, depths=depths, points=points))
-        return [
-            _worked(works[i].contact, *next(strained))
-            if one.status is Status.OK
-            else NoSolutionError(one.message)
-            for i, one in zip(asked, solved, strict=True)
-        ]
+        first = next(coarsely)  # the first strain is but a start
+        problems = to_problems(
+            [replace(works[i].contact, rubber=one) for i, one in zip(asked, series, strict=True)],
+            [works[i].line_load for i in asked],
+        )
+        solved = dict(zip(asked, solve_many(problems, _CONTACT_RTOL), strict=True))
+        alike: dict[tuple[int, int], list[int]] = {}
+        for i, one in solved.items():
+            if one.status is Status.OK:
+                alike.setdefault(COARSE if first else works[i].inside, []).append(i)
+        worked: dict[int, Worked] = {}
+        for (depths, points), members in alike.items():
+            strained = working_strains([solved[i] for i in members], depths=depths, points=points)
+            worked |= {i: _worked(works[i].contact, *pair) for i, pair in zip(members, strained, strict=True)}
+        return [worked[i] if i in worked else NoSolutionError(solved[i].message) for i in asked]
 
     tasks = [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
     answers = equivalent_linear_many(tasks, strains_of, rtol=_STRAIN_RTOL)

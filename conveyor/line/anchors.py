@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import starmap
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError, NoSolutionError
-from conveyor.indentation import RollContact, indentation_curves
-from conveyor.laws.softening import COARSE, WorkedCover, softened_each
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.indentation import RollContact, felt, indentation_resistances
+from conveyor.laws.softening import COARSE, SoftCover, WorkedCover, softened_many
+from conveyor.line.covers import FELT
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
 from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
@@ -56,17 +59,11 @@ def anchor_rows(compound: RubberCompound, *, softened: bool) -> tuple[RollingRow
     RangeError
         The compound is not known at a test's temperature, or at its strain.
     """
-    rows: list[RollingRow] = []
-    for number, test in enumerate(compound.tests):
-        points = test.points()
-        calculated = _theory(compound, points, softened=softened)
-        rows += [
-            RollingRow(number, load, points.temperature, measured, ours)
-            for load, measured, ours in zip(
-                points.line_load.tolist(), points.resistance.tolist(), calculated.tolist(), strict=True
-            )
-        ]
-    return tuple(rows)
+    theory = Theory([compound], softened=softened)
+    (rows,) = theory.rows(softened_many(theory.works))
+    if not isinstance(rows, tuple):
+        raise rows
+    return rows
 
 
 def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
@@ -77,7 +74,31 @@ def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
     NoSolutionError, RangeError
         As `anchor_rows`.
     """
-    return anchor_of(compound, anchor_rows(compound, softened=softened)) if compound.tests else None
+    (level,) = anchors([compound], softened=softened)
+    if level is not None and not isinstance(level, Anchor):
+        raise level
+    return level
+
+
+def anchors(
+    compounds: Sequence[RubberCompound], *, softened: bool
+) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
+    """The levels of many compounds, each as `anchor` finds it, the theory at all their tests side by side.
+
+    Parameters
+    ----------
+    compounds : sequence of RubberCompound
+        Compounds.
+    softened : bool
+        As of `anchor`.
+
+    Returns
+    -------
+    list
+        In their order the levels, None without tests, or why there is none.
+    """
+    theory = Theory(compounds, softened=softened)
+    return theory.levels(softened_many(theory.works))
 
 
 def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
@@ -106,8 +127,100 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
     return level
 
 
-def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) -> Array:
-    """Calculated resistance per width at a test's loads [N/m]."""
+def _tested(
+    number: int, test: tuple[RollingPoints, Array | NoSolutionError | RangeError]
+) -> Iterator[RollingRow]:
+    """Rows of a test."""
+    points, calculated = test
+    for load, measured, ours in zip(points.line_load, points.resistance, np.asarray(calculated), strict=True):
+        yield RollingRow(number, float(load), points.temperature, float(measured), float(ours))
+
+
+class Theory:
+    """The theory at the tests of compounds, on its way: first the covers at the strain of each, then their contacts.
+
+    Attributes
+    ----------
+    compounds : tuple of RubberCompound
+        Whose tests.
+    softened : bool
+        Whether their rubber is taken at the strain of the test.
+    works : list of WorkedCover
+        Covers to be softened.
+    """
+
+    def __init__(self, compounds: Sequence[RubberCompound], *, softened: bool) -> None:
+        self.compounds, self.softened = tuple(compounds), softened
+        self._tests = [(compound, test.points()) for compound in compounds for test in compound.tests]
+        self._refused: dict[int, NoSolutionError | RangeError] = {}
+        self._asked: dict[tuple[int, float], RollContact] = {}
+        works: dict[tuple[int, float], WorkedCover] = {}
+        for i, (compound, points) in enumerate(self._tests):
+            try:
+                contact, swept = _contact(compound, points), compound.swept_series(points.temperature)
+            except RangeError as error:
+                self._refused[i] = error
+                continue
+            factors = compound.amplitude_factors() if softened else None
+            for w in _nodes(points.line_load, few=factors is not None):
+                self._asked[i, w] = contact
+                if factors is not None:
+                    works[i, w] = WorkedCover(contact, w, factors, points.temperature, swept, COARSE)
+        self._worked, self.works = list(works), list(works.values())
+
+    def levels(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
+        """Levels of the compounds, as `anchors`, from the softened covers in the order of `works`."""
+        levels: list[Anchor | NoSolutionError | RangeError | InputError | None] = []
+        for compound, rows in zip(self.compounds, self.rows(covers), strict=True):
+            try:
+                levels.append(
+                    rows if not isinstance(rows, tuple) else anchor_of(compound, rows) if rows else None
+                )
+            except InputError as error:
+                levels.append(error)
+        return levels
+
+    def rows(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[tuple[RollingRow, ...] | NoSolutionError | RangeError]:
+        """Rows of the tests of each compound; or why there are none, as the first test without theory says."""
+        theory = iter(self._resistances(covers))
+        points = (points for _, points in self._tests)
+        rows_of: list[tuple[RollingRow, ...] | NoSolutionError | RangeError] = []
+        for compound in self.compounds:
+            each = [(next(points), next(theory)) for _ in compound.tests]
+            refused = next((ours for _, ours in each if isinstance(ours, NoSolutionError | RangeError)), None)
+            rows_of.append(refused or tuple(itertools.chain.from_iterable(starmap(_tested, enumerate(each)))))
+        return rows_of
+
+    def _resistances(
+        self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
+    ) -> list[Array | NoSolutionError | RangeError]:
+        """Calculated resistance per width of each test at its loads [N/m], all contacts side by side."""
+        refused, asked = dict(self._refused), dict(self._asked)
+        for (i, w), soft in zip(self._worked, covers, strict=True):
+            if isinstance(soft, tuple):
+                asked[i, w] = replace(asked[i, w], rubber=soft[0])
+            else:
+                refused.setdefault(i, soft)
+                del asked[i, w]
+        solved = indentation_resistances(list(asked.values()), [w for _, w in asked], RTOL)
+        there: list[dict[float, float]] = [{} for _ in self._tests]
+        for (i, w), one in zip(asked, solved, strict=True):
+            if isinstance(one, NoSolutionError):
+                refused.setdefault(i, NoSolutionError(f"a rolling-resistance test: {one}"))
+            else:
+                there[i][w] = one
+        return [
+            refused[i] if i in refused else _between(there[i], points.line_load)
+            for i, (_, points) in enumerate(self._tests)
+        ]
+
+
+def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
+    """The roll of a test on its cover."""
     contact = RollContact(
         radius=points.radius,
         spacing=max(SPACING, 4.0 * points.radius),
@@ -116,28 +229,23 @@ def _theory(compound: RubberCompound, points: RollingPoints, *, softened: bool) 
         rubber=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
-    factors = compound.amplitude_factors() if softened else None
-    low, high = float(points.line_load.min()), float(points.line_load.max())
-    if factors is None:
-        return _resistance([contact], [points.line_load])[0]
-    nodes = np.unique(np.geomspace(low, high, SOFT_LOADS if high > low else 1))
-    swept = compound.swept_series(points.temperature)
-    works = [WorkedCover(contact, w, factors, points.temperature, swept) for w in nodes.tolist()]
-    covers = [series for series, _ in softened_each(works, inside=COARSE)]
-    resistances = _resistance(
-        [replace(contact, rubber=cover) for cover in covers], [np.array([w]) for w in nodes]
-    )
-    shape = np.polynomial.Polynomial.fit(np.log(nodes), np.log(np.concatenate(resistances)), nodes.size - 1)
-    return np.asarray(np.exp(shape(np.log(points.line_load))))
+    if contact.poisson != 0.5:
+        return contact
+    fastest, slowest = felt(contact, float(points.line_load.min()), FELT * RTOL)
+    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
 
 
-def _resistance(contacts: list[RollContact], loads: list[Array]) -> list[Array]:
-    """Resistance per width of contacts at their loads [N/m], solved side by side."""
-    lowest = [float(w.min()) * (1.0 - RTOL) for w in loads]  # a curve is solved between two loads
-    curves = indentation_curves(contacts, lowest, [float(w.max()) for w in loads], RTOL)
-    resistances = []
-    for curve, w in zip(curves, loads, strict=True):
-        if isinstance(curve, NoSolutionError):
-            raise NoSolutionError(f"a rolling-resistance test: {curve}")
-        resistances.append(curve.resistance(w))
-    return resistances
+def _nodes(loads: Array, *, few: bool) -> list[float]:
+    """Line loads at which a test is calculated [N/m]: a few of their range, or each of them."""
+    low, high = float(loads.min()), float(loads.max())
+    nodes = np.geomspace(low, high, SOFT_LOADS) if few and high > low else loads
+    return [float(w) for w in np.unique(nodes)]
+
+
+def _between(resistances: Mapping[float, float], loads: Array) -> Array:
+    """Resistance at line loads by that at some [N/m]: of three a parabola in their logarithms."""
+    if set(resistances) >= set(loads.tolist()):
+        return np.array([resistances[w] for w in loads.tolist()])
+    nodes, values = np.log(list(resistances.items())).T
+    shape = np.polynomial.Polynomial.fit(nodes, values, nodes.size - 1)
+    return np.asarray(np.exp(shape(np.log(loads))))

@@ -137,7 +137,8 @@ class Contacts:
     @property
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
-        return max(curve.error for curve in self.curves)
+        pairs = zip(self.line.kinds, self.curves, strict=True)
+        return max(curve.error + self.covers[kind.strand].merged for kind, curve in pairs)
 
     @property
     def energy_error(self) -> float:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import Backing, RollContact, Support
+from conveyor.indentation import Backing, RollContact, Support, felt
 from conveyor.laws.softening import SoftCover, WorkedCover, WorkingStrain, losing_load, softened_many
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
@@ -41,7 +41,8 @@ class RunningCover:
 
     `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
     the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
-    belt's other cover: its thickness [m], and its rubber at small strain.
+    belt's other cover: its thickness [m], and its rubber at small strain. `merged` is what merging terms that the rolls
+    do not tell apart may change of indentation [-].
     """
 
     thickness: float
@@ -50,6 +51,7 @@ class RunningCover:
     other: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
     level: Level | None = None
+    merged: float = 0.0
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -84,20 +86,14 @@ def rubbers(conveyor: Conveyor, temperature: float) -> dict[CoverName, PronySeri
     }
 
 
-def covers_of(
-    conveyor: Conveyor,
-    rubber: Mapping[CoverName, PronySeries],
-    levels: Mapping[Strand, Level | None],
-) -> dict[Strand, RunningCover]:
-    """The cover under each strand, of given rubber at its level."""
+def covers_of(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> dict[Strand, RunningCover]:
+    """The cover under each strand, of given rubber."""
     bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
     top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
     pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
     compounds = compounds_by_strand(conveyor)
     return {
-        strand: RunningCover(
-            thickness, rubber[strand], compounds[strand].poisson_ratio, other, level=levels[strand]
-        )
+        strand: RunningCover(thickness, rubber[strand], compounds[strand].poisson_ratio, other)
         for strand in STRANDS
         for (thickness, _), other in [pairs[strand]]
     }
@@ -116,7 +112,7 @@ class StrandAtWork:
     @property
     def kinds(self) -> tuple[RollKind, ...]:
         """Its rolls."""
-        return tuple(kind for kind in self.line.kinds if kind.strand == self.strand)
+        return self.line.strands.each[STRANDS.index(self.strand)].kinds
 
     @property
     def scene(self) -> tuple[object, ...]:
@@ -130,13 +126,12 @@ class StrandAtWork:
             line.support,
             cover.thickness,
             cover.other if line.support == "belt" else None,
-            cover.level,
         )
 
     def like(self, other: StrandAtWork) -> bool:
         """Whether it works the very same compound exactly as another strand of the same scene does."""
         return self.compound is other.compound and (
-            self.line is other.line
+            self.kinds is other.kinds
             or (
                 len(self.kinds) == len(other.kinds)
                 and all(a.bears_like(b) for a, b in zip(self.kinds, other.kinds, strict=True))
@@ -155,18 +150,40 @@ class StrandAtWork:
         return WorkedCover(contact, losing_load(loads, weights), factors, self.temperature, swept)
 
 
-def softened_covers(works: Sequence[StrandAtWork]) -> list[RunningCover | NoSolutionError | RangeError]:
+FELT: Final = 0.02
+"""Of the tolerance of the contacts, what merging the fast and what merging the slow terms of a rubber may take [-]."""
+
+
+def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
+    """Relaxation times between which the rolls of a strand tell terms apart [s]; None off a stiff carcass."""
+    if work.line.support != "confined" or work.cover.poisson != 0.5:
+        return None
+    lightest = min(work.kinds, key=lambda kind: kind.lowest * kind.radius)
+    return felt(roll_contact(work.line, lightest, work.cover), lightest.lowest, FELT * rtol)
+
+
+def softened_covers(
+    works: Sequence[StrandAtWork], tests: Sequence[WorkedCover] = ()
+) -> tuple[list[RunningCover | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
     """The covers at the strain their rolls work them at, where the compounds have sweeps, solved side by side.
+
+    Parameters
+    ----------
+    works : sequence of StrandAtWork
+        Strands.
+    tests : sequence of WorkedCover
+        Covers of rolling-resistance tests, that go with them.
 
     Returns
     -------
-    list
-        In their order the covers; or why there is none: it has no answer at its working strain, or the sweeps of its
-        compound do not reach the strain.
+    tuple of list
+        In their order the covers, of strands and of tests; or why there is none: it has no answer at its working
+        strain, or the sweeps of its compound do not reach the strain.
     """
     asked = {i: worked for i, work in enumerate(works) if (worked := work.worked()) is not None}
-    soft = dict(zip(asked, softened_many(list(asked.values())), strict=True))
-    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)]
+    found = softened_many([*tests, *asked.values()])
+    soft = dict(zip(asked, found[len(tests) :], strict=True))
+    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)], found[: len(tests)]
 
 
 def _running(

@@ -19,7 +19,7 @@ from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
 from conveyor.line import defaults
-from conveyor.line.roll_drags import roll_drags
+from conveyor.line.roll_drags import RollDrags, roll_drags
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.scenes import StarterUnit
 from conveyor.line.stations import Places, Spot
@@ -348,7 +348,7 @@ class Line:
     softened: bool
 
     @classmethod
-    def of(cls, conveyor: Conveyor, strands: Strands | None = None) -> Line:
+    def of(cls, conveyor: Conveyor, strands: Strands | None = None, drags: RollDrags | None = None) -> Line:
         """Return the SI view of a conveyor.
 
         Parameters
@@ -357,6 +357,8 @@ class Line:
             The spec.
         strands : Strands, optional
             Its strands, where they are made already.
+        drags : sequence, optional
+            Drags of the rolls of each strand, where they are known already.
 
         Raises
         ------
@@ -365,10 +367,11 @@ class Line:
         """
         drive, calculation = conveyor.drive, conveyor.calculation
         places, strands = Places(conveyor), strands or Strands.of(conveyor)
+        carry, back = drags or [roll_drags(conveyor, strand) for strand in strands.each]
         efficiency = si(drive.efficiency)
         return cls(
             strands=strands,
-            roll_drags=roll_drags(conveyor, strands),
+            roll_drags=(*carry, *back),
             belt=_belt(conveyor),
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),

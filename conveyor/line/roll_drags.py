@@ -19,8 +19,8 @@ from conveyor.laws.resistance import (
     service_roll_drag,
     usual_bearing,
 )
-from conveyor.line.strands import Strands
-from conveyor.line.stretches import STRANDS, Strand
+from conveyor.line.strands import OneStrand
+from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import si
@@ -28,23 +28,20 @@ from conveyor.units import si
 Array = NDArray[np.float64]
 DragLaw = Callable[[Array], Array]
 """From loads of a roll [N] to its drag at the rim under each [N]."""
+RollDrags = Sequence[tuple[tuple[float, ...], ...]]
+"""Of each strand and stretch the drag of each roll of one set [N]."""
 
 
-def roll_drags(conveyor: Conveyor, strands: Strands) -> tuple[tuple[float, ...], ...]:
-    """Drag of each roll of one set of every stretch at its rim, by its load [N].
+def roll_drags(conveyor: Conveyor, strand: OneStrand) -> tuple[tuple[float, ...], ...]:
+    """Drag of each roll of one set of every stretch of a strand at its rim, by its load [N].
 
     Raises
     ------
     InputError
         A maker's line falls below zero at a load, or the air is too cold for the grease.
     """
-    sets, which = strands.distinct_sets
-    drags: list[tuple[float, ...]] = [()] * len(sets)
-    for strand in STRANDS:
-        own = [i for i, (other, _) in enumerate(sets) if other == strand]
-        by_set = _set_drags(conveyor, strand, np.array([sets[i][1] for i in own]))
-        for i, row in zip(own, by_set.tolist(), strict=True):
-            drags[i] = tuple(row)
+    sets, which = strand.distinct_sets
+    drags = [tuple(row) for row in _set_drags(conveyor, strand.strand, np.array(sets)).tolist()]
     return tuple(drags[i] for i in which)
 
 

@@ -60,8 +60,11 @@ class RollKind:
         )
 
 
-def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, ...]:
-    """Sort the rolls of a line by the contact they share; `points` of the quadrature along a roll."""
+def roll_kinds(stretches: tuple[Stretch, ...], points: int, first: int) -> tuple[RollKind, ...]:
+    """Sort the rolls of a strand by the contact they share; `points` of the quadrature along a roll.
+
+    Their stretches are numbered from `first` on.
+    """
     gathered: dict[tuple[Strand, float, float], list[tuple[int, int]]] = {}
     for i, stretch in enumerate(stretches):
         for place, radius in enumerate(stretch.radii):
@@ -78,7 +81,7 @@ def roll_kinds(stretches: tuple[Stretch, ...], points: int) -> tuple[RollKind, .
                 strand=strand,
                 radius=radius,
                 spacing=spacing,
-                rolls=tuple(rolls),
+                rolls=tuple((first + i, place) for i, place in rolls),
                 starts=np.arange(0, lines.size, points),
                 line_loads=lines,
                 distinct=distinct,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.line.roll_kinds import RollKind, roll_kinds
-from conveyor.line.stretches import Acting, RouteSection, Strand, Stretch, route_sections, stretches
+from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections, stretches
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -33,6 +33,63 @@ class LoopShape:
 
 
 @dataclass(frozen=True, eq=False)
+class OneStrand:
+    """One strand of a line, SI.
+
+    Attributes
+    ----------
+    strand : {"carry", "return"}
+        Which.
+    stretches : tuple of Stretch
+        In its running direction.
+    first : int
+        Number of its first stretch among those of both strands.
+    gravity : float
+        Of the site [m/s²].
+    gauss_points : int
+        Of the quadrature along a roll.
+    """
+
+    strand: Strand
+    stretches: tuple[Stretch, ...]
+    first: int
+    gravity: float
+    gauss_points: int
+
+    @classmethod
+    def of(
+        cls, conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, acting: Acting
+    ) -> OneStrand:
+        """Return a strand of a conveyor, of its own idlers, under what tension does on curves.
+
+        Raises
+        ------
+        NoSolutionError
+            As `Strands.of`.
+        """
+        along = stretches(conveyor, sections, strand, acting)
+        first, calculation = 0 if strand == "carry" else len(sections), conveyor.calculation
+        return cls(strand, along, first, si(calculation.gravity), calculation.gauss_points)
+
+    @property
+    def flexes(self) -> bool:
+        """Whether the flexure over every span is known, not a share of the main resistance."""
+        return self.stretches[0].span_flexure is not None
+
+    @cached_property
+    def distinct_sets(self) -> tuple[list[tuple[float, ...]], list[int]]:
+        """Loads of the rolls of one set that occur [N]; and of every stretch which they are."""
+        borne = [tuple(load.force for load in s.loads) for s in self.stretches]
+        numbers = {each: i for i, each in enumerate(dict.fromkeys(borne))}
+        return list(numbers), [numbers[each] for each in borne]
+
+    @cached_property
+    def kinds(self) -> tuple[RollKind, ...]:
+        """Rolls by the contact they share."""
+        return roll_kinds(self.stretches, self.gauss_points, self.first)
+
+
+@dataclass(frozen=True, eq=False)
 class Strands:
     """All stretches of a line, SI.
 
@@ -40,18 +97,12 @@ class Strands:
     ----------
     sections : tuple of RouteSection
         From the tail.
-    stretches : tuple of Stretch
-        Carry strand from the tail, then return strand from the head: 2n of n sections.
-    gravity : float
-        Of the site [m/s²].
-    gauss_points : int
-        Of the quadrature along a roll.
+    each : tuple of OneStrand
+        Carry strand from the tail, return strand from the head.
     """
 
     sections: tuple[RouteSection, ...]
-    stretches: tuple[Stretch, ...]
-    gravity: float
-    gauss_points: int
+    each: tuple[OneStrand, OneStrand]
 
     @classmethod
     def of(cls, conveyor: Conveyor, acting: Acting | None = None) -> Strands:
@@ -69,26 +120,21 @@ class Strands:
         NoSolutionError
             The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
         """
-        sections, calculation = route_sections(conveyor), conveyor.calculation
-        along = stretches(conveyor, sections, acting or Acting())
-        return cls(sections, along, si(calculation.gravity), calculation.gauss_points)
-
-    @property
-    def flexes(self) -> bool:
-        """Whether the flexure over every span is known, not a share of the main resistance."""
-        return self.stretches[0].span_flexure is not None
+        sections, on_curves = route_sections(conveyor), acting or Acting()
+        carry, back = (OneStrand.of(conveyor, sections, strand, on_curves) for strand in STRANDS)
+        return cls(sections, (carry, back))
 
     @cached_property
-    def distinct_sets(self) -> tuple[list[tuple[Strand, tuple[float, ...]]], list[int]]:
-        """Each strand with loads of the rolls of one set that occur on it [N]; and of every stretch which it is."""
-        borne = [(s.strand, tuple(load.force for load in s.loads)) for s in self.stretches]
-        numbers = {each: i for i, each in enumerate(dict.fromkeys(borne))}
-        return list(numbers), [numbers[each] for each in borne]
+    def stretches(self) -> tuple[Stretch, ...]:
+        """Carry strand from the tail, then return strand from the head: 2n of n sections."""
+        carry, back = self.each
+        return (*carry.stretches, *back.stretches)
 
     @cached_property
     def kinds(self) -> tuple[RollKind, ...]:
         """Rolls by the contact they share."""
-        return roll_kinds(self.stretches, self.gauss_points)
+        carry, back = self.each
+        return (*carry.kinds, *back.kinds)
 
     @cached_property
     def loop(self) -> LoopShape:

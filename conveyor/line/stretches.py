@@ -146,13 +146,13 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(conveyor: Conveyor, sections: Sequence[RouteSection], acting: Acting) -> tuple[Stretch, ...]:
-    """Both strands of every section, SI, under what tension does on curves."""
-    carry, back = _Strand(conveyor, "carry", acting), _Strand(conveyor, "return", acting)
-    return (
-        *(carry.stretch(section) for section in sections),
-        *(back.stretch(section) for section in reversed(sections)),
-    )
+def stretches(
+    conveyor: Conveyor, sections: Sequence[RouteSection], strand: Strand, acting: Acting
+) -> tuple[Stretch, ...]:
+    """Every section of a strand in its running direction, SI, under what tension does on curves."""
+    made = _Strand(conveyor, strand, acting)
+    along = sections if strand == "carry" else reversed(sections)
+    return tuple(made.stretch(section) for section in along)
 
 
 def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:

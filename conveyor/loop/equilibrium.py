@@ -94,6 +94,11 @@ class Settled:
         stretch = self.loop.line.loop.stretches[self.loop.slackest(motion, where)]
         return f"sag, {stretch.strand}, {stretch.section}, {state}"
 
+    @property
+    def governing(self) -> str:
+        """Name of the condition that governs the take-up."""
+        return self.condition_name(self.governed_by)
+
     @cached_property
     def conditions(self) -> dict[str, float]:
         """Setting of the take-up that each condition asks for [N], by its name."""

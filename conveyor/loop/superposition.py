@@ -145,11 +145,12 @@ class Loadings:
         line, count = self.line, self.count
         on = np.append(loading, np.ones(count, bool))
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
+        mixture = tuple(laden if loaded else bare for laden, bare, loaded in pairs)
+        carry, back = line.strands.each
+        each = replace(carry, stretches=mixture[:count]), replace(back, stretches=mixture[count:])
         mixed = replace(
             line,
-            strands=replace(
-                line.strands, stretches=tuple(laden if loaded else bare for laden, bare, loaded in pairs)
-            ),
+            strands=replace(line.strands, each=each),
             loading=tuple(
                 replace(
                     point,

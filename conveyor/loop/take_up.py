@@ -135,7 +135,7 @@ def take_up_duty(
         setting=setting,
         needed=settled.needed,
         governing=governing,
-        governed_by=settled.condition_name(settled.governed_by),
+        governed_by=settled.governing,
         steady_means=steady,
         mass=None if unit.keeps_length else _mass(line, setting),
         warmth=warmth,

@@ -177,7 +177,7 @@ def _warm_enough(conveyor: ConveyorParts) -> Iterator[Problem]:
         compounds["belt.top_cover.compound"] = conveyor.return_compound
     for name, compound in compounds.items():
         try:
-            compound.series(si(ambient.belt))
+            compound.check_temperature(si(ambient.belt))
         except RangeError as error:
             yield Problem(
                 ("ambient", field), f'got {text(ambient.belt)}, but {name} is "{compound.name}": {error}'

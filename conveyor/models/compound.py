@@ -123,8 +123,8 @@ class RubberCompound(Model):
     def _factors(self) -> AmplitudeFactors | None:
         return None if self.strain_dependence is None else self.strain_dependence.factors()
 
-    def swept_series(self, temperature: float) -> PronySeries:
-        """Return the series at the temperature of the sweeps nearest to one [K]: at it, where they reach it.
+    def swept_series(self, temperature: float) -> PronySeries | None:
+        """Return the series at the temperature of the sweeps nearest to one [K]; None where they reach it.
 
         Raises
         ------
@@ -132,7 +132,8 @@ class RubberCompound(Model):
             The compound is not known there.
         """
         factors = self.amplitude_factors()
-        return self.series(temperature if factors is None else factors.nearest(temperature))
+        nearest = temperature if factors is None else factors.nearest(temperature)
+        return None if nearest == temperature else self.series(nearest)
 
     def frequencies(self, temperature: float) -> tuple[float, float] | None:
         """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.
@@ -237,23 +238,34 @@ class RubberCompound(Model):
             for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
 
-    def _at(
-        self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
-    ) -> tuple[PronySeries, ...]:
-        """Shift series of the reference temperature to another [K], each by its shift."""
+    def check_temperature(self, temperature: float) -> None:
+        """Refuse a temperature at which the compound is not known [K].
+
+        Raises
+        ------
+        RangeError
+            As `series`.
+        """
         self._refuse_extrapolation(temperature)
-        if self.shift is not None:
-            return tuple(
-                self._shifted(series, shift, temperature)
-                for series, shift in zip(reference, shifts, strict=True)
-            )
-        if not math.isclose(temperature, si(self.reference_temperature), rel_tol=CONVERSION_ROUNDING):
+        law = self.shift_law()
+        if law is not None:
+            law.log10_a_T(temperature)
+        elif not math.isclose(temperature, self.reference, rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
                 f'compound "{self.name}" has no temperature shift: it is known at '
                 f"{text(self.reference_temperature)} only, not at {display(temperature, 'temperature', digits=6)}; "
                 "give it a shift law, or calculate at its reference temperature"
             )
-        return reference
+
+    def _at(
+        self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
+    ) -> tuple[PronySeries, ...]:
+        """Shift series of the reference temperature to another [K], each by its shift."""
+        self.check_temperature(temperature)
+        if self.shift is None:
+            return reference
+        pairs = zip(reference, shifts, strict=True)
+        return tuple(self._shifted(series, shift, temperature) for series, shift in pairs)
 
     def _shifted(self, series: PronySeries, shift: Shift | None, temperature: float) -> PronySeries:
         """One series by one shift, at a temperature [K]."""

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.report.columns import Column, Contents, Table
@@ -27,16 +24,16 @@ def of_calibration(calibration: CalculatedCalibration, system: System) -> Conten
         provenance(fingerprint(calibration.conveyor), SHEET),
     )  # fmt: skip
     about = document(calibration.conveyor, "Calibration to measured power", system, facts)
-    return Contents(about, tuple(part for part in parts if not part.empty), system)
+    return Contents(about, parts, system)
 
 
 def factors(calibration: CalculatedCalibration) -> Table:
     """One row a factor: its band, or why there is none."""
     columns = (
-        Column("factor on", "text", attrgetter("name")),
-        Column("value", "factor", attrgetter("value")),
-        Column("5 %", "factor", attrgetter("low"), key="low"),
-        Column("95 %", "factor", attrgetter("high"), key="high"),
+        Column("factor on", "text", "name"),
+        Column("value", "factor", "value"),
+        Column("5 %", "factor", "low", key="low"),
+        Column("95 %", "factor", "high", key="high"),
     )
     held = ", ".join(name.replace("_", " ") for name in calibration.held)
     note = f"held at 1: {held}" if held else ""
@@ -48,27 +45,22 @@ def factors(calibration: CalculatedCalibration) -> Table:
 def runs(calibration: CalculatedCalibration) -> Table:
     """One row a run: what was measured, what is calculated without factors and with them."""
     columns = (
-        Column("run", "count", lambda row: row[0]),
-        Column("at", "text", attrgetter("run.at")),
-        Column("flow", "mass flow", attrgetter("run.mass_flow")),
-        Column("belt speed", "speed", attrgetter("run.belt_speed"), sparse=True, key="speed"),
-        Column("temperature", "temperature", attrgetter("run.belt_temperature"), sparse=True),
-        Column("measured", "power", attrgetter("measured")),
-        Column("calculated", "power", attrgetter("before"), key="before"),
-        Column("calibrated", "power", attrgetter("after"), key="after"),
-        Column("difference before", "share", attrgetter("difference_before")),
-        Column("difference", "share", attrgetter("difference")),
-        Column("error", "power", attrgetter("error")),
+        Column("run", "count", "0"),
+        Column("at", "text", "run.at"),
+        Column("flow", "mass flow", "run.mass_flow"),
+        Column("belt speed", "speed", "run.belt_speed", sparse=True, key="speed"),
+        Column("temperature", "temperature", "run.belt_temperature", sparse=True),
+        Column("measured", "power", "measured"),
+        Column("calculated", "power", "before", key="before"),
+        Column("calibrated", "power", "after", key="after"),
+        Column("difference before", "share", "difference_before"),
+        Column("difference", "share", "difference"),
+        Column("error", "power", "error"),
         Column("note", "text", lambda row: row.run.note or None, sparse=True),
     )
     rows = tuple(enumerate(calibration.runs, start=1))
-    numbered = (columns[0], *(_of_run(column) for column in columns[1:]))
+    numbered = (columns[0], *(column.of("1") for column in columns[1:]))
     return Table("runs", SHEET, "Runs: measured, calculated without factors and with them", numbered, rows)
-
-
-def _of_run(column: Column) -> Column:
-    get = column.get
-    return replace(column, get=lambda row: get(row[1]))
 
 
 def correlation(calibration: CalculatedCalibration) -> Table:
@@ -76,14 +68,10 @@ def correlation(calibration: CalculatedCalibration) -> Table:
     names = [factor.name for factor in calibration.factors]
     rows = list(zip(names, calibration.correlation.tolist(), strict=True)) if len(names) > 1 else []
     columns = (
-        Column("factor on", "text", lambda row: row[0]),
-        *(Column(name, "ratio", _entry(k)) for k, name in enumerate(names)),
+        Column("factor on", "text", "0"),
+        *(Column(name, "ratio", f"1.{k}") for k, name in enumerate(names)),
     )
     return Table("correlation", SHEET, "Correlation of the factors", columns, rows)
-
-
-def _entry(k: int) -> Callable[[Any], float]:
-    return lambda row: float(row[1][k])
 
 
 def notes(calibration: CalculatedCalibration) -> Table:

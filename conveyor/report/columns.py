@@ -6,11 +6,12 @@ Values are SI; unit, digits and conversion follow from the kind and the system (
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from conveyor.models.report import Paper
 from conveyor.units import System
@@ -27,6 +28,20 @@ CHECKS_AND_NOTES: Final = "Checks and notes"
 """The workbook's last sheet."""
 NAMED: Final = "named"
 """Kind of the column that names the figure of each row, with its unit."""
+Getter: TypeAlias = Callable[[Any], Any]
+"""Of a row an SI value, words, or None where it is not known."""
+
+
+HEADINGS: Final = ("action required", "basis and limitations")
+"""Above the two lists."""
+_NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
+"""What alike notes differ in: quoted names and fields."""
+_SEVERAL: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
+_OF_DATA: Final = re.compile(
+    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|"
+    "assumed|illustrative|not read in the standard"
+)
+"""Notes on what was given, not on what was found."""
 
 
 def slug(words: str) -> str:
@@ -40,6 +55,40 @@ def slug(words: str) -> str:
     return "_".join("".join(c if c.isalnum() else " " for c in words.lower()).split())
 
 
+@cache
+def at(path: str) -> Getter:
+    """Return what takes a value off a row along a path of attributes, keys and places; None where it ends in None.
+
+    Numbers of arrays are plain ones.
+
+    Examples
+    --------
+    >>> at("1.real")(("carry", 2.5)), at("0.mass")([{"mass": 3.0}]), at("real.0")(None)
+    (2.5, 3.0, None)
+    """
+    steps = path.split(".")
+
+    def taken(row: Any) -> Any:
+        for step in steps:
+            if row is not None:
+                keyed = step.isdecimal() or isinstance(row, Mapping)
+                row = row[int(step) if step.isdecimal() else step] if keyed else getattr(row, step)
+        return row.item() if getattr(row, "ndim", None) == 0 else row
+
+    return taken
+
+
+def extreme(of: Callable[[Iterable[float]], float], path: str, get: str | Getter) -> Getter:
+    """Return what takes the largest or the least figure of all that a row holds at a path; None where none has one."""
+    held, figure = at(path), at(get) if isinstance(get, str) else get
+
+    def taken(row: Any) -> float | None:
+        known = [value for one in held(row) if isinstance(value := figure(one), float)]
+        return of(known) if known else None
+
+    return taken
+
+
 @dataclass(frozen=True)
 class Column:
     """A column of a table.
@@ -51,7 +100,7 @@ class Column:
     kind : str
         Of quantity, `OF_ROW` or `NAMED`.
     get : callable
-        Of a row an SI value, words, or None where it is not known.
+        What takes its value off a row: an SI value, words, or None where it is not known; may be given as a path.
     page : str or None
         Which of its table's places on the page it stands in: all without a name; None: in none.
     sheet : bool
@@ -73,7 +122,7 @@ class Column:
 
     label: str
     kind: str
-    get: Callable[[Any], Any]
+    get: Any
     page: str | None = ""
     sheet: bool = True
     json: str = ""
@@ -85,6 +134,12 @@ class Column:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "key", self.key or slug(self.label))
+        object.__setattr__(self, "get", at(self.get) if isinstance(self.get, str) else self.get)
+
+    def of(self, path: str) -> Column:
+        """The same column of rows that hold the former ones at a path."""
+        get, inner = self.get, at(path)
+        return replace(self, get=lambda row: get(inner(row)))
 
 
 @dataclass(frozen=True)
@@ -156,8 +211,8 @@ class Table:
         What stands in it; those that the page leaves out come last, and paper leaves them out too.
     rows : sequence
         What columns get their values of.
-    page : tuple of OnPage
-        Where it stands on the page.
+    page : str or tuple of OnPage
+        Part of the page where it stands under its heading, or its places there.
     note : str
         What to know of it.
     foot : str
@@ -175,7 +230,7 @@ class Table:
     heading: str
     columns: tuple[Column, ...]
     rows: Sequence[Any]
-    page: tuple[OnPage, ...] = ()
+    page: str | tuple[OnPage, ...] = ""
     note: str = ""
     foot: str = ""
     named: int = 1
@@ -190,9 +245,11 @@ class Table:
         object.__setattr__(self, "columns", shown_first)
 
     @property
-    def empty(self) -> bool:
-        """Whether it has no rows."""
-        return not self.rows
+    def places(self) -> tuple[OnPage, ...]:
+        """Where it stands on the page."""
+        if isinstance(self.page, str):
+            return (OnPage(self.page, self.heading),) if self.page else ()
+        return self.page
 
     @cached_property
     def by_row(self) -> bool:
@@ -291,6 +348,25 @@ def _known(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+class Remark(NamedTuple):
+    """A remark: its kind and its text."""
+
+    kind: str
+    text: str
+
+
+def noted(
+    lines: Mapping[str, Iterable[str]],
+    sheet: str = CHECKS_AND_NOTES,
+    heading: str = "Remarks",
+    page: str = "",
+) -> Table:
+    """Return the table of remarks: lines by their kind."""
+    columns = (Column("kind", "text", "kind"), Column("text", "text", "text"))
+    rows = tuple(Remark(kind, line) for kind, of in lines.items() for line in of)
+    return Table("remarks", sheet, heading, columns, rows, page)
+
+
 def figures(
     key: str, sheet: str, heading: str, rows: Iterable[Figure], *, prefix: str | None = None, **more: Any
 ) -> Table:
@@ -298,10 +374,7 @@ def figures(
 
     Others link to them where there is a prefix of their names.
     """
-    columns = (
-        Column("quantity", NAMED, lambda row: row.label),
-        Column("value", OF_ROW, lambda row: row.value),
-    )
+    columns = (Column("quantity", NAMED, "label"), Column("value", OF_ROW, "value"))
     known = tuple(replace(row, key=f"{prefix or ''}{row.key}") for row in rows if row.value is not None)
     return Table(key, sheet, heading, columns, known, links=prefix is not None, **more)
 
@@ -349,12 +422,33 @@ class ReportHead:
 
 @dataclass(frozen=True)
 class Contents:
-    """What a report holds: its tables in their order, none of them empty, its drawings, the system they are in."""
+    """What a report holds.
+
+    Attributes
+    ----------
+    document : ReportHead
+        What it is of.
+    parts : tuple of Table
+        Its tables in their order, no empty ones.
+    system : str
+        Units they are in.
+    drawings : tuple of Drawing
+        Its figures.
+    page : tuple of (str, str)
+        Parts of its page and their headings; those that hold nothing are left out.
+    layout : str
+        How its workbook is laid out, if not table under table.
+    """
 
     document: ReportHead
     parts: tuple[Table, ...]
     system: System
     drawings: tuple[Drawing, ...] = ()
+    page: tuple[tuple[str, str], ...] = ()
+    layout: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(part for part in self.parts if part.rows))
 
     @cached_property
     def by_key(self) -> dict[str, Table]:
@@ -391,3 +485,30 @@ class Contents:
         """Figures of all tables that are shown in a place, in their order."""
         rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
         return [row for row in rows if where in row.on.split()]
+
+
+def merged(notes: Iterable[str]) -> list[str]:
+    """Make one of notes that differ in quoted names or fields only, listing those.
+
+    Examples
+    --------
+    >>> merged(['compound "a" is made up', "no brake", 'compound "b" is made up'])
+    ['compounds "a", "b" are made up', 'no brake']
+    """
+    alike: dict[str, list[list[str]]] = {}
+    for note in notes:
+        alike.setdefault(_NAMES.sub("\0", note), []).append(_NAMES.findall(note))
+    return [_joined(pattern, names) for pattern, names in alike.items()]
+
+
+def _joined(pattern: str, names: Sequence[Sequence[str]]) -> str:
+    columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
+    note = "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
+    return _SEVERAL.sub(r"compounds \1 are ", note)
+
+
+def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Give merged notes on what was found, then those on what the figures rest on."""
+    every = merged(notes)
+    of_data = [note for note in every if _OF_DATA.search(note)]
+    return [note for note in every if note not in of_data], of_data

@@ -6,18 +6,17 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
-from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.laws.energy import Duty, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import earns_nothing, year_cost
-from conveyor.markup import Html, joined
+from conveyor.markup import Html
 from conveyor.report import plots, what_if
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, figures
-from conveyor.report.representations import folded, of_table
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Remark, Table, figures
+from conveyor.report.page import notebook
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Remark, bands, document, provenance
+from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -28,14 +27,24 @@ if TYPE_CHECKING:
     from conveyor.models import Operation
     from conveyor.studies.comparison import CalculatedComparison, ComparedScene
 
+PARTS: Final = (
+    ("ranking", "Ranking"),
+    ("warnings", "Action required, basis and limitations"),
+    ("power", "Power"),
+    ("loss-tangents", "Loss tangents"),
+    ("coverage", "Coverage of the data"),
+    ("scenes", "Every scene"),
+    ("refused", "Without an answer"),
+)
+"""Parts of the page."""
 _COSTS = (
     "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
     "payback", "energy_drawn", "energy_fed_back",
 )  # fmt: skip
 _ON_PAPER = "paper"  # a view that no page has: columns of the workbook that it prints
-_COMPOUND = Column("compound", "text", attrgetter("compound"))
-_TEMPERATURE = Column("temperature", "temperature", attrgetter("temperature"))
-_SPEED = Column("belt speed", "speed", attrgetter("speed"), key="speed")
+_COMPOUND = Column("compound", "text", "compound")
+_TEMPERATURE = Column("temperature", "temperature", "temperature")
+_SPEED = Column("belt speed", "speed", "speed", key="speed")
 
 
 def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
@@ -53,19 +62,17 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
         compounds(comparison),
         provenance(fingerprint(comparison.conveyor), "Notes"),
     )
-    kept = tuple(part for part in parts if not part.empty)
     facts = (
         ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
         ("savings against", comparison.base),
         ("cover", comparison.cover),
-        (
-            "belt temperatures",
-            _span([scene.temperature for scene in comparison.scenes], "temperature", system),
+        *(
+            (f"belt {name}s", _span([getattr(scene, name) for scene in comparison.scenes], name, system))
+            for name in ("temperature", "speed")
         ),
-        ("belt speeds", _span([scene.speed for scene in comparison.scenes], "speed", system)),
     )
     about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
-    return Contents(about, kept, system, tuple(drawings(comparison, system)))
+    return Contents(about, parts, system, tuple(drawings(comparison, system)), PARTS, "comparison")
 
 
 def _span(values: list[float], kind: str, system: System) -> str:
@@ -80,26 +87,27 @@ def _money(comparison: CalculatedComparison) -> str:
 
 def scenes(comparison: CalculatedComparison) -> Table:
     """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
+    money = _money(comparison)
     covered = {_key(scene) for scene in comparison.covered}
 
-    def priced(row: ComparedScene, figure: float | None) -> float | None:
+    def known(row: ComparedScene, figure: float | None) -> float | None:
         return figure if _key(row) in covered else None
 
     columns = (
         _COMPOUND,
         _TEMPERATURE,
         _SPEED,
-        Column("indentation", "force", attrgetter("indentation")),
-        Column("effective tension", "force", attrgetter("effective")),
-        Column("equivalent DIN f", "friction", attrgetter("friction_factor")),
-        Column("motor power", "power", attrgetter("motor")),
-        Column("motor power, low", "power", attrgetter("motor_low"), sparse=True),
-        Column("motor power, high", "power", attrgetter("motor_high"), sparse=True),
-        Column("largest tension", "force", attrgetter("largest_tension")),
-        Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(priced(row, row.energy_per_year)), None, sparse=True),
-        Column("cost per year", _money(comparison), lambda row: priced(row, row.cost_per_year), None, sparse=True),
-        Column("error estimate", "error", attrgetter("error")),
+        Column("indentation", "force", "indentation"),
+        Column("effective tension", "force", "effective"),
+        Column("equivalent DIN f", "friction", "friction_factor"),
+        Column("motor power", "power", "motor"),
+        Column("motor power, low", "power", "motor_low", sparse=True),
+        Column("motor power, high", "power", "motor_high", sparse=True),
+        Column("largest tension", "force", "largest_tension"),
+        Column("energy", "specific energy", "energy_per_tonne_km", sparse=True),
+        Column("energy per year", "energy", lambda row: _joule(known(row, row.energy_per_year)), None, sparse=True),
+        Column("cost per year", money, lambda row: known(row, row.cost_per_year), None, sparse=True),
+        Column("error estimate", "error", "error"),
         Column("covered", "verdict", lambda row: "yes" if _key(row) in covered else "NO"),
     )  # fmt: skip
     page = (OnPage("scenes", "One row a compound, speed and temperature"),)
@@ -196,26 +204,20 @@ def ranking(comparison: CalculatedComparison) -> Table:
     columns = (
         _COMPOUND,
         _SPEED,
-        Column("temperatures averaged", "count", attrgetter("averaged"), page=None),
-        Column("mean indentation", "force", attrgetter("indentation"), page=None, sparse=True),
-        Column("mean motor power", "power", attrgetter("motor"), sparse=True),
-        Column("mean motor power, low", "power", attrgetter("low"), sparse=True),
-        Column("mean motor power, high", "power", attrgetter("high"), sparse=True),
-        Column(
-            "difference to base",
-            "share",
-            attrgetter("change"),
-            json="motor power against base",
-            sparse=True,
-            key="motor_power_against_base",
-        ),
-        Column("difference, low", "share", lambda row: row.band[0], sparse=True),
-        Column("difference, high", "share", lambda row: row.band[1], sparse=True),
-        Column("peak motor power", "power", attrgetter("peak"), sparse=True),
-        Column("at temperature", "temperature", attrgetter("temperature"), sparse=True),
+        Column("temperatures averaged", "count", "averaged", page=None),
+        Column("mean indentation", "force", "indentation", page=None, sparse=True),
+        Column("mean motor power", "power", "motor", sparse=True),
+        Column("mean motor power, low", "power", "low", sparse=True),
+        Column("mean motor power, high", "power", "high", sparse=True),
+        Column("difference to base", "share", "change", json="motor power against base", sparse=True,
+               key="motor_power_against_base"),
+        Column("difference, low", "share", "band.0", sparse=True),
+        Column("difference, high", "share", "band.1", sparse=True),
+        Column("peak motor power", "power", "peak", sparse=True),
+        Column("at temperature", "temperature", "temperature", sparse=True),
         *_year_columns(comparison, rows),
-        Column("not compared", "text", attrgetter("why"), sparse=True),
-    )
+        Column("not compared", "text", "why", sparse=True),
+    )  # fmt: skip
     heading, page = (
         "Ranking by mean motor power, lowest first at each speed",
         (OnPage("ranking", "Ranking by mean motor power, lowest first"),),
@@ -244,22 +246,18 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) ->
         formula=where("year", f"({of[0]}-{of[1]}){what_if.OF_HOURS}"),
     )  # fmt: skip
     yield Column(
-        "cost per year",
-        money,
-        attrgetter("cost"),
-        sparse=True,
-        formula=where("cost", what_if.cost_formula(*of)),
+        "cost per year", money, "cost", sparse=True, formula=where("cost", what_if.cost_formula(*of))
     )
-    yield Column("saving per year", money, attrgetter("saving"), sparse=True, formula=saving)
+    yield Column("saving per year", money, "saving", sparse=True, formula=saving)
     yield Column(
-        "carbon dioxide per year", "carbon dioxide", attrgetter("emission"), sparse=True,
+        "carbon dioxide per year", "carbon dioxide", "emission", sparse=True,
         formula=where("emission", what_if.emission_formula(*of)),
     )  # fmt: skip
     if any(row.saving is not None for row in rows):
         extra, saved = "[extra_cost_of_the_belt]", "[saving_per_year]"
         formula = f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
-        yield Column("extra cost of the belt", money, attrgetter("extra"), shown, asked=True)
-        yield Column("payback", "years", attrgetter("payback"), shown, formula=where("saving", formula))
+        yield Column("extra cost of the belt", money, "extra", shown, asked=True)
+        yield Column("payback", "years", "payback", shown, formula=where("saving", formula))
     yield Column("energy drawn", "energy", _energy("drawn_kwh"), None, sparse=True)
     yield Column("energy fed back", "energy", _energy("fed_back_kwh"), None, sparse=True)
 
@@ -286,7 +284,7 @@ def costs(ranked: Table) -> Table:
     heading = "Energy, cost and saving of a year"
     columns = ranked.only("compound", "speed", *_COSTS).columns
     rows = ranked.rows if len(columns) > 2 else ()
-    return Table("costs", "Ranking", heading, columns, rows, (OnPage("ranking", heading),))
+    return Table("costs", "Ranking", heading, columns, rows, "ranking")
 
 
 def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
@@ -389,7 +387,7 @@ def coverage(comparison: CalculatedComparison) -> Table:
         _TEMPERATURE,
         *(
             replace(column, page=_ON_PAPER if column.page is None else column.page)
-            for column in bands(attrgetter("excited"), lambda row: row.data or (None, None))
+            for column in bands("excited", "data")
         ),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
@@ -403,7 +401,7 @@ def refused(comparison: CalculatedComparison) -> Table:
     """Scenes without an answer, and why."""
     columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", lambda row: degrees(row.reason)))
     heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
-    return Table("refused", "Coverage", heading, columns, rows, (OnPage("refused", heading),))
+    return Table("refused", "Coverage", heading, columns, rows, "refused")
 
 
 def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
@@ -433,11 +431,11 @@ def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
 def compounds(comparison: CalculatedComparison) -> Table:
     """What is known of each compound."""
     columns = (
-        Column("compound", "text", attrgetter("name")),
-        Column("kind", "text", attrgetter("kind")),
+        Column("compound", "text", "name"),
+        Column("kind", "text", "kind"),
         Column("strain", "text", lambda compound: compound.strain or "not stated"),
         Column("origin", "text", lambda c: degrees(c.source.origin)),
-        Column("licence", "text", attrgetter("source.licence")),
+        Column("licence", "text", "source.licence"),
         Column("unknown", "text", lambda c: degrees("; ".join(c.missing)) or "nothing listed"),
     )
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
@@ -445,8 +443,8 @@ def compounds(comparison: CalculatedComparison) -> Table:
 
 def remarks_table(comparison: CalculatedComparison) -> Table:
     """What to know of a comparison."""
-    columns = (Column("remark", "text", attrgetter("text")),)
-    rows = tuple(Remark(("warning", line)) for line in remarks(comparison))
+    columns = (Column("remark", "text", "text"),)
+    rows = tuple(Remark("warning", line) for line in remarks(comparison))
     return Table("remarks", "Notes", "Remarks", columns, rows)
 
 
@@ -463,13 +461,13 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             lambda: plots.differences(shown, comparison.base),
             "ranking",
         )
-    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_temperature(comparison)
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_at(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = unit("speed", system).brief(plots.drawn_speed(comparison))
+        at = unit("speed", system).brief(plots.drawn_at(comparison, "temperature") or 0.0)
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
-            lambda: plots.power_against_temperature(comparison, system=system),
+            lambda: plots.power_over(comparison, "temperature", system=system),
             "power",
         )
     if len(speeds) > 1 and warmth is not None:
@@ -479,7 +477,7 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
             f"{turning}",
-            lambda: plots.power_against_speed(comparison, system=system),
+            lambda: plots.power_over(comparison, "speed", system=system),
             "power",
         )
     yield Drawing(
@@ -619,7 +617,7 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
     }
 
 
-def notebook(comparison: CalculatedComparison) -> Html:
+def notebook_of_comparison(comparison: CalculatedComparison) -> Html:
     """The ranking and its notes."""
-    shown = of_table(ranking(comparison), comparison.conveyor.name, comparison.conveyor.report.units)
-    return joined([shown, folded("notes", remarks(comparison))])
+    tables = [(comparison.conveyor.name, ranking(comparison))]
+    return notebook(comparison.conveyor.report.units, tables, {"notes": remarks(comparison)})

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
-from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
@@ -67,7 +66,7 @@ def of_study(study: Explored, system: System) -> Contents:
     if len(study.values):
         every = Shown(study, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
-    return Contents(about, tuple(part for part in parts if not part.empty), system, drawn)
+    return Contents(about, parts, system, drawn, PARTS)
 
 
 def _limit(label: str, limit: Limit) -> str:
@@ -78,7 +77,7 @@ def _limit(label: str, limit: Limit) -> str:
 def best(study: Explored) -> Table:
     """The designs that come first, one row each."""
     columns = (
-        Column("design", "count", attrgetter("number")),
+        Column("design", "count", "number"),
         *(Column(field.label, "text", _change(field.path), key=field.path) for field in study.fields),
         *(
             Column(figure.label, priced(figure.kind, study.currency), _figure(name), key=name)
@@ -87,7 +86,7 @@ def best(study: Explored) -> Table:
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
     )
     heading = f"The best {len(study.best)}"
-    return Table("best", "Best", heading, columns, study.best, (OnPage("best", heading),))
+    return Table("best", "Best", heading, columns, study.best, "best")
 
 
 def _change(path: str) -> Callable[[Design], str]:
@@ -95,7 +94,7 @@ def _change(path: str) -> Callable[[Design], str]:
 
 
 def _figure(name: str) -> Callable[[Design], float | None]:
-    return lambda row: row.figures[name]
+    return lambda row: row.figures[name]  # not by a path: a percentile may have a point
 
 
 def on_the_front(study: Explored) -> Table:
@@ -120,7 +119,7 @@ def on_the_front(study: Explored) -> Table:
         ),
     )
     heading = "Pareto-optimal designs" + (f", the first {_MOST}" if len(rows) > _MOST else "")
-    return Table("front", "Front", heading, columns, tuple(rows[:_MOST]), (OnPage("front", heading),))
+    return Table("front", "Front", heading, columns, tuple(rows[:_MOST]), "front")
 
 
 def _value(study: Explored, k: int) -> Callable[[int], str]:
@@ -141,10 +140,10 @@ def effects(study: Explored) -> Table:
     figure = study.figures[next(iter(study.sought))]
     kind = priced(figure.kind, study.currency)
     columns = (
-        Column("field", "text", itemgetter(0)),
-        Column("value", "text", lambda row: row[1].value),
-        Column("designs", "count", lambda row: row[1].count),
-        *(Column(f"{figure.label}, {words}", kind, _effect(get), key=get)
+        Column("field", "text", "0"),
+        Column("value", "text", "1.value"),
+        Column("designs", "count", "1.count"),
+        *(Column(f"{figure.label}, {words}", kind, f"1.{get}", key=get)
           for words, get in (("mean", "mean"), ("least", "least"), ("most", "most"))),
     )  # fmt: skip
     heading = "Effect of each field"
@@ -153,24 +152,11 @@ def effects(study: Explored) -> Table:
     )
 
 
-def _effect(get: str) -> Callable[[Any], float]:
-    return lambda row: float(getattr(row[1], get))
-
-
 def refused(study: Explored) -> Table:
     """Why designs have no answer, and how many."""
-    columns = (Column("designs", "count", itemgetter(1)), Column("no answer because", "text", itemgetter(0)))
+    columns = (Column("designs", "count", "1"), Column("no answer because", "text", "0"))
     heading = "Designs without an answer"
-    return Table(
-        "refused", "Refused", heading, columns, tuple(study.refused.items()), (OnPage("refused", heading),)
-    )
-
-
-def drawings(study: Explored, system: System) -> Iterator[tuple[str, Any]]:
-    """Figures of a study by name; none where no design has an answer."""
-    if len(study.values):
-        for name, draw in Shown(study, system).every.items():
-            yield name, draw()
+    return Table("refused", "Refused", heading, columns, tuple(study.refused.items()), "refused")
 
 
 def plain(study: Explored) -> dict[str, Any]:

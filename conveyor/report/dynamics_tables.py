@@ -1,26 +1,43 @@
-"""Every table of starts and stops, declared once."""
+"""Every table and figure of starts and stops, declared once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from operator import attrgetter, itemgetter
-from typing import Any, Final, NamedTuple
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from conveyor.checks import Check, deciding
 from conveyor.dynamics.criteria import at_pulley, checks_of, peaks
 from conveyor.dynamics.follow import CalculatedDynamics, Followed
-from conveyor.dynamics.machines import Size
 from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
-from conveyor.report import dynamics_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Contents, Drawing, OnPage, Table, slug
+from conveyor.report.animation import Panel, moving
+from conveyor.report.columns import (
+    NAMED,
+    OF_ROW,
+    Column,
+    Contents,
+    Drawing,
+    Figure,
+    OnPage,
+    Table,
+    noted,
+    slug,
+)
+from conveyor.report.plots import colour, named, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Further, Remark, checked, document, provenance, told
+from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import Unit, unit
+from conveyor.units.presentation import unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Picture
+
+    from conveyor.markup import Html
 
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),
@@ -32,7 +49,7 @@ PARTS: Final = (
 )
 """Parts of the page; a conveyor's has the first and the fourth among its own."""
 _SAMPLES = 200  # rows of histories of a scenario
-_SCENARIO = Column("scenario", "text", itemgetter(0), json="scenario")
+_SCENARIO = Column("scenario", "text", "0", json="scenario")
 
 
 def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
@@ -44,18 +61,13 @@ def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
     )  # fmt: skip
     names = ", ".join(one.name for one in dynamics.followed)
     about = document(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(drawings(dynamics, system)))
+    return Contents(about, parts, system, tuple(drawings(dynamics, system)), PARTS)
 
 
 def further(dynamics: CalculatedDynamics, system: System) -> Further:
     """What a conveyor's own report takes over."""
-    return Further(
-        checks_of(dynamics),
-        tuple(tables(dynamics)),
-        tuple(drawings(dynamics, system)),
-        dynamics.assumptions,
-        of_scenarios(dynamics),
-    )
+    shown, drawn = tuple(tables(dynamics)), tuple(drawings(dynamics, system))
+    return Further(checks_of(dynamics), shown, drawn, dynamics.assumptions, of_scenarios(dynamics))
 
 
 def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
@@ -64,20 +76,15 @@ def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
         scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
     ):  # fmt: skip
         table = made(dynamics)
-        if not table.empty:
+        if table.rows:
             yield table
 
 
-def _row(get: str) -> Any:
-    """Of a row that begins with its scenario."""
-    return lambda row: attrgetter(get)(row[1])
-
-
 _PEAKS: Final = (
-    Column("highest tension", "force", _row("highest"), json="highest_N"),
-    Column("at", "duration", _row("highest_at"), json="highest_at_s"),
-    Column("lowest tension", "force", _row("lowest"), json="lowest_N"),
-    Column("at", "duration", _row("lowest_at"), json="lowest_at_s", key="lowest_at"),
+    Column("highest tension", "force", "1.highest", json="highest_N"),
+    Column("at", "duration", "1.highest_at", json="highest_at_s"),
+    Column("lowest tension", "force", "1.lowest", json="lowest_N"),
+    Column("at", "duration", "1.lowest_at", json="lowest_at_s", key="lowest_at"),
 )
 
 
@@ -88,68 +95,40 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
         i = int(one.record.highest.argmax() if high else one.record.lowest.argmin())
         return float((one.record.highest_at if high else one.record.lowest_at)[i]), one.place(i)
 
-    def col(label: str, kind: str, get: Any, json: str) -> Column:
-        return Column(label, kind, get, json=json)
-
     columns = (
-        col("scenario", "text", attrgetter("name"), "scenario"),
-        col("followed for", "duration", lambda r: float(r.times[-1]), "duration_s"),
-        col("highest tension", "force", attrgetter("highest"), "highest_tension_N"),
-        col("at", "duration", lambda r: peak(r, high=True)[0], "highest_at_s"),
-        col("in", "text", lambda r: peak(r, high=True)[1], "highest_in"),
-        col("lowest tension", "force", attrgetter("lowest"), "lowest_tension_N"),
+        Column("scenario", "text", "name", json="scenario"),
+        Column("followed for", "duration", lambda r: float(r.times[-1]), json="duration_s"),
+        Column("highest tension", "force", "highest", json="highest_tension_N"),
+        Column("at", "duration", lambda r: peak(r, high=True)[0], json="highest_at_s"),
+        Column("in", "text", lambda r: peak(r, high=True)[1], json="highest_in"),
+        Column("lowest tension", "force", "lowest", json="lowest_tension_N"),
         Column("at", "duration", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
         Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
-        col("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()), "highest_speed_m_per_s"),
-        col("stops after", "duration", lambda r: r.rests_at if r.stops else None, "rest_s"),
-        col("way", "length", attrgetter("way"), "way_m"),
-        Column("error of the peaks", "share", attrgetter("error"), json="error"),
-        Column("energy missing", "error", attrgetter("missing_energy"), None, json="energy_error"),
-        Column("cells", "count", lambda r: r.middles.size, None, json="cells"),
-        Column("step", "time", lambda r: r.record.step, None, json="step_s"),
+        Column("highest speed", "speed", lambda r: float(np.abs(r.record.drives["belt"]).max()),
+               json="highest_speed_m_per_s"),
+        Column("stops after", "duration", lambda r: r.rests_at if r.stops else None, json="rest_s"),
+        Column("way", "length", "way", json="way_m"),
+        Column("error of the peaks", "share", "error", json="error"),
+        Column("energy missing", "error", "missing_energy", None, json="energy_error"),
+        Column("cells", "count", "middles.size", None, json="cells"),
+        Column("step", "time", "record.step", None, json="step_s"),
     )  # fmt: skip
     caption = "Starts and stops; distance is that of the belt at the first drive"
-    return Table(
-        "scenarios", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
-    )
-
-
-class SizeRow(NamedTuple):
-    """A figure that was sought, as a row that has a unit of its own."""
-
-    size: Size
-
-    @property
-    def label(self) -> str:
-        """What was sought."""
-        return self.size.label
-
-    @property
-    def kind(self) -> str:
-        """Of the figure."""
-        return self.size.kind
-
-    def unit(self, system: System) -> Unit:
-        """How it is written."""
-        return unit(self.kind, system)
-
-    def called(self, _: System) -> str:
-        """What was sought, in any system."""
-        return self.label
+    return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
 def sizes(dynamics: CalculatedDynamics) -> Table:
     """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
     columns = (
-        Column("sought", NAMED, attrgetter("label"), json="sought"),
-        Column("scenario", "text", attrgetter("size.scenario"), json="scenario"),
-        Column("found", OF_ROW, attrgetter("size.value"), json="value"),
-        Column("to", "share", attrgetter("size.error"), json="error"),
-        Column("serves up to", OF_ROW, attrgetter("size.most"), json="most"),
-        Column("governing check", "text", attrgetter("size.governs"), json="governs"),
-        Column("what fails with less", "text", attrgetter("size.why"), json="fails_with_less"),
+        Column("sought", NAMED, "label", json="sought"),
+        Column("scenario", "text", "value.scenario", json="scenario"),
+        Column("found", OF_ROW, "value.value", json="value"),
+        Column("to", "share", "value.error", json="error"),
+        Column("serves up to", OF_ROW, "value.most", json="most"),
+        Column("governing check", "text", "value.governs", json="governs"),
+        Column("what fails with less", "text", "value.why", json="fails_with_less"),
     )
-    rows = [SizeRow(size) for size in dynamics.sized]
+    rows = [Figure(size.label, size.kind, size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
     return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
 
@@ -195,9 +174,7 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
         Column("carriage, in", "length", take_up(attrgetter("travel"), np.min), json="carriage_in_m"),
     )  # fmt: skip
     caption = "Drives and take-up; brake and backstop as they act at the belt, the carriage against its begin"
-    return Table(
-        "scenario_drives", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
-    )
+    return Table("scenario_drives", "Scenarios", caption, columns, rows, "dynamics", named=2)
 
 
 def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
@@ -215,12 +192,10 @@ def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
         for i in range(len(one.line.pulleys))
         for peak in (at_pulley(one, i),)
     ]
-    columns = (_SCENARIO, Column("pulley", "text", _row("section"), json="pulley"), *_PEAKS,
+    columns = (_SCENARIO, Column("pulley", "text", "1.section", json="pulley"), *_PEAKS,
                Column("safety of the belt", "ratio", safety, json="safety", sparse=True))  # fmt: skip
     caption = "Highest and lowest tension of the belt at every pulley"
-    return Table(
-        "scenario_pulleys", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=2
-    )
+    return Table("scenario_pulleys", "Scenarios", caption, columns, rows, "dynamics", named=2)
 
 
 def splice_tensions(dynamics: CalculatedDynamics) -> Table:
@@ -236,15 +211,13 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
         )  # fmt: skip
 
     columns = (
-        Column("scenario", "text", attrgetter("name"), json="scenario"),
+        Column("scenario", "text", "name", json="scenario"),
         Column("highest tension per width", "strength", lambda r: r.highest / belt.width, json="highest_N_per_mm"),
         Column("lowest tension per width", "strength", lambda r: r.lowest / belt.width, json="lowest_N_per_mm"),
         Column("required strength, as if steady", "strength", needed, json="strength_N_per_mm", sparse=True),
     )  # fmt: skip
     caption = "What every splice bears as it goes round; strength by its endurance (DIN 22101:2002)"
-    return Table(
-        "scenario_splices", "Scenarios", caption, columns, dynamics.followed, (OnPage("dynamics", caption),)
-    )
+    return Table("scenario_splices", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
 def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
@@ -252,16 +225,14 @@ def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     rows = [(one.name, peak) for one in dynamics.followed for peak in peaks(one)]
     columns = (
         _SCENARIO,
-        Column("section", "text", _row("section"), json="section"),
-        Column("strand", "text", _row("strand"), json="strand"),
+        Column("section", "text", "1.section", json="section"),
+        Column("strand", "text", "1.strand", json="strand"),
         *_PEAKS,
-        Column("least for sag, steady", "force", _row("least_for_sag"), json="least_for_sag_N"),
-        Column("largest sag over the span", "share", _row("sag"), json="sag"),
+        Column("least for sag, steady", "force", "1.least_for_sag", json="least_for_sag_N"),
+        Column("largest sag over the span", "share", "1.sag", json="sag"),
     )
     caption = "Highest and lowest tension of every section and strand, from the take-up round"
-    return Table(
-        "scenario_tensions", "Scenarios", caption, columns, rows, (OnPage("dynamics", caption),), named=3
-    )
+    return Table("scenario_tensions", "Scenarios", caption, columns, rows, "dynamics", named=3)
 
 
 def histories(dynamics: CalculatedDynamics) -> Table:
@@ -301,27 +272,22 @@ def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: Sys
         for check in every
         if check.failed and check.why is not None and check.case is not None
     ]
-    said = {"warning": warned, "assumption": dynamics.assumptions}
-    rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
-    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    return Table("remarks", "Checks and notes", "Remarks", columns, rows)
+    return noted({"warning": warned, "assumption": dynamics.assumptions})
 
 
 def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Five figures a scenario, the first of which moves."""
     for one in dynamics.followed:
-        for draw, words in (
-            (
-                dynamics_plots.profile,
-                "tension and speed round the loop; the tail is dashed, shaded what occurs",
-            ),
-            (dynamics_plots.tension_map, "tension over place and time; the tail is white, slack belt red"),
-            (dynamics_plots.envelope, "highest and lowest tension round the loop"),
-            (dynamics_plots.speeds, "speeds at drives and tail"),
-            (dynamics_plots.forces, "tensions at drives, tail and take-up, forces of the motors"),
+        for name, words in (
+            ("profile", "tension and speed round the loop; the tail is dashed, shaded what occurs"),
+            ("tension_map", "tension over place and time; the tail is white, slack belt red"),
+            ("envelope", "highest and lowest tension round the loop"),
+            ("speeds", "speeds at drives and tail"),
+            ("forces", "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            name = f"{slug(one.name)}_{draw.__name__}"
-            yield Drawing(name, f"{one.name}: {words}.", partial(draw, one, system=system), "through-time")
+            draw = partial(profile, one) if name == "profile" else partial(picture, one, name)
+            draw = partial(draw, system=system)
+            yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
 def of_scenarios(dynamics: CalculatedDynamics) -> dict[str, Any]:
@@ -344,3 +310,128 @@ def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
         "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
         "assumptions": list(dynamics.assumptions),
     }
+
+
+_LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
+_POINTS = 1500  # of a history
+_FRAMES, _PLACES = 45, 60  # of what moves
+_WHERE: Final = "distance from the head, return strand first"
+_HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
+
+
+def profile(scenario: Followed, *, system: System = "SI") -> Html:
+    """Tension and speed over the place, moving; it plays when it is asked to."""
+    force, length, speed = (
+        unit("force", system, large=True),
+        unit("length", system, large=True),
+        unit("speed", system),
+    )
+    order, distance = scenario.round_loop
+    record = scenario.record
+    kept = np.unique(np.linspace(0, record.times.size - 1, _FRAMES).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _PLACES).astype(int))
+    ends = record.lowest[order][cells], record.highest[order][cells]
+    tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
+    going = record.speeds[:, order[cells]].astype(float)
+    where = length.beside(_WHERE)
+    return moving(
+        f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
+        (unit("duration", system).beside("time"), record.times[kept]),
+        (Panel(force.beside("tension"), force(tension), (force(ends[0]), force(ends[1]))),
+         Panel(speed.beside("speed"), speed(going[kept]), (speed(going.min(axis=0)), speed(going.max(axis=0))))),
+        mark=float(length(scenario.line.loop.way[scenario.line.count])),
+    )  # fmt: skip
+
+
+def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
+    """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
+    drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
+             "forces": (_forces, _HEIGHT)}  # fmt: skip
+    shown = [drawn[name] for name in names or drawn]
+    figure, axes = stacked(len(shown), sum(height for _, height in shown) if names else _WHOLE)
+    for axis, (draw, _) in zip(axes, shown, strict=True):
+        draw(axis, scenario, system)
+    if not names:
+        titled(figure, scenario.name)
+    return figure
+
+
+def _map(axis: Axes, scenario: Followed, system: System) -> None:
+    force, length = unit("force", system, large=True), unit("length", system, large=True)
+    order, distance = scenario.round_loop
+    record = scenario.record
+    kept = np.unique(np.linspace(0, record.times.size - 1, _MOST).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _MOST).astype(int))
+    tension = force(record.tensions[np.ix_(kept, order[cells])])
+    shaded = axis.contourf(
+        length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
+    )
+    taut = record.tensions[np.ix_(kept, order[cells])] / scenario.cells.slack[order[cells]]
+    if float(taut.min()) < 1.0 < float(taut.max()):
+        axis.contour(
+            length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0
+        )
+    axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
+    axis.grid(visible=False)
+    named(axis, length.beside(_WHERE), unit("duration", system).beside("time"), group="x")
+    beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
+    axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
+
+
+def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
+    force, length = unit("force", system, large=True), unit("length", system, large=True)
+    order, distance = scenario.round_loop
+    x, record = length(distance), scenario.record
+    axis.fill_between(
+        x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15
+    )
+    for k, (name, values) in enumerate(
+        (("highest", record.highest), ("lowest", record.lowest), ("at the start", record.tensions[0]))
+    ):
+        axis.plot(x, force(values[order]), color=colour(k), label=name)
+    axis.axhline(0.0, color="0.6", linewidth=0.8)
+    axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="0.8", zorder=0)
+    named(axis, length.beside(_WHERE), force.beside("tension"), group="xy")
+
+
+def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
+    speed, time = unit("speed", system), unit("duration", system)
+    kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
+    drives = scenario.record.drives
+    for d, drive in enumerate(scenario.ride.drives):
+        belt = speed(drives["belt"][kept, d])
+        axis.plot(scenario.times[kept], belt, color=colour(2 * d), label=f"belt at {drive.name}")
+        if scenario.record.slipped[d]:
+            rim = speed(drives["rim"][kept, d])
+            axis.plot(
+                scenario.times[kept], rim, color=colour(2 * d), linestyle=":", label=f"rim of {drive.name}"
+            )
+    tail = speed(scenario.record.speeds[:, _tail(scenario)])
+    axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
+    named(axis, time.beside("time"), speed.beside("speed"))
+
+
+def _forces(axis: Axes, scenario: Followed, system: System) -> None:
+    force, time = unit("force", system, large=True), unit("duration", system)
+    kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
+    drives, times = scenario.record.drives, scenario.times[kept]
+    for d, drive in enumerate(scenario.ride.drives):
+        for k, name in enumerate(("arriving", "leaving")):
+            axis.plot(
+                times, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
+            )
+        motor = force(drives["motor"][kept, d])
+        axis.plot(
+            times, motor, color=colour(2 * d), linestyle="--", linewidth=0.9, label=f"motor of {drive.name}"
+        )
+    tail = force(scenario.record.tensions[:, _tail(scenario)])
+    axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
+    held = force(scenario.record.take_up["tension"][kept])
+    axis.plot(times, held, color=colour(6), linewidth=0.9, label="at the take-up")
+    named(axis, time.beside("time"), force.beside("tension, force"), group="y")
+
+
+def _tail(scenario: Followed) -> int:
+    """The cell at the tail."""
+    order, known = scenario.round_loop
+    return int(order[int(np.argmin(np.abs(known - scenario.line.loop.way[scenario.line.count])))])

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import gc
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import Final, TypeAlias
+from zipfile import ZIP_DEFLATED, ZipFile
 
 from openpyxl import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
@@ -19,15 +22,14 @@ from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
 from conveyor.report.files import csv
-from conveyor.report.formulas import with_values
 from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
 
 FRONT: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
 Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
-SHEETS: Final = {
+SHEETS: Final[Fills] = {
     "Results": sheets.beside,
-    "Given": sheets.inputs,
+    "Given": partial(sheets.stacked, widest=110),
     "Inputs": sheets.single,
     "Sections": sheets.wide,
     "Resistances": sheets.stacked,
@@ -37,30 +39,37 @@ SHEETS: Final = {
     "States": sheets.stacked,
     "Loop": sheets.beside,
     "Transfer": sheets.transfer,
-    "Load cases": sheets.cases,
+    "Load cases": partial(sheets.stacked, widest=40),
     "Case checks": sheets.single,
     "Duty": sheets.beside,
     "Scenarios": sheets.stacked,
     "Histories": sheets.single,
     "Uncertainty": sheets.uncertainty,
-    "Indentation": sheets.indentation,
+    "Indentation": sheets.stacked,
     "Rubber": sheets.rubber,
     CHECKS_AND_NOTES: sheets.notes,
 }
 """What fills each sheet, in their order; a sheet that only a table names holds its tables under one another."""
-COMPARISON_SHEETS: Final = {
+COMPARISON_SHEETS: Final[Fills] = {
     "Ranking": sheets.ranking,
     "Power": sheets.power,
     "Scenes": sheets.scenes,
     "Coverage": sheets.coverage,
     "Notes": sheets.compounds,
 }
-VERIFICATION_SHEETS: Final = {
+VERIFICATION_SHEETS: Final[Fills] = {
     "About": sheets.about,
     "N per width": sheets.to_compare,
     "Idler set": sheets.to_compare,
 }
+_LAYOUTS: Final[Mapping[str, Fills]] = {
+    "conveyor": SHEETS,
+    "comparison": COMPARISON_SHEETS,
+    "verification": VERIFICATION_SHEETS,
+}
+"""By the layout of a report; others have all tables of a sheet under one another."""
 _WHERE_ASKED: Final = (
+    *VERIFICATION_SHEETS,
     "Transfer",
     "Load cases",
     "Case checks",
@@ -111,11 +120,11 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def files(contents: Contents, path: Path, fills: Fills | None = None) -> dict[Path, bytes]:
+def files(contents: Contents, path: Path) -> dict[Path, bytes]:
     """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
     live: dict[tuple[str, str], float | str] = {}
     with _uncollected():
-        book, content = build(contents, path.stem, fills, live), BytesIO()
+        book, content = build(contents, path.stem, live), BytesIO()
         try:
             book.save(content)  # by way of temporary files
         except OSError as error:
@@ -139,17 +148,10 @@ def _uncollected() -> Iterator[None]:
 
 
 def build(
-    contents: Contents,
-    stem: str = "",
-    fills: Fills | None = None,
-    live: dict[tuple[str, str], float | str] | None = None,
+    contents: Contents, stem: str = "", live: dict[tuple[str, str], float | str] | None = None
 ) -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas.
-
-    `fills` are sheets and what fills each, else those of a conveyor or of a comparison; others hold their tables.
-    """
-    about, own = contents.document, fills is None
-    fills = fills if fills is not None else COMPARISON_SHEETS if about.facts else SHEETS
+    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas."""
+    about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
     book = Workbook()
     book.remove(book.worksheets[0])
     book.properties.title = legible(about.title)
@@ -160,7 +162,7 @@ def build(
     if front:
         book.create_sheet(FRONT)
     for title in dict.fromkeys((*fills, *contents.sheets)):
-        if title in contents.sheets or (own and title not in _WHERE_ASKED):
+        if title in contents.sheets or title not in _WHERE_ASKED:
             page = Page(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
             fills.get(title, sheets.stacked)(page)
             last = page.print_only()
@@ -169,3 +171,41 @@ def build(
         cover.summary(Page(book[FRONT], contents, stem), placed)
         print_set_up(book[FRONT], header, book[FRONT].max_row, paper=about.paper, portrait=True)
     return book
+
+
+Values = Mapping[tuple[int, str], float | str]
+"""Of formulas, numbers or words, by the number of their sheet, from 1, and their cell."""
+
+_SHEET: Final = "xl/worksheets/sheet{}.xml"
+
+
+def with_values(workbook: bytes, values: Values) -> bytes:
+    """Return a workbook whose formulas have their values beside them, as a spreadsheet saves them.
+
+    Parameters
+    ----------
+    workbook : bytes
+        As openpyxl saves it: formulas without values.
+    values : mapping
+        Of every formula.
+    """
+    if not values:
+        return workbook
+    made = BytesIO()
+    with ZipFile(BytesIO(workbook)) as old, ZipFile(made, "w", ZIP_DEFLATED) as new:
+        for part in old.infolist():
+            content = old.read(part)
+            for (number, cell), value in values.items():
+                if part.filename == _SHEET.format(number):
+                    content = _valued(content, cell, value)
+            new.writestr(part, content)
+    return made.getvalue()
+
+
+def _valued(sheet: bytes, cell: str, value: float | str) -> bytes:
+    pattern = rf'(<c r="{cell}"[^>]*)(><f>[^<]*</f>)<v\s*/?>(?:</v>)?'.encode()
+    kind, shown = (' t="str"', value) if isinstance(value, str) else ("", repr(value))
+    written, count = re.subn(pattern, rf"\g<1>{kind}\g<2><v>{shown}</v>".encode(), sheet)
+    if count != 1:
+        raise ValueError(f"{cell}: no formula without a value")
+    return written

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from datetime import date
 from importlib.metadata import version
 from pathlib import Path
@@ -11,47 +11,12 @@ from typing import Final
 from conveyor.errors import InputError
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
-from conveyor.report.columns import Contents, Drawing, Table
-from conveyor.report.notes import HEADINGS, ordered
+from conveyor.report.columns import HEADINGS, Contents, Drawing, Table, ordered
 from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
 from conveyor.report.svg import figure, inline
 from conveyor.units import System
 
 _ENDINGS = (".html", ".htm")
-PARTS: Final = (
-    ("key-figures", "Key figures"),
-    ("checks", "Checks"),
-    ("warnings", "Warnings"),
-    ("resistances", "Resistances"),
-    ("route", "Route and sections"),
-    ("tensions", "Tensions, drives and take-up"),
-    ("rolls", "Roll contacts"),
-    ("rubber", "Rubber"),
-    ("start-stop", "Start and stop"),
-    ("dynamics", "Starting and stopping"),
-    ("through-time", "Through time"),
-    ("belt", "Belt, pulleys and curves"),
-    ("transfer", "Loading, cleaning and discharge"),
-    ("load-states", "Load states"),
-    ("load-cases", "Load cases"),
-    ("duty", "Duty of a year"),
-    ("uncertainty", "Uncertainty"),
-    ("method", "Method"),
-    ("assumptions", "Assumptions"),
-    ("summary", "Figures as given"),
-    ("inputs", "Inputs"),
-    ("provenance", "Provenance"),
-)
-"""Parts of the page of a conveyor; those that hold nothing are left out."""
-COMPARISON_PARTS: Final = (
-    ("ranking", "Ranking"),
-    ("warnings", "Action required, basis and limitations"),
-    ("power", "Power"),
-    ("loss-tangents", "Loss tangents"),
-    ("coverage", "Coverage of the data"),
-    ("scenes", "Every scene"),
-    ("refused", "Without an answer"),
-)
 
 
 def write(contents: Contents, path: Path) -> Path:
@@ -82,24 +47,16 @@ def write(contents: Contents, path: Path) -> Path:
     return path
 
 
-def build(contents: Contents, parts: Sequence[tuple[str, str]] | None = None) -> Html:
-    """Page of the tables and drawings of a report; its parts, else those of a conveyor or a comparison."""
+def build(contents: Contents) -> Html:
+    """Page of the tables and drawings of a report."""
     about = contents.document
-    if parts is None:
-        parts = COMPARISON_PARTS if about.facts else PARTS
     made = f"conveyor {version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = facts(about.said.items(), "facts document") if about.said else Html("")
-    filled = [_part(contents, *named) for named in parts]
-    return page(
-        about.title,
-        f"{about.kind}, {date.today().isoformat()}",
-        joined([document, _top(contents)]),
-        [part for part in filled if part.content],
-        made,
-        paper=about.paper,
-    )
+    parts = [part for named in contents.page if (part := _part(contents, *named)).content]
+    kind, top = f"{about.kind}, {date.today().isoformat()}", joined([document, _top(contents)])
+    return page(about.title, kind, top, parts, made, paper=about.paper)
 
 
 def _top(contents: Contents) -> Html:
@@ -116,9 +73,9 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
     content = [_OWN[name](contents)] if name in _OWN else []
     content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == name]
     for shown in contents.parts:
-        places = [place for place in shown.page if place.part == name]
+        places = [place for place in shown.places if place.part == name]
         for place in places:
-            if place is shown.page[0] and shown.key != name:
+            if place == shown.places[0] and shown.key != name:
                 drawings = [drawing for drawing in contents.drawings if drawing.above == shown.key]
                 if drawings and name == "rubber":
                     content.append(element("h3", shown.heading))
@@ -127,7 +84,7 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
             content.append(made if place.printed else folded(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
-    every = [place for shown in contents.parts for place in shown.page if place.part == name]
+    every = [place for shown in contents.parts for place in shown.places if place.part == name]
     folded_only = bool(every) and not any(place.printed for place in every) and name not in _OWN
     return Part(name, heading, joined(content), printed=not folded_only)
 

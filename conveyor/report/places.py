@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
@@ -167,13 +167,7 @@ class Page:
         return place
 
     def stacked(
-        self,
-        keys: Iterable[str],
-        row: int = 1,
-        column: int = 1,
-        *,
-        widest: int = _NAMES,
-        across: bool = True,
+        self, keys: Iterable[str], row: int = 1, column: int = 1, *, widest: int = _NAMES, across: bool = True
     ) -> dict[str, TablePlace]:
         """Write tables under one another, those that there are, each with its note; where each stands.
 
@@ -189,6 +183,15 @@ class Page:
             row += 2
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Names of the tables of this sheet."""
+        return self.contents.of(self.sheet.title)
+
+    def rest(self, row: int = 1, *, widest: int = _NAMES, but: Sequence[str] = ()) -> None:
+        """Write the tables of the sheet that are not on it yet under one another."""
+        self.stacked([key for key in self.keys if key not in {*self.placed, *but}], row, widest=widest)
 
     def beside(self, *stacks: Iterable[str]) -> None:
         """Write stacks of tables of one shape each side by side: tables of other shapes share no widths."""
@@ -220,10 +223,6 @@ class Page:
         self.sheet.merge_cells(None, row, columns[0], row + rows - 1, columns[-1])
         cell.alignment = Alignment(wrap_text=True, vertical="top")
         return rows
-
-    def below(self, place: TablePlace, keys: Iterable[str]) -> None:
-        """Write further tables below one, under one another."""
-        self.stacked(keys, place.last + 4)
 
     def print_only(self) -> int:
         """Print what is to be printed, hide a sheet that holds nothing of it; the last row that is printed."""

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
 import numpy as np
 
@@ -35,6 +35,9 @@ _POINTS = 400
 _KEY_COLUMNS, _KEY_BELOW = 3, -0.19  # of the legend; its top, of the height of the axis
 _DECADES_BEYOND = 1.0  # of the data's window, drawn dashed
 _WIDEST = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
+
+
+_OTHER: Final = {"temperature": "speed", "speed": "temperature"}
 
 
 def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
@@ -67,15 +70,10 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
     axis = figure.axes[0]
     axis.set_title(title, parse_math=False, pad=20.0 if note else None)
     if note:
-        axis.annotate(
-            note,
-            (0.5, 1.02),
-            xycoords="axes fraction",
-            fontsize=9,
-            color="0.3",
-            ha="center",
-            parse_math=False,
+        words = axis.annotate(
+            note, (0.5, 1.02), xycoords="axes fraction", fontsize=9, color="0.3", ha="center"
         )
+        words.set_parse_math(False)
 
 
 def keyed(axis: Axes) -> None:
@@ -89,6 +87,24 @@ def keyed(axis: Axes) -> None:
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)
+
+
+def finished(
+    figure: Figure, x: str = "", y: str = "", title: str = "", *, note: str = "", group: str = ""
+) -> Figure:
+    """Name the axes of a figure as `named`, and title it; the figure."""
+    named(figure.axes[0], x, y, group=group)
+    if title:
+        titled(figure, title, note)
+    return figure
+
+
+def named(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
+    """Name both axes, group the thousands of "x" and "y", key the curves."""
+    axis.set(xlabel=x, ylabel=y)
+    for name in group:
+        grouped(axis.xaxis if name == "x" else axis.yaxis)
+    keyed(axis)
 
 
 def save(figure: Figure, path: str | Path) -> Path:
@@ -163,67 +179,53 @@ class Scenes(Protocol):
         """Where the data cover what the rolls ask for."""
 
 
-def drawn_speed(comparison: Scenes) -> float:
-    """Speed that power over temperature is drawn at: of those with an answer the next to the spec's [m/s]."""
-    spec = comparison.conveyor.belt_speed
-    return min(
-        sorted({s.speed for s in comparison.scenes}), key=lambda given: abs(given - spec), default=spec
-    )
+Over: TypeAlias = Literal["temperature", "speed"]
+"""What power is drawn over; at one of the other."""
 
 
-def drawn_temperature(comparison: Scenes) -> float | None:
-    """Temperature that power over speed is drawn at: of those every compound answers the next to the spec's [K]."""
-    spec = comparison.conveyor.temperature
-    answered = [
-        {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
-    ]
-    return min(sorted(set.intersection(*answered)), key=lambda given: abs(given - spec), default=None)
+def drawn_at(comparison: Scenes, over: Over) -> float | None:
+    """Speed [m/s] or temperature [K] at which power is drawn over the other: the next to the spec's that has an answer.
+
+    Of temperatures one that every compound has an answer for.
+    """
+    if over == "temperature":
+        spec, answered = comparison.conveyor.belt_speed, [{scene.speed for scene in comparison.scenes}]
+    else:
+        spec = comparison.conveyor.temperature
+        answered = [
+            {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
+        ]
+    known = sorted(set.intersection(*answered))
+    return min(known, key=lambda given: abs(given - spec), default=spec if over == "temperature" else None)
 
 
-def power_against_temperature(
-    comparison: Scenes, speed: float | None = None, *, system: System = "SI"
-) -> Figure:
-    """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without.
+def power_over(comparison: Scenes, over: Over, at: float | None = None, *, system: System = "SI") -> Figure:
+    """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
-    Bands of the fit's replicas are shaded; dotted is where the rolls ask for frequencies beyond the rubber's data.
+    Without one that of `drawn_at`. Bands of the fit's replicas are shaded; dotted is where the rolls ask for
+    frequencies beyond the rubber's data.
 
     Raises
     ------
     InputError
-        No scene has an answer at that speed.
+        No scene has an answer there, or none that all compounds share.
     """
-    velocity = unit("speed", system, large=True)
-    chosen = drawn_speed(comparison) if speed is None else speed
-    scenes = [scene for scene in comparison.scenes if scene.speed == chosen]
-    if not scenes:
-        raise InputError(f"no scene has an answer at {velocity(chosen):g} {velocity.sign}: nothing to draw")
-    figure = _power(comparison, scenes, "temperature", system)
-    titled(figure, f"{comparison.conveyor.name}, {unit('speed', system).brief(chosen)}")
-    return figure
-
-
-def power_against_speed(
-    comparison: Scenes, temperature: float | None = None, *, system: System = "SI"
-) -> Figure:
-    """Motor power of every compound over belt speed at one temperature [K], that next to the spec's without.
-
-    Dotted is where the rolls ask for frequencies beyond the rubber's data at any of the speeds.
-
-    Raises
-    ------
-    InputError
-        No scene has an answer at that temperature, or none that all compounds share.
-    """
-    warmth = unit("temperature", system, large=True)
-    chosen = drawn_temperature(comparison) if temperature is None else temperature
+    chosen, other = drawn_at(comparison, over) if at is None else at, _OTHER[over]
     if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
-    scenes = [scene for scene in comparison.scenes if scene.temperature == chosen]
+    scenes = [scene for scene in comparison.scenes if getattr(scene, other) == chosen]
+    where = unit(other, system, large=True)
     if not scenes:
-        raise InputError(f"no scene has an answer at {warmth(chosen):g} {warmth.sign}: nothing to draw")
-    figure = _power(comparison, scenes, "speed", system)
-    titled(figure, f"{comparison.conveyor.name}, {warmth(chosen):g} {warmth.sign}")
+        raise InputError(f"no scene has an answer at {where(chosen):g} {where.sign}: nothing to draw")
+    figure = _power(comparison, scenes, over, system)
+    titled(figure, f"{comparison.conveyor.name}, {placed(other, chosen, system)}")
     return figure
+
+
+def placed(name: str, value: float, system: System) -> str:
+    """A speed or a temperature as titles write it."""
+    written = unit(name, system, large=True)
+    return written.brief(value) if name == "speed" else f"{written(value):g} {written.sign}"
 
 
 def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
@@ -253,10 +255,7 @@ def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, syste
             )
     if dotted:
         axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
-    axis.set(xlabel=along.beside(f"belt {over}"), ylabel=power.beside("motor power"))
-    keyed(axis)
-    grouped(axis.yaxis)
-    return figure
+    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:

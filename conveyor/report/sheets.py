@@ -14,13 +14,10 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, lines_of, put
-from conveyor.report.columns import FAILS
-from conveyor.report.notes import HEADINGS, ordered
+from conveyor.report.columns import FAILS, HEADINGS, ordered
 from conveyor.report.places import CHART_ROWS, Page, define
 from conveyor.units.presentation import unit
 
-_CASES_WIDE = 40  # characters of a name
-_INPUTS_WIDE = 110  # characters of what is given of a part
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
@@ -28,40 +25,27 @@ _MOST_BARS = 24
 _PIECE = 1000  # characters of a note in one cell
 
 
-def stacked(page: Page) -> None:
-    """All tables of the sheet under one another."""
-    page.stacked(page.contents.of(page.sheet.title))
+def stacked(page: Page, widest: int = 56) -> None:
+    """All tables of the sheet under one another; text beyond the widest [characters] goes on on the next line."""
+    page.rest(widest=widest)
 
 
 def beside(page: Page) -> None:
     """Lists of figures under one another, beside them the tables of several columns."""
-    keys = page.contents.of(page.sheet.title)
-    lists = [key for key in keys if page.contents[key].figures]
-    page.beside(lists, [key for key in keys if key not in lists])
-
-
-def cases(page: Page) -> None:
-    """All tables of the sheet under one another, names of cases and sections on two lines where they are long."""
-    page.stacked(page.contents.of(page.sheet.title), widest=_CASES_WIDE)
+    lists = [key for key in page.keys if page.contents[key].figures]
+    page.beside(lists, [key for key in page.keys if key not in lists])
 
 
 def single(page: Page) -> None:
     """A table that fills its sheet; further ones below it."""
-    key, *others = page.contents.of(page.sheet.title)
-    page.below(page.headed(key), others)
+    page.rest(page.headed(page.keys[0]).last + 4)
 
 
 def wide(page: Page) -> None:
     """A wide table that fills its sheet, the columns that name its rows kept in view; further ones below it."""
-    key, *others = page.contents.of(page.sheet.title)
-    names = [column.kind for column in page.contents[key].columns]
+    names = [column.kind for column in page.contents[page.keys[0]].columns]
     corner = f"{get_column_letter(1 + next(i for i, kind in enumerate(names) if kind != 'text'))}3"
-    page.below(page.headed(key, frozen=corner, widest=30), others)
-
-
-def inputs(page: Page) -> None:
-    """What was given and what was left to defaults, a row a part."""
-    page.stacked(page.contents.of(page.sheet.title), widest=_INPUTS_WIDE)
+    page.rest(page.headed(page.keys[0], frozen=corner, widest=30).last + 4)
 
 
 def tensions(page: Page) -> None:
@@ -78,11 +62,10 @@ def tensions(page: Page) -> None:
 
 def transfer(page: Page) -> None:
     """Loading points, cleaners and discharge, with the trajectory as a chart to scale."""
-    contents, keys = page.contents, page.contents.of("Transfer")
-    row = (
-        max(place.last for place in page.stacked([key for key in keys if contents[key].printed]).values()) + 4
-    )
-    drawn = page.stacked([key for key in keys if not contents[key].printed], row + 2 * CHART_ROWS)
+    contents = page.contents
+    shown = page.stacked([key for key in page.keys if contents[key].printed])
+    row = max(place.last for place in shown.values()) + 4
+    drawn = page.stacked([key for key in page.keys if not contents[key].printed], row + 2 * CHART_ROWS)
     if drawn:
         pair = drawn["trajectory"], drawn["pulley_outline"]
         page.sheet.add_chart(charts.trajectory(page.sheet, *pair, contents.system), f"A{row}")
@@ -90,7 +73,7 @@ def transfer(page: Page) -> None:
 
 def uncertainty(page: Page) -> None:
     """The power with its band, and which input matters, with its chart."""
-    page.beside([key for key in page.contents.of("Uncertainty") if key != "sensitivity"], ["sensitivity"])
+    page.beside([key for key in page.keys if key != "sensitivity"], ["sensitivity"])
     place = page.placed["sensitivity"][1]
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
@@ -99,11 +82,6 @@ def uncertainty(page: Page) -> None:
             page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing
         )
         page.sheet.add_chart(chart, f"{get_column_letter(place.first_column)}{place.last + 4}")
-
-
-def indentation(page: Page) -> None:
-    """What every distinct contact cost, and its load curve."""
-    page.stacked(page.contents.of("Indentation"))
 
 
 def rubber(page: Page) -> None:
@@ -126,10 +104,7 @@ def rubber(page: Page) -> None:
         if len(strands) == 1:  # one compound on both strands
             define(sheet, "table_moduli_return", moduli.cells)
             define(sheet, "table_prony_return", places[f"prony_{strand}"].cells)
-    told = {"rubber", *(f"{name}_{strand}" for name in ("moduli", "prony") for strand in ("carry", "return"))}
-    page.stacked(
-        [key for key in contents.of("Rubber") if key not in told], max(p.last for p in places.values()) + 3
-    )
+    page.rest(max(place.last for place in places.values()) + 3)
 
 
 def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
@@ -156,9 +131,7 @@ def notes(page: Page) -> None:
         lines = contents.lines(kind)
         pieces = [line[i : i + _PIECE] for line in lines for i in range(0, len(line), _PIECE)]
         row = paragraphs(sheet, row, heading, pieces, columns=6)
-    place = page.place("provenance", row, widest=34)
-    told = {"checks", "remarks", "provenance"}
-    page.below(place, [key for key in contents.of(sheet.title) if key not in told])
+    page.rest(page.place("provenance", row, widest=34).last + 4, but=("remarks",))
 
 
 def about(page: Page) -> None:
@@ -170,13 +143,12 @@ def about(page: Page) -> None:
         put(sheet.cell(row, 2), value)
     sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 26, 60
     row = paragraphs(sheet, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption"))
-    told = {"remarks"}
-    page.stacked([key for key in page.contents.of(sheet.title) if key not in told], row)
+    page.rest(row, but=("remarks",))
 
 
 def to_compare(page: Page) -> None:
     """A table to fill in: names of rows and header in view, a new sheet of paper for every new first name."""
-    (key,) = page.contents.of(page.sheet.title)
+    (key,) = page.keys
     part = page.contents[key].on_sheet()
     place = page.headed(key, frozen=f"{get_column_letter(part.named + 1)}3", widest=44)
     names = [part.columns[0].get(row) for row in part.rows]
@@ -213,8 +185,7 @@ def ranking(page: Page) -> None:
     for heading, lines in zip(HEADINGS, ordered(contents.lines("warning")), strict=True):
         if lines:
             row = paragraphs(sheet, row, heading.capitalize(), lines, columns=8)
-    told = {"ranking", "costs", "what_if"}
-    page.stacked([key for key in contents.of(sheet.title) if key not in told], row)
+    page.rest(row)
     sheet.page_setup.fitToHeight = 1
 
 
@@ -222,7 +193,7 @@ def power(page: Page) -> None:
     """Motor power over temperature at every speed, one column a compound, with its chart."""
     sheet, contents = page.sheet, page.contents
     row = 1
-    for key in contents.of("Power"):
+    for key in page.keys:
         part = contents[key]
         place = page.place(key, row, widest=24)
         if place.whole and len(part.rows) > 1:

@@ -1,24 +1,27 @@
-"""Every table of a sizing, declared once."""
+"""Every table and figure of a sizing, declared once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from operator import attrgetter, itemgetter
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
 
 from conveyor.checks import checks
 from conveyor.remarks import assumptions
-from conveyor.report import sizing_plots
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table
+from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
+from conveyor.report.plots import colour, finished, grouped, keyed, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import Remark, checked, document, provenance
+from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
 from conveyor.sizing.designs import CalculatedSizing, SizedDesign
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY
+from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import percent
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 PARTS: Final = (
     ("designs", "Designs"),
@@ -47,53 +50,43 @@ def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) ->
     )  # fmt: skip
     about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
-                     partial(sizing_plots.shares, sizing, system=system), "costs")]  # fmt: skip
+                     partial(cost_shares, sizing, system=system), "costs")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
-        drawn.append(
-            Drawing("around", words, partial(sizing_plots.sweeps, sizing, sweeps, system=system), "around")
-        )
-    return Contents(about, tuple(part for part in parts if not part.empty), system, tuple(drawn))
+        drawn.append(Drawing("around", words, partial(cost_lines, sizing, sweeps, system=system), "around"))
+    return Contents(about, parts, system, tuple(drawn), PARTS)
 
 
 def _money(sizing: CalculatedSizing) -> str:
     return f"{MONEY}{sizing.duty.prices.currency}"
 
 
-def _of(get: str) -> Callable[[Any], Any]:
-    """Of the design in a row of rank and design."""
-    return lambda row: attrgetter(get)(row[1])
-
-
 def designs(sizing: CalculatedSizing) -> Table:
     """One row a design, the cheapest in a year first."""
     money, saved = _money(sizing), sizing.best.year
 
-    def col(label: str, kind: str, get: Callable[[Any], Any], json: str) -> Column:
-        return Column(label, kind, get, json=json)
-
     columns = (
-        col("rank", "count", itemgetter(0), "rank"),
-        col("belt width", "size", _of("choice.trough.width.belt"), "width_mm"),
-        col("trough", "angle", _of("choice.trough.angle"), "trough_deg"),
-        col("speed", "speed", _of("choice.speed"), "speed_m_per_s"),
-        col("filling", "share", _of("choice.filling"), "filling"),
-        col("belt", "text", lambda row: _belt(row[1]), "belt"),
-        col("top cover", "size", _of("chosen.top"), "top_cover_mm"),
-        col("bottom cover", "size", _of("chosen.bottom"), "bottom_cover_mm"),
-        Column("compound", "text", lambda row: row[1].conveyor.carry_compound.name, json="compound"),
-        col("rolls", "size", _of("choice.roll.diameter"), "roll_diameter_mm"),
-        col("carry sets", "spacing", lambda row: _widest(row[1]), "carry_spacing_m"),
-        col("return sets", "spacing", _of("choice.back"), "return_spacing_m"),
-        col("drives", "text", _of("choice.drives"), "drives"),
-        col("motors", "power", lambda row: sum(row[1].chosen.motors), "motors_kW"),
-        col("motor power", "power", _of("found.balance.power.motor"), "motor_power_kW"),
-        col("belt safety", "ratio", _of("safety"), "belt_safety"),
-        Column("take-up", "force", _of("found.balance.settled.setting"), json="take_up_N"),
-        Column("L10 of a roll set", "life", _of("roll_life"), json="roll_life_h"),
-        col("capital", money, lambda row: float(row[1].costs.whole_capital), "capital"),
-        col("energy a year", money, lambda row: float(row[1].costs.yearly["energy"]), "energy_per_year"),
-        col("cost a year", money, _of("year"), "cost_per_year"),
+        Column("rank", "count", "0", json="rank"),
+        Column("belt width", "size", "1.choice.trough.width.belt", json="width_mm"),
+        Column("trough", "angle", "1.choice.trough.angle", json="trough_deg"),
+        Column("speed", "speed", "1.choice.speed", json="speed_m_per_s"),
+        Column("filling", "share", "1.choice.filling", json="filling"),
+        Column("belt", "text", lambda row: _belt(row[1]), json="belt"),
+        Column("top cover", "size", "1.chosen.top", json="top_cover_mm"),
+        Column("bottom cover", "size", "1.chosen.bottom", json="bottom_cover_mm"),
+        Column("compound", "text", "1.conveyor.carry_compound.name", json="compound"),
+        Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
+        Column("carry sets", "spacing", lambda row: _widest(row[1]), json="carry_spacing_m"),
+        Column("return sets", "spacing", "1.choice.back", json="return_spacing_m"),
+        Column("drives", "text", "1.choice.drives", json="drives"),
+        Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
+        Column("motor power", "power", "1.found.balance.power.motor", json="motor_power_kW"),
+        Column("belt safety", "ratio", "1.safety", json="belt_safety"),
+        Column("take-up", "force", "1.found.balance.settled.setting", json="take_up_N"),
+        Column("L10 of a roll set", "life", "1.roll_life", json="roll_life_h"),
+        Column("capital", money, "1.costs.whole_capital", json="capital"),
+        Column("energy a year", money, "1.costs.yearly.energy", json="energy_per_year"),
+        Column("cost a year", money, "1.year", json="cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _why(sizing, row[0] - 1), json="why"),
     )  # fmt: skip
@@ -101,7 +94,7 @@ def designs(sizing: CalculatedSizing) -> Table:
         "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
     )
     rows = tuple(enumerate(sizing.designs, start=1))
-    return Table("designs", "Designs", caption, columns, rows, (OnPage("designs", caption),))
+    return Table("designs", "Designs", caption, columns, rows, "designs")
 
 
 def _belt(design: SizedDesign) -> str:
@@ -134,10 +127,10 @@ def costs(sizing: CalculatedSizing) -> Table:
         for name, value in design.costs.yearly.items()
     ]
     columns = (
-        Column("rank", "count", itemgetter(0), json="rank"),
-        Column("part", "text", itemgetter(1), json="part"),
-        Column("capital", money, lambda row: None if row[2] is None else float(row[2]), json="capital"),
-        Column("a year", money, itemgetter(3), json="per_year"),
+        Column("rank", "count", "0", json="rank"),
+        Column("part", "text", "1", json="part"),
+        Column("capital", money, "2", json="capital"),
+        Column("a year", money, "3", json="per_year"),
     )
     caption = "Capital and cost of a year by part: annuity over its life, upkeep, energy"
     note = "prices are general knowledge, known to a factor of two, unless the duty gives them"
@@ -150,7 +143,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     rows = [
         (
             sweep,
-            value,
+            dict.fromkeys(("spacing", "size", "speed")) | {sweep.kind: value},
             design if isinstance(design, SizedDesign) else None,
             design if isinstance(design, str) else "",
         )
@@ -158,30 +151,21 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
         for value, design in zip(sweep.values, sweep.designs, strict=True)
     ]
 
-    def of(get: Callable[[SizedDesign], Any]) -> Callable[[Any], Any]:
-        return lambda row: None if row[2] is None else get(row[2])
-
     columns = (
-        Column("choice", "text", lambda row: row[0].name, json="choice"),
-        Column(
-            "distance", "spacing", lambda row: row[1] if row[0].kind == "spacing" else None, json="distance_m"
-        ),
-        Column("size", "size", lambda row: row[1] if row[0].kind == "size" else None, json="size_mm"),
-        Column(
-            "speed", "speed", lambda row: row[1] if row[0].kind == "speed" else None, json="speed_m_per_s"
-        ),
-        Column("motor power", "power", of(attrgetter("found.balance.power.motor")), json="motor_power_kW"),
-        Column("belt", "text", of(_belt), json="belt"),
-        Column(
-            "energy a year", money, of(lambda one: float(one.costs.yearly["energy"])), json="energy_per_year"
-        ),
-        Column("idlers a year", money, of(sizing_plots.idlers), json="idlers_per_year"),
-        Column("belt a year", money, of(lambda one: float(one.costs.yearly["belt"])), json="belt_per_year"),
-        Column("cost a year", money, of(attrgetter("year")), json="cost_per_year"),
-        Column("no design because", "text", itemgetter(3), json="why"),
+        Column("choice", "text", "0.name", json="choice"),
+        Column("distance", "spacing", "1.spacing", json="distance_m"),
+        Column("size", "size", "1.size", json="size_mm"),
+        Column("speed", "speed", "1.speed", json="speed_m_per_s"),
+        Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
+        Column("belt", "text", lambda row: row[2] and _belt(row[2]), json="belt"),
+        Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year"),
+        Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year"),
+        Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year"),
+        Column("cost a year", money, "2.year", json="cost_per_year"),
+        Column("no design because", "text", "3", json="why"),
     )
     caption = "One choice varied around the best design, carry sets evenly apart; belt class, motors, brake sized again"
-    return Table("around", "Around the best", caption, columns, rows, (OnPage("around", caption),))
+    return Table("around", "Around the best", caption, columns, rows, "around")
 
 
 def spacing(sizing: CalculatedSizing) -> Table:
@@ -192,13 +176,13 @@ def spacing(sizing: CalculatedSizing) -> Table:
         for section, apart in zip(design.found.line.sections, design.choice.graduated, strict=False)
     ]
     columns = (
-        Column("rank", "count", itemgetter(0), json="rank"),
-        Column("section", "text", itemgetter(1), json="section"),
-        Column("length", "length", itemgetter(2), json="length_m"),
-        Column("carry sets", "spacing", itemgetter(3), json="carry_spacing_m"),
+        Column("rank", "count", "0", json="rank"),
+        Column("section", "text", "1", json="section"),
+        Column("length", "length", "2", json="length_m"),
+        Column("carry sets", "spacing", "3", json="carry_spacing_m"),
     )
     caption = "Carry sets as far apart in each section as is cheapest where sag and rolls bear it"
-    return Table("spacing", "Spacing", caption, columns, rows, (OnPage("spacing", caption),))
+    return Table("spacing", "Spacing", caption, columns, rows, "spacing")
 
 
 def _remarks(sizing: CalculatedSizing) -> Table:
@@ -214,9 +198,7 @@ def _remarks(sizing: CalculatedSizing) -> Table:
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
         *assumptions(best.conveyor),
     ]
-    rows = tuple(Remark(("assumption", line)) for line in lines)
-    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    return Table("remarks", "Checks and notes", "Remarks", columns, rows, (OnPage("remarks", "Remarks"),))
+    return noted({"assumption": lines}, page="remarks")
 
 
 def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
@@ -233,3 +215,58 @@ def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
         **{key: contents[key].plain() for key in _TABLES if key in contents},
         "assumptions": list(contents.lines("assumption")),
     }
+
+
+_HEIGHT, _TALL = 3.0, 2.7
+
+
+def idler_cost(design: SizedDesign) -> float:
+    """Cost of rolls and frames of a year [currency/a]."""
+    return float(design.costs.yearly["rolls"] + design.costs.yearly["idler frames"])
+
+
+def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+    """What a year costs by part, a bar a design."""
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(sizing.designs))
+    ranks = np.arange(1, len(sizing.designs) + 1)
+    start = np.zeros(len(ranks))
+    for k, name in enumerate(sizing.best.costs.yearly):
+        cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in sizing.designs]))
+        axis.barh(ranks, cost, left=start, color=colour(k), label=name)
+        start = start + cost
+    axis.set(yticks=ranks)
+    axis.invert_yaxis()
+    return finished(figure, money.beside("cost of a year"), "rank", sizing.duty.name, group="x")
+
+
+def cost_lines(
+    sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
+) -> Figure:
+    """Energy against idlers, belt and the rest, one choice varied around the best design."""
+    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, axes = stacked(len(varied), _TALL * len(varied))
+    for axis, sweep in zip(axes, varied, strict=True):
+        kind = unit(sweep.kind, system)
+        points = [
+            (x, one)
+            for x, one in zip(sweep.values, sweep.designs, strict=True)
+            if isinstance(one, SizedDesign)
+        ]
+        at = kind(np.array([x for x, _ in points]))
+        parts = {
+            "energy": [float(one.costs.yearly["energy"]) for _, one in points],
+            "idlers": [idler_cost(one) for _, one in points],
+            "belt": [float(one.costs.yearly["belt"]) for _, one in points],
+        }
+        whole = np.array([one.year for _, one in points])
+        parts["the rest"] = list(whole - np.sum(list(parts.values()), axis=0))
+        for k, (name, cost) in enumerate(parts.items()):
+            axis.plot(at, money(np.array(cost)), color=colour(k), marker="o", markersize=3, label=name)
+        axis.plot(at, money(whole), color="black", marker="o", linewidth=2.0, markersize=4, label="whole")
+        axis.axvline(float(kind(sweep.at)), color="0.6", linestyle="--", linewidth=1.0)
+        axis.set(xlabel=kind.beside(sweep.name), ylabel=money.beside("a year"), ylim=(0.0, None))
+        grouped(axis.yaxis)
+    keyed(axes[-1])
+    titled(figure, f"{sizing.duty.name}: around the best design")
+    return figure

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, replace
-from operator import attrgetter, itemgetter
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.markup import Html, element, joined
+from conveyor.markup import Html
 from conveyor.report import analysis_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
-from conveyor.report.representations import folded, of_figures, of_table
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, figures
+from conveyor.report.page import notebook
+from conveyor.report.plots import Over
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
 from conveyor.units.sentences import Said, degrees, quoted, said
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
     from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
-    from conveyor.studies.cases import CalculatedCases, CaseResult, Governing
+    from conveyor.studies.cases import CalculatedCases, Governing
     from conveyor.studies.duty import CalculatedYear
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
@@ -33,8 +34,8 @@ _TENSIONS = (
 )  # fmt: skip
 _STATE_KEYS = ("empty", "full", "inclines", "declines", "worst")
 _AT = (
-    Column("temperature", "temperature", attrgetter("temperature")),
-    Column("belt speed", "speed", attrgetter("speed"), key="speed"),
+    Column("temperature", "temperature", "temperature"),
+    Column("belt speed", "speed", "speed", key="speed"),
 )
 
 
@@ -55,81 +56,64 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         study = studies.uncertainty
         tables += [band(study), convergence_of_draws(study), sensitivity(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
-        draw = lambda: analysis_plots.tornado(study, system=system)  # noqa: E731
+        draw = partial(analysis_plots.tornado, study, system=system)
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
         exact = study.monte_carlo
         if exact is not None:
             caption = (
                 "Ends of the 90 % interval after ever more draws; shaded: between which each lies with 90 %."
             )
-            settle = lambda: analysis_plots.settling(exact, study.sampled, system=system)  # noqa: E731
-            drawn.append(Drawing("settling", caption, settle, "convergence_of_draws"))
+            draw = partial(analysis_plots.settling, exact, study.sampled, system=system)
+            drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
     return tables, drawn
 
 
 def load_states(study: CalculatedStates) -> Table:
     """One row a load state: what is loaded, power, tensions, what it asks of the take-up."""
     columns = (
-        Column("state", "text", attrgetter("label"), key="state"),
-        Column("sections loaded", "text", attrgetter("loaded_in_words")),
-        Column("temperature", "temperature", attrgetter("temperature")),
-        Column("effective tension", "force", attrgetter("balance.forces.total")),
-        Column("belt power", "power", attrgetter("balance.power.belt"), page=None),
-        Column("motor power", "power", attrgetter("balance.power.motor")),
-        Column("tight side tension", "force", attrgetter("balance.tensions.tight"), page=None),
-        Column("slack side tension", "force", attrgetter("balance.tensions.slack"), page=None),
-        Column("maximum tension", "force", attrgetter("balance.tensions.largest"), key="largest_tension"),
+        Column("state", "text", "label", key="state"),
+        Column("sections loaded", "text", "loaded_in_words"),
+        Column("temperature", "temperature", "temperature"),
+        Column("effective tension", "force", "balance.forces.total"),
+        Column("belt power", "power", "balance.power.belt", page=None),
+        Column("motor power", "power", "balance.power.motor"),
+        Column("tight side tension", "force", "balance.tensions.tight", page=None),
+        Column("slack side tension", "force", "balance.tensions.slack", page=None),
+        Column("maximum tension", "force", "balance.tensions.largest", key="largest_tension"),
+        Column("minimum tension, steady", "force", "balance.tensions.smallest", key="smallest_tension"),
         Column(
-            "minimum tension, steady",
-            "force",
-            attrgetter("balance.tensions.smallest"),
-            key="smallest_tension",
+            "required take-up tension", "force", "balance.settled.needed", key="take_up_tension_asked_for"
         ),
-        Column(
-            "required take-up tension",
-            "force",
-            attrgetter("balance.settled.needed"),
-            key="take_up_tension_asked_for",
-        ),
-        Column("governed by", "text", _asking, page=None),
+        Column("governed by", "text", "balance.settled.governing", page=None),
     )
     note = (
         "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
         "loadings follow from the signs of the forces by section, at every temperature of the cases."
     )
-    heading, page = "Load states", (OnPage(_STATES, "Load states"),)
-    return Table("load_states", "Load cases", heading, columns, study.states, page, note)
-
-
-def _asking(state: LoadState) -> str:
-    settled = state.balance.settled
-    return settled.condition_name(settled.governed_by)
+    return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)
 
 
 def refused_states(study: CalculatedStates) -> Table:
     """Load states without an answer, and why."""
     columns = (
-        Column("state", "text", attrgetter("name")),
-        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("state", "text", "name"),
+        Column("temperature", "temperature", "temperature"),
         Column("reason", "text", lambda row: degrees(row.reason)),
     )
     heading = "Load states without an answer"
-    return Table("refused_states", "Load cases", heading, columns, study.refused, (OnPage(_STATES, heading),))
+    return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
 def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Table]:
     yield governing(study, studies.governing)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
-    page = (OnPage(_CASES, "Load cases"),)
-    yield replace(every.only(*kept), page=page)
+    yield replace(every.only(*kept), page=_CASES)
     order = ("case", "temperature", "speed", "covered", *_TENSIONS)
     tensions = every.only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
-    yield replace(
-        tensions, key="case_tensions", heading=heading, columns=columns, page=(OnPage(_CASES, heading),)
-    )
+    yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
     yield motors(studies)
     yield refused(study)
 
@@ -138,32 +122,32 @@ def cases(study: CalculatedCases) -> Table:
     """One row a case, speed and temperature."""
     low, high = study.friction_band
     columns = (
-        Column("case", "text", attrgetter("case.name")),
-        Column("loading", "text", attrgetter("case.loading"), page=None),
+        Column("case", "text", "case.name"),
+        Column("loading", "text", "case.loading", page=None),
         *_AT,
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
-        Column("mass flow", "mass flow", attrgetter("found.line.flow")),
-        Column("indentation", "force", attrgetter("found.balance.forces.indentation")),
-        Column("main resistance", "force", attrgetter("found.balance.forces.main"), page=None),
-        Column("effective tension", "force", attrgetter("found.balance.forces.total")),
-        Column("motor power", "power", attrgetter("found.balance.power.motor")),
-        Column(f"motor power, {low:g} x friction", "power", lambda row: row.motors[0], page=None),
-        Column(f"motor power, {high:g} x friction", "power", lambda row: row.motors[1], page=None),
-        Column("equivalent DIN f", "friction", attrgetter("found.balance.friction_factor"), page=None),
-        Column("tight side tension", "force", attrgetter("found.balance.tensions.tight"), page=None),
-        Column("slack side tension", "force", attrgetter("found.balance.tensions.slack"), page=None),
-        Column("maximum tension", "force", attrgetter("found.balance.tensions.largest"), json="largest tension",
+        Column("mass flow", "mass flow", "found.line.flow"),
+        Column("indentation", "force", "found.balance.forces.indentation"),
+        Column("main resistance", "force", "found.balance.forces.main", page=None),
+        Column("effective tension", "force", "found.balance.forces.total"),
+        Column("motor power", "power", "found.balance.power.motor"),
+        Column(f"motor power, {low:g} x friction", "power", "motors.0", page=None),
+        Column(f"motor power, {high:g} x friction", "power", "motors.1", page=None),
+        Column("equivalent DIN f", "friction", "found.balance.friction_factor", page=None),
+        Column("tight side tension", "force", "found.balance.tensions.tight", page=None),
+        Column("slack side tension", "force", "found.balance.tensions.slack", page=None),
+        Column("maximum tension", "force", "found.balance.tensions.largest", json="largest tension",
                key="largest_tension"),
-        Column("minimum tension, steady", "force", attrgetter("found.balance.tensions.smallest"),
+        Column("minimum tension, steady", "force", "found.balance.tensions.smallest",
                json="smallest tension", key="smallest_tension"),
-        Column("required take-up tension", "force", attrgetter("found.balance.settled.needed"),
+        Column("required take-up tension", "force", "found.balance.settled.needed",
                json="take-up tension asked for", key="take_up_tension_asked_for"),
-        Column("governed by", "text", _governing, page=None),
-        Column("maximum roll load", "force", lambda row: row.heaviest_roll[0], page=None,
+        Column("governed by", "text", "found.balance.settled.governing", page=None),
+        Column("maximum roll load", "force", "heaviest_roll.0", page=None,
                json="largest roll load", key="largest_roll_load"),
-        Column("at roll", "text", lambda row: row.heaviest_roll[1], page=None),
-        Column("energy", "specific energy", attrgetter("energy_per_tonne_km"), page=None),
-        Column("error estimate", "error", attrgetter("found.error_estimate"), page=None),
+        Column("at roll", "text", "heaviest_roll.1", page=None),
+        Column("energy", "specific energy", "energy_per_tonne_km", page=None),
+        Column("error estimate", "error", "found.error_estimate", page=None),
     )  # fmt: skip
     note = "covered: NO where the rubber data do not cover the excitation band: not for design."
     covered = all(row.covered for row in study.results)
@@ -172,75 +156,56 @@ def cases(study: CalculatedCases) -> Table:
     )
 
 
-def _governing(result: CaseResult) -> str:
-    settled = result.found.balance.settled
-    return settled.condition_name(settled.governed_by)
-
-
 def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     """One row a figure: its value and the load case or load state that decides it."""
     low, high = study.friction_band
     columns = (
-        Column("figure", NAMED, attrgetter("label")),
-        Column("case", "text", lambda row: row.value.result.case.name),
-        Column("value", OF_ROW, lambda row: row.value.value),
-        *(replace(column, get=_of_result(column.get)) for column in _AT),
+        Column("figure", NAMED, "label"),
+        Column("case", "text", "value.result.case.name"),
+        Column("value", OF_ROW, "value.value"),
+        *(column.of("value.result") for column in _AT),
     )
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
     note = f"friction factor {low:g}-{high:g}, least favourable"
     if left_out:
         note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
-    page, heading = (OnPage(_CASES, "Governing cases"),), "Governing cases"
-    return Table("governing_cases", "Load cases", heading, columns, rows, page, note, links=True)
-
-
-def _of_result(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda row: get(row.value.result)
+    return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)
 
 
 def refused(study: CalculatedCases) -> Table:
     """Cases without an answer, and why."""
     columns = (
-        Column("case", "text", attrgetter("case")),
+        Column("case", "text", "case"),
         *_AT,
         Column("reason", "text", lambda row: degrees(row.reason)),
     )
     heading = "Cases without an answer"
-    return Table("refused_cases", "Load cases", heading, columns, study.refused, (OnPage(_CASES, heading),))
+    return Table("refused_cases", "Load cases", heading, columns, study.refused, _CASES)
 
 
 def motors(studies: CalculatedStudies) -> Table:
     """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
     columns = (
-        Column("drive", "text", attrgetter("drive")),
-        Column("governing case", "text", attrgetter("case")),
-        Column("required at the shaft", "power", attrgetter("needed"), json="needed at the shaft"),
-        Column("reserve", "ratio", attrgetter("reserve")),
-        Column("motors", "count", attrgetter("count")),
-        Column("rated each", "power", attrgetter("rated")),
+        Column("drive", "text", "drive"),
+        Column("governing case", "text", "case"),
+        Column("required at the shaft", "power", "needed", json="needed at the shaft"),
+        Column("reserve", "ratio", "reserve"),
+        Column("motors", "count", "count"),
+        Column("rated each", "power", "rated"),
         Column("installed", "power", lambda row: row.count * row.rated),
     )
     heading = "Selected standard motors"
-    page, note = (OnPage(_CASES, heading),), "For the largest motor power of all load cases and load states."
-    return Table("motors", "Load cases", heading, columns, studies.motors, page, note)
+    note = "For the largest motor power of all load cases and load states."
+    return Table("motors", "Load cases", heading, columns, studies.motors, _CASES, note)
 
 
 def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
-    if len({result.temperature for result in study.results}) > 1:
-        yield Drawing(
-            "case-temperature",
-            "Motor power of the load cases over temperature.",
-            lambda: analysis_plots.case_power_against_temperature(study, system=system),
-            "load_cases",
-        )
-    if len({result.speed for result in study.results}) > 1:
-        yield Drawing(
-            "case-speed",
-            "Motor power of the load cases over belt speed.",
-            lambda: analysis_plots.case_power_against_speed(study, system=system),
-            "load_cases",
-        )
+    overs: tuple[Over, ...] = ("temperature", "speed")
+    for over, words in zip(overs, ("temperature", "belt speed"), strict=True):
+        if len({getattr(result, over) for result in study.results}) > 1:
+            draw = partial(analysis_plots.case_power, study, over, system=system)
+            yield Drawing(f"case-{over}", f"Motor power of the load cases over {words}.", draw, "load_cases")
 
 
 def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
@@ -267,17 +232,17 @@ def duty(study: CalculatedYear) -> Table:
     """One row a bar of the year's histogram."""
     columns = (
         Column("hours", "life", lambda row: 3600.0 * row.hours),
-        Column("load share", "share", attrgetter("share")),
+        Column("load share", "share", "share"),
         *_AT,
-        Column("mass flow", "mass flow", attrgetter("flow")),
-        Column("effective tension", "force", attrgetter("effective")),
-        Column("motor power", "power", attrgetter("shaft")),
-        Column("mains power", "power", attrgetter("mains")),
+        Column("mass flow", "mass flow", "flow"),
+        Column("effective tension", "force", "effective"),
+        Column("motor power", "power", "shaft"),
+        Column("mains power", "power", "mains"),
         Column("energy", "energy", lambda row: row.energy * JOULE_PER_KWH),
-        Column("conveyed", "conveyed", attrgetter("mass")),
+        Column("conveyed", "conveyed", "mass"),
     )
     heading = "Hours at load, temperature and speed"
-    return Table("duty", "Duty", heading, columns, study.rows, (OnPage(_DUTY, heading),))
+    return Table("duty", "Duty", heading, columns, study.rows, _DUTY)
 
 
 def year(study: CalculatedYear) -> Table:
@@ -294,45 +259,42 @@ def year(study: CalculatedYear) -> Table:
         Figure("carbon dioxide", "carbon dioxide", study.emission),
     )
     note = f"Carbon dioxide: {study.emission_source}." if study.emission_source else ""
-    return figures(
-        "duty_year", "Duty", "The year", rows, page=(OnPage(_DUTY, "The year"),), note=note, prefix="year_"
-    )
+    return figures("duty_year", "Duty", "The year", rows, page=_DUTY, note=note, prefix="year_")
 
 
 def sensitivity(study: CalculatedRanges) -> Table:
     """One row an input, the one that matters most first."""
     columns = (
-        Column("input", "text", lambda row: row[0].name),
-        Column("low", "text", lambda row: row[0].low),
-        Column("as given", "text", lambda row: row[0].given),
-        Column("high", "text", lambda row: row[0].high),
-        Column("motor power at low", "power", lambda row: row[0].motor_low, page=None),
-        Column("motor power at high", "power", lambda row: row[0].motor_high, page=None),
+        Column("input", "text", "0.name"),
+        Column("low", "text", "0.low"),
+        Column("as given", "text", "0.given"),
+        Column("high", "text", "0.high"),
+        Column("motor power at low", "power", "0.motor_low", page=None),
+        Column("motor power at high", "power", "0.motor_high", page=None),
         Column("change at low", "power", lambda row: row[0].motor_low - study.motor),
         Column("change at high", "power", lambda row: row[0].motor_high - study.motor),
-        Column("swing", "power", lambda row: row[0].swing, page=None),
-        Column("share of variance", "share", itemgetter(1)),
+        Column("swing", "power", "0.swing", page=None),
+        Column("share of variance", "share", "1"),
     )
     rows, heading = tuple(zip(study.effects, study.shares, strict=True)), "Sensitivity ranking"
-    page, note = (OnPage(_UNCERTAINTY, heading),), "; ".join(study.notes)
-    return Table("sensitivity", "Uncertainty", heading, columns, rows, page, note)
+    note = "; ".join(study.notes)
+    return Table("sensitivity", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
 def band(study: CalculatedRanges) -> Table:
     """The power with its bands, one row a way to combine the inputs."""
     columns = (
-        Column("combined by", "text", itemgetter(0)),
-        Column("motor power, low", "power", lambda row: row[1][0]),
+        Column("combined by", "text", "0"),
+        Column("motor power, low", "power", "1.0"),
         Column("motor power", "power", lambda _: study.motor),
-        Column("motor power, high", "power", lambda row: row[1][1]),
+        Column("motor power, high", "power", "1.1"),
     )
     exact, rows = study.monte_carlo, [
         ("root sum of squares", study.band), ("Latin hypercube, first order", study.sampled),
     ]  # fmt: skip
     if exact is not None:
         rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
-    page = (OnPage(_UNCERTAINTY, "Motor power, 90 % interval"),)
-    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, page)
+    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, _UNCERTAINTY)
 
 
 def convergence_of_draws(study: CalculatedRanges) -> Table:
@@ -342,11 +304,11 @@ def convergence_of_draws(study: CalculatedRanges) -> Table:
         return lambda row: float(getattr(row, f"{name}_between")[k])
 
     columns = (
-        Column("draws", "count", attrgetter("draws")),
-        Column("motor power, low", "power", attrgetter("low"), key="low"),
+        Column("draws", "count", "draws"),
+        Column("motor power, low", "power", "low", key="low"),
         Column("low end, from", "power", end("low", 0)),
         Column("low end, to", "power", end("low", 1)),
-        Column("motor power, high", "power", attrgetter("high"), key="high"),
+        Column("motor power, high", "power", "high", key="high"),
         Column("high end, from", "power", end("high", 0)),
         Column("high end, to", "power", end("high", 1)),
     )
@@ -355,8 +317,7 @@ def convergence_of_draws(study: CalculatedRanges) -> Table:
     reasons = {} if exact is None else exact.refused
     note = "; ".join(f"{count} draws have no answer: {why}" for why, count in reasons.items())
     heading = "Monte Carlo: ends of the 90 % interval, and between which they lie with 90 %"
-    page = (OnPage(_UNCERTAINTY, heading),)
-    return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, page, note)
+    return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
@@ -411,33 +372,27 @@ def _plain_state(state: LoadState) -> dict[str, Any]:
 def notebook_of_states(study: CalculatedStates) -> Html:
     """The load states, and those without an answer."""
     refusals = [f"{row.name}: {row.reason}" for row in study.refused]
-    caption = f"{study.conveyor.name}: load states"
-    shown = of_table(load_states(study), caption, study.conveyor.report.units)
-    return joined([shown, folded("without an answer", refusals)])
+    tables = [(f"{study.conveyor.name}: load states", load_states(study))]
+    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_cases(study: CalculatedCases) -> Html:
     """The cases that govern, and those without an answer."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
-    caption = f"{study.conveyor.name}: governing load cases"
-    shown = of_table(governing(study, study.governing), caption, study.conveyor.report.units)
-    return joined([shown, folded("without an answer", refusals)])
+    tables = [(f"{study.conveyor.name}: governing load cases", governing(study, study.governing))]
+    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_duty(study: CalculatedYear) -> Html:
-    """Sums of the year, the bars folded away."""
-    system = study.conveyor.report.units
-    bars = element("details", element("summary", "bars"), of_table(duty(study), "", system))
-    return joined([of_figures(year(study), f"{study.conveyor.name}: the year", system), bars])
+    """Sums of the year, and its bars."""
+    tables = [(f"{study.conveyor.name}: the year", year(study)), ("bars", duty(study))]
+    return notebook(study.conveyor.report.units, tables)
 
 
 def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
     """Bands of the motor power, and which input matters."""
-    system = study.conveyor.report.units
-    return joined(
-        [
-            of_table(band(study), f"{study.conveyor.name}: motor power", system),
-            of_table(sensitivity(study), "sensitivity ranking", system),
-            folded("notes", study.notes),
-        ]
-    )
+    tables = [
+        (f"{study.conveyor.name}: motor power", band(study)),
+        ("sensitivity ranking", sensitivity(study)),
+    ]
+    return notebook(study.conveyor.report.units, tables, {"notes": study.notes})

@@ -14,13 +14,11 @@ from datetime import date
 from functools import partial
 from importlib.metadata import version
 from itertools import accumulate
-from operator import attrgetter, itemgetter
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from conveyor.checks import Check, checks, deciding, leading, reach
-from conveyor.indentation import RollContact
 from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.belts import BeltContacts
@@ -38,7 +36,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import assumptions, method, warnings
-from conveyor.report import analysis_plots, loop_plots
+from conveyor.report import analysis_plots
 from conveyor.report.columns import (
     NAMED,
     OF_ROW,
@@ -49,7 +47,9 @@ from conveyor.report.columns import (
     OnPage,
     ReportHead,
     Table,
+    extreme,
     figures,
+    noted,
     slug,
 )
 from conveyor.report.inputs import gathered
@@ -59,7 +59,7 @@ from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.report.transfer_tables import drawing as of_discharge
 from conveyor.report.transfer_tables import of_transfer
-from conveyor.report.verdict import AS_GIVEN, governing_figures, maximum_motor_power
+from conveyor.report.verdict import AS_GIVEN, governing_figures, loads, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
@@ -67,8 +67,33 @@ from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
-from conveyor.units.sentences import Said, band_words, degrees, figure, plain_figure, said
+from conveyor.units.sentences import band_words, degrees, figure, plain_figure
 
+PARTS: Final = (
+    ("key-figures", "Key figures"),
+    ("checks", "Checks"),
+    ("warnings", "Warnings"),
+    ("resistances", "Resistances"),
+    ("route", "Route and sections"),
+    ("tensions", "Tensions, drives and take-up"),
+    ("rolls", "Roll contacts"),
+    ("rubber", "Rubber"),
+    ("start-stop", "Start and stop"),
+    ("dynamics", "Starting and stopping"),
+    ("through-time", "Through time"),
+    ("belt", "Belt, pulleys and curves"),
+    ("transfer", "Loading, cleaning and discharge"),
+    ("load-states", "Load states"),
+    ("load-cases", "Load cases"),
+    ("duty", "Duty of a year"),
+    ("uncertainty", "Uncertainty"),
+    ("method", "Method"),
+    ("assumptions", "Assumptions"),
+    ("summary", "Figures as given"),
+    ("inputs", "Inputs"),
+    ("provenance", "Provenance"),
+)
+"""Parts of the page."""
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
@@ -99,10 +124,9 @@ def of_analysis(
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
     asks = take_up_of(analysis, studies)
-    governs, verdict = governing_figures(analysis, studies, governing, asks, left_open)
     parts = (
         identity(analysis.conveyor, system),
-        replace(governs, note=verdict),
+        governing_figures(analysis, studies, governing, asks, left_open),
         results(analysis, left_open),
         *given(analysis.conveyor, system),
         defaults(left_open, system),
@@ -149,10 +173,11 @@ def of_analysis(
         remarks(analysis, governing, system, () if further is None else further.assumptions),
         provenance(fingerprint(analysis.conveyor)),
     )
-    kept = tuple(part for part in parts if not part.empty)
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     shown = () if further is None else further.drawings
-    return Contents(about, kept, system, (*drawings(analysis, system, studies), *drawn, *shown))
+    return Contents(
+        about, parts, system, (*drawings(analysis, system, studies), *drawn, *shown), PARTS, "conveyor"
+    )
 
 
 def _every_check(
@@ -258,23 +283,23 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     heading = "Figures of the whole conveyor as given"
     page = (OnPage("summary", heading, printed=False),)
     table = figures("results", "Results", heading, rows, page=page, prefix="")
-    name = Column("name", "text", attrgetter("key"), page=None)
+    name = Column("name", "text", "key", page=None)
     return replace(table, columns=(*table.columns, name))
 
 
 def defaults(left_open: PowerRange, system: System) -> Table:
     """Every default in use and what it leaves open, the one to replace first on top."""
     columns = (
-        Column("default", "text", attrgetter("name"), json="what"),
-        Column("forces, low", "ratio", attrgetter("low_factor"), json="low_factor"),
-        Column("forces, high", "ratio", attrgetter("high_factor"), json="high_factor"),
-        Column("motor power at low", "power", attrgetter("motor_low"), json="motor_low_kW"),
-        Column("motor power at high", "power", attrgetter("motor_high"), json="motor_high_kW"),
-        Column("give instead", "text", attrgetter("give"), json="give"),
-        Column("name", "text", attrgetter("key"), page=None, json="key"),
+        Column("default", "text", "name", json="what"),
+        Column("forces, low", "ratio", "low_factor", json="low_factor"),
+        Column("forces, high", "ratio", "high_factor", json="high_factor"),
+        Column("motor power at low", "power", "motor_low", json="motor_low_kW"),
+        Column("motor power at high", "power", "motor_high", json="motor_high_kW"),
+        Column("give instead", "text", "give", json="give"),
+        Column("name", "text", "key", page=None, json="key"),
     )
     heading = "Defaults that affect the power, most influential first"
-    return Table("defaults", "Results", heading, columns, left_open.effects, (OnPage("inputs", heading),),
+    return Table("defaults", "Results", heading, columns, left_open.effects, "inputs",
                  _left_open(left_open, system) if left_open.effects else "")  # fmt: skip
 
 
@@ -292,11 +317,11 @@ def _left_open(power: PowerRange, system: System) -> str:
 def inputs(conveyor: Conveyor) -> Table:
     """Every field: as entered, in SI, and whether the spec, a library or a default gave it."""
     columns = (
-        Column("field", "text", itemgetter(0)),
-        Column("as entered", "text", itemgetter(1)),
-        Column("SI value", "number", itemgetter(2)),
-        Column("SI unit", "text", itemgetter(3)),
-        Column("given by", "text", itemgetter(4)),
+        Column("field", "text", "0"),
+        Column("as entered", "text", "1"),
+        Column("SI value", "number", "2"),
+        Column("SI unit", "text", "3"),
+        Column("given by", "text", "4"),
     )
     caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
     page, heading = (OnPage("inputs", caption, printed=False),), "Inputs as entered and in SI"
@@ -305,33 +330,33 @@ def inputs(conveyor: Conveyor) -> Table:
 
 def given(conveyor: Conveyor, system: System) -> Iterator[Table]:
     """Inputs as they are read: what was given, one row a part, then what was left to defaults."""
-    columns = (Column("part", "text", itemgetter(0)), Column("values", "text", itemgetter(1)))
+    columns = (Column("part", "text", "0"), Column("values", "text", "1"))
     rows = entered(conveyor)
     for key, heading, chosen in (
         ("inputs_given", "Inputs given", [row for row in rows if row[-1] != "default"]),
         ("inputs_default", "Inputs left to defaults", [row for row in rows if row[-1] == "default"]),
     ):
         shown = gathered(chosen, system, alike=key == "inputs_default")
-        yield Table(key, "Given", heading, columns, shown, (OnPage("inputs", heading),))
+        yield Table(key, "Given", heading, columns, shown, "inputs")
 
 
 def sections(a: CalculatedConveyor) -> Table:
     """One row a stretch: geometry, masses, forces; both strands, in running direction."""
     columns = (
-        Column("section", "text", attrgetter("stretch.section"), json="section"),
-        Column("strand", "text", attrgetter("stretch.strand"), json="strand"),
-        Column("length", "length", attrgetter("stretch.length"), "layout", json="length_m"),
-        Column("lift", "length", attrgetter("stretch.rise"), "layout", json="lift_m"),
-        Column("inclination", "angle", attrgetter("stretch.inclination"), page=None),
-        Column("idler spacing", "spacing", attrgetter("stretch.spacing"), "layout"),
-        Column("belt mass", "line mass", attrgetter("stretch.belt_mass"), "layout"),
-        Column("bulk mass", "line mass", attrgetter("stretch.bulk_mass"), "layout"),
+        Column("section", "text", "stretch.section", json="section"),
+        Column("strand", "text", "stretch.strand", json="strand"),
+        Column("length", "length", "stretch.length", "layout", json="length_m"),
+        Column("lift", "length", "stretch.rise", "layout", json="lift_m"),
+        Column("inclination", "angle", "stretch.inclination", page=None),
+        Column("idler spacing", "spacing", "stretch.spacing", "layout"),
+        Column("belt mass", "line mass", "stretch.belt_mass", "layout"),
+        Column("bulk mass", "line mass", "stretch.bulk_mass", "layout"),
         *(
-            Column(force.short or force.name, "force", _force_of(force.key), "forces", json=f"{force.key}_N",
+            Column(force.short or force.name, "force", f"forces.{force.key}", "forces", json=f"{force.key}_N",
                    total=True)
             for force in a.balance.along
         ),
-        Column("total", "force", attrgetter("total"), "forces", json="total_N", total=True),
+        Column("total", "force", "total", "forces", json="total_N", total=True),
         Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
         Column("idler set L10 life", "life", _set_life, "layout", sparse=True),
     )  # fmt: skip
@@ -341,10 +366,6 @@ def sections(a: CalculatedConveyor) -> Table:
     )
     heading = "Forces of every section and strand"
     return Table("sections", "Sections", heading, columns, a.stretches, page, foot="all sections")
-
-
-def _force_of(key: str) -> Getter:
-    return lambda row: row.forces[key]
 
 
 def _set_life(r: StretchResult) -> float | None:
@@ -362,16 +383,17 @@ def resistances(a: CalculatedConveyor) -> Table:
     ]
     total = a.balance.forces.total
     columns = (
-        Column("resistance", "text", itemgetter(0)),
-        Column("kind", "text", itemgetter(1)),
-        Column("force", "force", itemgetter(2), total=True),
+        Column("resistance", "text", "0"),
+        Column("kind", "text", "1"),
+        Column("force", "force", "2", total=True),
         Column("share", "share", lambda row: _share(row[2], total), total=total != 0.0),
-        Column("source", "text", itemgetter(3)),
+        Column("source", "text", "3"),
     )
     rows = (*by_strand, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
     heading = "Resistances and their sources"
-    page = (OnPage("resistances", heading),)
-    return Table("resistances", "Resistances", heading, columns, rows, page, foot="effective tension")
+    return Table(
+        "resistances", "Resistances", heading, columns, rows, "resistances", foot="effective tension"
+    )
 
 
 def _share(part: float, whole: float) -> float:
@@ -384,7 +406,7 @@ def breakdown(a: CalculatedConveyor) -> Table:
     forces = a.balance.forces
     columns = (
         Column("resistance", "text", lambda name: name.replace("_", " ")),
-        Column("force", "force", lambda name: forces.parts[name]),
+        Column("force", "force", forces.parts.get),
         Column("share of total", "share", lambda name: _share(forces.parts[name], forces.total)),
     )
     heading = "Breakdown of the effective tension"
@@ -413,25 +435,24 @@ def classical(a: CalculatedConveyor) -> Table:
     )
     names = ["this calculation", *(name for name, _ in others)]
     columns = (
-        Column("quantity", NAMED, attrgetter("label")),
-        *(Column(name, OF_ROW, _nth(i), key=f"estimate_{i}") for i, name in enumerate(names)),
+        Column("quantity", NAMED, "label"),
+        *(Column(name, OF_ROW, f"value.{i}", key=f"estimate_{i}") for i, name in enumerate(names)),
     )
     heading = "Comparison with ISO 5048 / DIN 22101, given f"
     note = (
         f"secondary resistances of the classical estimate: {balance.classical.secondary_by}; "
         f"governing at the drive: {balance.tensions.governed_by}"
     )
-    page = (OnPage("resistances", heading),)
-    return Table("classical", "Resistances", heading, columns, rows, page, note)
+    return Table("classical", "Resistances", heading, columns, rows, "resistances", note)
 
 
 def cema(a: CalculatedConveyor) -> Table:
     """The classic form of CEMA by cause; its rows add up to Te."""
     made, given = a.balance.cema, a.line.cema
     columns = (
-        Column("symbol", "text", itemgetter(0)),
-        Column("CEMA resistance", "text", itemgetter(1)),
-        Column("force", "force", itemgetter(2), total=True),
+        Column("symbol", "text", "0"),
+        Column("CEMA resistance", "text", "1"),
+        Column("force", "force", "2", total=True),
     )
     rows = () if made is None else made.items
     heading = "CEMA classic, itemised"
@@ -441,8 +462,7 @@ def cema(a: CalculatedConveyor) -> Table:
         else f"Ky {given.flexure:g}, Kt {given.temperature:g}; Tp is "
         + ("the book's, by place and wrap" if given.pulleys is None else "the spec's")
     )
-    page = (OnPage("resistances", heading),)
-    return Table("cema", "Resistances", heading, columns, rows, page, note, foot="Te", named=2)
+    return Table("cema", "Resistances", heading, columns, rows, "resistances", note, foot="Te", named=2)
 
 
 def _estimated_motor(balance: Balance, made: Classical) -> float:
@@ -451,34 +471,30 @@ def _estimated_motor(balance: Balance, made: Classical) -> float:
     return balance.frame.motor(made.total + beside)
 
 
-def _nth(i: int) -> Getter:
-    return lambda figure: figure.value[i]
-
-
 def rolls(a: CalculatedConveyor) -> Table:
     """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
     columns = (
-        Column("section", "text", lambda row: row[0].stretch.section),
-        Column("strand", "text", lambda row: row[0].stretch.strand),
-        Column("roll", "text", lambda row: row[1].load.name),
+        Column("section", "text", "0.stretch.section"),
+        Column("strand", "text", "0.stretch.strand"),
+        Column("roll", "text", "1.load.name"),
         Column("diameter", "size", lambda row: 2.0 * row[1].curve.contact.radius, page=None),
-        Column("force", "force", lambda row: row[1].load.force),
-        Column("highest line load", "line force", lambda row: float(row[1].peak.line_load)),
-        Column("half width", "thickness", lambda row: float(row[1].peak.half_width)),
-        Column("eccentricity", "thickness", lambda row: float(row[1].peak.eccentricity), page=None),
-        Column("penetration", "thickness", lambda row: float(row[1].peak.penetration)),
+        Column("force", "force", "1.load.force"),
+        Column("highest line load", "line force", "1.peak.line_load"),
+        Column("half width", "thickness", "1.peak.half_width"),
+        Column("eccentricity", "thickness", "1.peak.eccentricity", page=None),
+        Column("penetration", "thickness", "1.peak.penetration"),
         Column("penetration of cover", "share",
                lambda row: row[1].pressed_in / row[1].curve.contact.cover_thickness, page=None),
-        Column("peak pressure", "pressure", lambda row: float(row[1].peak.peak_pressure)),
+        Column("peak pressure", "pressure", "1.peak.peak_pressure"),
         Column("transit frequency", "passing",
                lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
-        Column("indentation", "roll force", lambda row: row[1].resistance),
-        Column("error estimate", "error", lambda row: row[1].peak.error, page=None),
-        Column("energy error", "error", lambda row: row[1].peak.energy_error, page=None),
-        Column("rim drag", "roll force", lambda row: row[2]),
+        Column("indentation", "roll force", "1.resistance"),
+        Column("error estimate", "error", "1.peak.error", page=None),
+        Column("energy error", "error", "1.peak.energy_error", page=None),
+        Column("rim drag", "roll force", "2"),
         Column("rotation", "rotation",
                lambda row: row[1].curve.contact.speed / (2.0 * math.pi * row[1].curve.contact.radius), page=None),
-        Column("heavier bearing", "force", lambda row: row[3] and row[3].heavier, page=None, sparse=True),
+        Column("heavier bearing", "force", "3.heavier", page=None, sparse=True),
         Column("roll L10 life", "life", lambda row: row[3] and row[3].both * _HOUR, sparse=True),
     )  # fmt: skip
     rows = tuple(
@@ -499,100 +515,56 @@ def distinct_rolls(a: CalculatedConveyor) -> Table:
         by_look.setdefault(look, []).append(row)
     columns = (
         Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
-        *(replace(column, get=_of_first(column.get)) for column in shown[1:]),
+        *(column.of("0") for column in shown[1:]),
     )
     heading = "Rolls of a set at their highest line load, identical ones once"
-    page, note = (
-        (OnPage("rolls", heading),),
-        f"Relative error of the contacts: at most {a.error_estimate:.0e}.",
+    note = f"Relative error of the contacts: at most {a.error_estimate:.0e}."
+    return Table(
+        "distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), "rolls", note, named=3
     )
-    return Table("distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), page, note, named=3)
 
 
 def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
-    system, alike = a.conveyor.report.units, dict[tuple[Strand, float], _AlikeSets]()
-    for label, result in _loads(a, studies) if a.set_duty else ():
+    system, alike = a.conveyor.report.units, dict[tuple[Strand, float], list[tuple[str, SetDuty]]]()
+    for label, result in loads(a, studies) if a.set_duty else ():
         for duty in result.set_duty:
             key = (duty.stretch.strand, duty.stretch.spacing)
-            alike.setdefault(key, _AlikeSets()).add(label.text(system), duty)
+            alike.setdefault(key, []).append((label.text(system), duty))
+    rows = []
+    for of in alike.values():
+        duties, sets = [duty for _, duty in of], [duty.stretch.sets for case, duty in of if case == of[0][0]]
+        heaviest = max(of, key=lambda pair: pair[1].limits.load)
+        closest = min(duties, key=lambda duty: duty.distance)  # to resonance
+        rows.append((duties[0], math.fsum(sets), *heaviest, closest, duties))
     columns = (
-        Column("strand", "text", lambda row: row.first.stretch.strand),
-        Column("spacing", "spacing", lambda row: row.first.stretch.spacing),
-        Column("sets", "count", attrgetter("sets")),
-        Column("turning mass of a set", "mass", lambda row: row.first.stretch.set_mass),
-        Column("rotation", "rotation", lambda row: max(one.rotations[1] for one in row.of), page=None),
-        Column("load of a set", "force", lambda row: row.heaviest.limits.load),
-        Column("of the case", "text", attrgetter("case"), page=None),
-        Column("rating", "force", lambda row: row.first.limits.rating, sparse=True),
-        Column("CEMA class", "text", lambda row: row.first.limits.cema_class, sparse=True),
-        Column("least CEMA class", "text", lambda row: row.heaviest.limits.least_class, sparse=True),
-        Column("slope of the axle", "angle", attrgetter("slope"), sparse=True),
-        Column("L10 life of a set", "life", attrgetter("life"), sparse=True),
-        Column("rolls turn at", "swing", lambda row: row.closest.rotations[1]),
-        Column("belt swings from", "swing", lambda row: row.closest.frequencies[0]),
-        Column("belt swings to", "swing", lambda row: row.closest.frequencies[1]),
-        Column("distance from resonance", "share", lambda row: row.closest.distance),
-        Column("in section", "text", lambda row: row.closest.stretch.section),
-        Column("spacing at most, against flap", "spacing",
-               lambda row: min((one.still_spacing for one in row.of if one.still_spacing), default=None), sparse=True),
+        Column("strand", "text", "0.stretch.strand"),
+        Column("spacing", "spacing", "0.stretch.spacing"),
+        Column("sets", "count", "1"),
+        Column("turning mass of a set", "mass", "0.stretch.set_mass"),
+        Column("rotation", "rotation", extreme(max, "5", "rotations.1"), page=None),
+        Column("load of a set", "force", "3.limits.load"),
+        Column("of the case", "text", "2", page=None),
+        Column("rating", "force", "0.limits.rating", sparse=True),
+        Column("CEMA class", "text", "0.limits.cema_class", sparse=True),
+        Column("least CEMA class", "text", "3.limits.least_class", sparse=True),
+        Column("slope of the axle", "angle", extreme(max, "5", "limits.axle.slope"), sparse=True),
+        Column("L10 life of a set", "life", extreme(min, "5", lambda duty: duty.life and duty.life.hours * _HOUR),
+               sparse=True),
+        Column("rolls turn at", "swing", "4.rotations.1"),
+        Column("belt swings from", "swing", "4.frequencies.0"),
+        Column("belt swings to", "swing", "4.frequencies.1"),
+        Column("distance from resonance", "share", "4.distance"),
+        Column("in section", "text", "4.stretch.section"),
+        Column("spacing at most, against flap", "spacing", extreme(min, "5", lambda duty: duty.still_spacing or None),
+               sparse=True),
     )  # fmt: skip
     heading = "Idler sets, the worst of all cases"
     note = (
         "Load with lump_factor and the tension on a raised set. Belt: first natural frequency between two sets in the "
         "section closest to resonance; rolls out of round excite it and twice it; distance 0 where a span is hit."
     )
-    return Table("idler_sets", "Sections", heading, columns, tuple(alike.values()), (OnPage("rolls", heading),),
-                 note if alike else "", named=2)  # fmt: skip
-
-
-class _AlikeSets:
-    """Sets of one strand and spacing in every case."""
-
-    def __init__(self) -> None:
-        self.of: list[SetDuty] = []
-        self.cases: list[str] = []
-
-    def add(self, case: str, duty: SetDuty) -> None:
-        self.cases.append(case)
-        self.of.append(duty)
-
-    @property
-    def first(self) -> SetDuty:
-        return self.of[0]
-
-    @property
-    def sets(self) -> float:
-        """Of one case: each counts once."""
-        first = self.cases[0]
-        return math.fsum(
-            one.stretch.sets for case, one in zip(self.cases, self.of, strict=True) if case == first
-        )
-
-    @property
-    def heaviest(self) -> SetDuty:
-        return max(self.of, key=lambda one: one.limits.load)
-
-    @property
-    def case(self) -> str:
-        return self.cases[self.of.index(self.heaviest)]
-
-    @property
-    def closest(self) -> SetDuty:
-        """To resonance."""
-        return min(self.of, key=lambda one: one.distance)
-
-    @property
-    def slope(self) -> float | None:
-        return max((one.limits.axle.slope for one in self.of if one.limits.axle is not None), default=None)
-
-    @property
-    def life(self) -> float | None:
-        return min((one.life.hours * _HOUR for one in self.of if one.life is not None), default=None)
-
-
-def _of_first(get: Getter) -> Getter:
-    return lambda rows: get(rows[0])
+    return Table("idler_sets", "Sections", heading, columns, rows, "rolls", note, named=2)
 
 
 def _in_words(names: list[str]) -> str:
@@ -603,10 +575,10 @@ def _in_words(names: list[str]) -> str:
 def tensions(a: CalculatedConveyor) -> Table:
     """Tension round the loop in steady running, from the drive back to it."""
     columns = (
-        Column("place", "text", attrgetter("place")),
-        Column("distance from drive", "length", attrgetter("distance")),
-        Column("tension", "force", attrgetter("tension")),
-        Column("minimum tension (sag)", "force", attrgetter("least_for_sag"), key="least_for_sag"),
+        Column("place", "text", "place"),
+        Column("distance from drive", "length", "distance"),
+        Column("tension", "force", "tension"),
+        Column("minimum tension (sag)", "force", "least_for_sag", key="least_for_sag"),
     )
     heading = "Tension round the loop, steady running, from the drive"
     return Table("tensions", "Tensions", heading, columns, a.balance.points, printed=False)
@@ -616,13 +588,13 @@ def profile(a: CalculatedConveyor) -> Table:
     """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
     sections, ends = a.line.sections, boundaries(a.line)
     along = accumulate((section.length for section in sections), initial=0.0)
-    places = loop_plots.places(a.conveyor, a.line)
+    places = analysis_plots.places(a.conveyor, a.line)
     rows = zip(range(len(ends)), ("", *(section.name for section in sections)), along, ends, strict=True)
     columns = (
-        Column("behind section", "text", itemgetter(1)),
-        Column("along the belt", "length", itemgetter(2)),
-        Column("horizontal", "length", lambda row: row[3][0]),
-        Column("height", "length", lambda row: row[3][1]),
+        Column("behind section", "text", "1"),
+        Column("along the belt", "length", "2"),
+        Column("horizontal", "length", "3.0"),
+        Column("height", "length", "3.1"),
         *(
             Column(f"{what} at height", "length", _height_at(at), key=what.replace("-", "_"))
             for what, at in places.items()
@@ -658,13 +630,12 @@ def section_ends(a: CalculatedConveyor) -> Table:
         Column("behind section", "text", place),
         *_of_places(a),
         *(
-            Column(f"{name}{loop_plots.fault(a.line, state)}", "force", _of_end(state), key=slug(name))
+            Column(f"{name}{analysis_plots.fault(a.line, state)}", "force", _of_end(state), key=slug(name))
             for name, state in _states(a).items()
         ),
     )
     heading = "Tension behind every section in every state of motion"
-    page = (OnPage("tensions", heading),)
-    return Table("section_ends", "Tension diagram", heading, columns, rows, page)
+    return Table("section_ends", "Tension diagram", heading, columns, rows, "tensions")
 
 
 def _states(a: CalculatedConveyor) -> dict[str, MotionState]:
@@ -703,13 +674,13 @@ def drives(a: CalculatedConveyor) -> Table:
     """One row a drive and state: force, power, tensions before and behind, grip used."""
     motor, states = a.balance.frame.motor, a.balance.settled.states
     columns = (
-        Column("drive", "text", lambda row: row[0].name),
-        Column("state", "text", lambda row: row[1]),
-        Column("force", "force", lambda row: row[2].force),
+        Column("drive", "text", "0.name"),
+        Column("state", "text", "1"),
+        Column("force", "force", "2.force"),
         Column("motor power at full speed", "power", lambda row: motor(row[2].force)),
-        Column("installed power", "power", lambda row: row[0].power),
-        Column("arriving", "force", lambda row: row[2].arriving),
-        Column("leaving", "force", lambda row: row[2].leaving),
+        Column("installed power", "power", "0.power"),
+        Column("arriving", "force", "2.arriving"),
+        Column("leaving", "force", "2.leaving"),
         Column("tension ratio", "ratio",
                lambda row: math.inf if row[2].slack <= 0.0 else row[2].tight / row[2].slack),
         Column("grip limit", "ratio", lambda row: math.exp(row[0].friction * row[0].wrap_angle)),
@@ -757,8 +728,7 @@ def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> 
             Figure("travel given", "length", duty.unit.travel),
         ]
     note = f"kind: {duty.unit.kind}, governed by: {governed_by.text(a.conveyor.report.units)}{_travel_note(a, duty)}"
-    page = (OnPage("tensions", "Take-up"),)
-    return figures("take_up", "Loop", "Take-up", tuple(rows), page=page, note=note, prefix="take_up_")
+    return figures("take_up", "Loop", "Take-up", rows, page="tensions", note=note, prefix="take_up_")
 
 
 def _travel_note(a: CalculatedConveyor, duty: TakeUpDuty) -> str:
@@ -778,15 +748,15 @@ def conditions(a: CalculatedConveyor) -> Table:
     """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
     settled = a.balance.settled
     columns = (
-        Column("condition", "text", itemgetter(0)),
-        Column("required setting", "force", itemgetter(1), key="setting_it_asks_for"),
+        Column("condition", "text", "0"),
+        Column("required setting", "force", "1", key="setting_it_asks_for"),
         Column("margin", "force", lambda row: settled.setting - row[1]),
     )
     heading, rows = (
         "Governing take-up conditions",
         sorted(settled.conditions.items(), key=lambda item: -item[1]),
     )
-    return Table("tension_conditions", "Loop", heading, columns, tuple(rows), (OnPage("tensions", heading),))
+    return Table("tension_conditions", "Loop", heading, columns, tuple(rows), "tensions")
 
 
 def start_stop(a: CalculatedConveyor) -> Table:
@@ -843,49 +813,43 @@ def brakes(a: CalculatedConveyor) -> Table:
     """Torque and heat of every brake in a stop with the least friction that is certain."""
     whole, heat = math.fsum(a.line.brakes), a.motions.braking_heat
     columns = (
-        Column("drive", "text", attrgetter("name")),
-        Column("brake force", "force", attrgetter("brake")),
+        Column("drive", "text", "name"),
+        Column("brake force", "force", "brake"),
         Column(
             "brake torque at the pulley", "torque", lambda d: None if d.radius is None else d.brake * d.radius
         ),
         Column("heat of a stop", "heat", lambda d: None if heat is None else heat * d.brake / whole),
     )
     rows = tuple(drive for drive in a.line.drives if drive.brake is not None)
-    return Table("brakes", "Loop", "Brakes", columns, rows, (OnPage("start-stop", "Brakes"),))
+    return Table("brakes", "Loop", "Brakes", columns, rows, "start-stop")
 
 
 def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
-    loads = [result.drive_duty for _, result in _loads(a, studies)] if a.drive_duty else []
-    rows = [(own, [every[i] for every in loads]) for i, own in enumerate(a.drive_duty)]
+    every = [result.drive_duty for _, result in loads(a, studies)] if a.drive_duty else []
+    rows = [(own, [duties[i] for duties in every]) for i, own in enumerate(a.drive_duty)]
 
-    def worst(of: Callable[[Iterable[Any]], Any], get: Getter) -> Getter:
-        def result(row: Any) -> float | None:
-            values = [value for duty in row[1] if isinstance(value := get(duty), float)]
-            return of(values) if values else None
-
-        return result
-
+    worst = partial(extreme, path="1")
     motor = a.balance.frame.motor
     columns = (
-        Column("drive", "text", lambda row: row[0].drive.name),
+        Column("drive", "text", "0.drive.name"),
         Column("motors", "count", lambda row: float(row[0].parts.motors), page=None),
-        Column("pulley speed", "rotation", lambda row: row[0].rotation),
-        Column("gear ratio", "ratio", lambda row: row[0].ratio, sparse=True),
-        Column("preferred ratio", "ratio", lambda row: row[0].standard_ratio, sparse=True),
-        Column("gear size", "torque", lambda row: row[0].gear, sparse=True),
-        Column("backstop, holding", "torque", worst(max, attrgetter("holding")), sparse=True),
+        Column("pulley speed", "rotation", "0.rotation"),
+        Column("gear ratio", "ratio", "0.ratio", sparse=True),
+        Column("preferred ratio", "ratio", "0.standard_ratio", sparse=True),
+        Column("gear size", "torque", "0.gear", sparse=True),
+        Column("backstop, holding", "torque", worst(max, get="holding"), sparse=True),
         Column("backstop, motors stalled", "torque",
-               worst(max, lambda duty: None if duty.holding is None else duty.stalled), sparse=True),
+               worst(max, get=lambda duty: None if duty.holding is None else duty.stalled), sparse=True),
         Column("backstop size", "torque",
-               lambda row: None if (most := worst(max, attrgetter("backstop"))(row)) is None else next_preferred(most),
+               lambda row: None if (most := worst(max, get="backstop")(row)) is None else next_preferred(most),
                sparse=True),
-        Column("load at a motor's shaft", "inertia", worst(max, attrgetter("load_inertia")), sparse=True),
-        Column("starts an hour", "ratio", worst(min, attrgetter("allowed_starts")), sparse=True),
-        Column("heat of a stop", "heat", worst(max, attrgetter("heat")), sparse=True),
-        Column("rise of the disc", "rise", worst(max, attrgetter("disc_rise")), sparse=True),
+        Column("load at a motor's shaft", "inertia", worst(max, get="load_inertia"), sparse=True),
+        Column("starts an hour", "ratio", worst(min, get="allowed_starts"), sparse=True),
+        Column("heat of a stop", "heat", worst(max, get="heat"), sparse=True),
+        Column("rise of the disc", "rise", worst(max, get="disc_rise"), sparse=True),
         Column("motor power, uncontrolled", "power",
-               worst(max, lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
+               worst(max, get=lambda duty: None if duty.shared is None else motor(duty.shared)), sparse=True),
     )  # fmt: skip
     note = (
         "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
@@ -893,8 +857,7 @@ def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
         "the belt couples the drives."
     )
     heading = "Parts of the drives, all cases"
-    page = (OnPage("start-stop", heading),)
-    return Table("drive_parts", "Loop", heading, columns, tuple(rows), page, note if rows else "")
+    return Table("drive_parts", "Loop", heading, columns, tuple(rows), "start-stop", note)
 
 
 def belt_strength_table(a: CalculatedConveyor) -> Table:
@@ -921,80 +884,59 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
         Figure("minimum diameter of drive pulleys", "size", duty.drive_diameter,
                key="least_diameter_of_drive_pulleys"),
     )  # fmt: skip
-    page = (OnPage("belt", "Strength of the belt"),)
-    return figures("belt_strength", "Loop", "Strength of the belt", rows, page=page, prefix="belt_")
+    return figures("belt_strength", "Loop", "Strength of the belt", rows, page="belt", prefix="belt_")
 
 
 def pulleys(a: CalculatedConveyor) -> Table:
     """One row a pulley: its diameter beside the least one."""
     columns = (
-        Column("pulley", "text", attrgetter("name")),
-        Column("position", "text", attrgetter("position")),
-        Column("group", "text", attrgetter("group")),
-        Column("utilisation", "share", attrgetter("utilisation"), sparse=True),
-        Column("diameter", "size", attrgetter("diameter")),
-        Column("minimum", "size", attrgetter("least"), key="least"),
-        Column("standard size", "size", attrgetter("next_size"), key="of_the_series"),
-        Column("large enough", "verdict", attrgetter("large_enough")),
+        Column("pulley", "text", "name"),
+        Column("position", "text", "position"),
+        Column("group", "text", "group"),
+        Column("utilisation", "share", "utilisation", sparse=True),
+        Column("diameter", "size", "diameter"),
+        Column("minimum", "size", "least", key="least"),
+        Column("standard size", "size", "next_size", key="of_the_series"),
+        Column("large enough", "verdict", "large_enough"),
     )
-    return Table(
-        "pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), (OnPage("belt", "Pulleys"),)
-    )
-
-
-def _loads(
-    a: CalculatedConveyor, studies: CalculatedStudies | None
-) -> Iterator[tuple[Said, CalculatedConveyor]]:
-    """The conveyor as given, its load cases and its load states, with their names."""
-    yield said(AS_GIVEN), a
-    if studies is not None and studies.cases is not None:
-        yield from ((result.label, result.found) for result in studies.cases.results)
-    if studies is not None and studies.states is not None:
-        yield from studies.states.loads
+    return Table("pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
 
 
 def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
     system = a.conveyor.report.units
-    every = [(label, duty) for label, result in _loads(a, studies) for duty in result.pulley_duty]
+    every = [(label, duty) for label, result in loads(a, studies) for duty in result.pulley_duty]
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
         rows.append((own, *max(of, key=lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
 
-    def extreme(of: Callable[[Iterable[float]], float], get: Getter) -> Getter:
-        def result(row: Any) -> float | None:
-            values = [value for duty in row[3] if (value := get(duty)) is not None]
-            return of(values) if values else None
-
-        return result
-
     columns = (
-        Column("pulley", "text", lambda row: row[0].pulley.name),
+        Column("pulley", "text", "0.pulley.name"),
         Column("driven", "verdict", lambda row: "yes" if row[0].pulley.driven else "no", page=None),
-        Column("diameter", "size", lambda row: row[0].pulley.diameter),
-        Column("wrap", "angle", lambda row: row[0].pulley.wrap_angle, page=None),
-        Column("rotation", "rotation", extreme(max, attrgetter("rotation")), page=None),
-        Column("resultant, steady", "force", lambda row: row[0].steady.resultant, page=None),
-        Column("largest resultant", "force", lambda row: row[2].largest.resultant),
-        Column("in the state", "text", lambda row: row[2].largest.state),
+        Column("diameter", "size", "0.pulley.diameter"),
+        Column("wrap", "angle", "0.pulley.wrap_angle", page=None),
+        Column("rotation", "rotation", extreme(max, "3", "rotation"), page=None),
+        Column("resultant, steady", "force", "0.steady.resultant", page=None),
+        Column("largest resultant", "force", "2.largest.resultant"),
+        Column("in the state", "text", "2.largest.state"),
         Column("of the case", "text", lambda row: row[1].text(system), page=None),
-        Column("largest torque", "torque", extreme(max, attrgetter("torque"))),
-        Column("bending moment at the hub", "torque", extreme(max, attrgetter("moment")), sparse=True, page=None),
-        Column("shaft in the hub", "size", lambda row: row[0].pulley.hub_diameter),
-        Column("minimum shaft in the hub", "size", extreme(max, attrgetter("least_shaft")), sparse=True),
-        Column("slope at the hub", "friction", extreme(max, attrgetter("slope")), sparse=True),
+        Column("largest torque", "torque", extreme(max, "3", "torque")),
+        Column("bending moment at the hub", "torque", extreme(max, "3", "moment"), sparse=True, page=None),
+        Column("shaft in the hub", "size", "0.pulley.hub_diameter"),
+        Column("minimum shaft in the hub", "size", extreme(max, "3", "least_shaft"), sparse=True),
+        Column("slope at the hub", "friction", extreme(max, "3", "slope"), sparse=True),
         Column("safety of the shaft", "ratio",
-               extreme(min, lambda duty: None if duty.safety is None else duty.safety[0]), sparse=True),
-        Column("L10 of a bearing, steady", "life", extreme(min, attrgetter("bearing_seconds")), sparse=True),
-        Column("pressure on the lagging", "pressure", extreme(max, attrgetter("pressure"))),
+               extreme(min, "3", "safety.0"), sparse=True),
+        Column("L10 of a bearing, steady", "life", extreme(min, "3", "bearing_seconds"), sparse=True),
+        Column("pressure on the lagging", "pressure", extreme(max, "3", "pressure")),
     )  # fmt: skip
     note = (
         "Resultant of belt and weight; without pull_angle the weight adds to the pull in full. Shaft after CEMA B105.1 "
         "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are passed in the order listed."
     )
     heading = "Loads of the pulleys, all cases and states"
-    return Table("pulley_loads", "Loop", heading, columns, tuple(rows), (OnPage("belt", heading),), note)
+    return Table("pulley_loads", "Loop", heading, columns, tuple(rows), "belt", note)
 
 
 def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1002,18 +944,18 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
     system = a.conveyor.report.units
     rows = tuple(
         (duty.pulley.name, label.text(system), load)
-        for label, result in _loads(a, studies)
+        for label, result in loads(a, studies)
         for duty in result.pulley_duty
         for load in duty.loads
     )
     columns = (
-        Column("pulley", "text", itemgetter(0)),
-        Column("case", "text", itemgetter(1)),
-        Column("state", "text", lambda row: row[2].state),
-        Column("arriving", "force", lambda row: row[2].arriving),
-        Column("leaving", "force", lambda row: row[2].leaving),
-        Column("resultant", "force", lambda row: row[2].resultant),
-        Column("torque", "torque", lambda row: row[2].torque),
+        Column("pulley", "text", "0"),
+        Column("case", "text", "1"),
+        Column("state", "text", "2.state"),
+        Column("arriving", "force", "2.arriving"),
+        Column("leaving", "force", "2.leaving"),
+        Column("resultant", "force", "2.resultant"),
+        Column("torque", "torque", "2.torque"),
     )
     heading = "Loads of the pulleys in every case and state"
     return Table("pulley_states", "States", heading, columns, rows, printed=False)
@@ -1022,72 +964,63 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
 def vertical_curves(a: CalculatedConveyor) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones."""
     columns = (
-        Column("section", "text", attrgetter("section")),
-        Column("strand", "text", attrgetter("strand")),
-        Column("curve", "text", attrgetter("kind")),
-        Column("radius", "length", attrgetter("radius")),
-        Column("lowest tension", "force", attrgetter("lowest")),
-        Column("highest tension", "force", attrgetter("highest")),
-        Column("minimum against lift-off", "length", attrgetter("lift_off")),
-        Column("minimum against overstress", "length", attrgetter("overstress")),
-        Column("minimum against slack strips", "length", attrgetter("buckling")),
-        Column("highest in a strip", "strength", attrgetter("most")),
-        Column("lowest in a strip", "strength", attrgetter("least")),
+        Column("section", "text", "section"),
+        Column("strand", "text", "strand"),
+        Column("curve", "text", "kind"),
+        Column("radius", "length", "radius"),
+        Column("lowest tension", "force", "lowest"),
+        Column("highest tension", "force", "highest"),
+        Column("minimum against lift-off", "length", "lift_off"),
+        Column("minimum against overstress", "length", "overstress"),
+        Column("minimum against slack strips", "length", "buckling"),
+        Column("highest in a strip", "strength", "most"),
+        Column("lowest in a strip", "strength", "least"),
     )
     rows = tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0)
-    page = (OnPage("belt", "Vertical curves"),)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
-    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, page, note)
+    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, "belt", note)
 
 
 def horizontal_curves(a: CalculatedConveyor) -> Table:
     """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones."""
     columns = (
-        Column("section", "text", attrgetter("section")),
-        Column("strand", "text", attrgetter("strand")),
-        Column("to the", "text", attrgetter("turn.side")),
-        Column("radius", "length", attrgetter("radius")),
-        Column("banking", "angle", attrgetter("turn.banking")),
-        Column("skew", "angle", attrgetter("turn.skew")),
-        Column("drift, steady", "thickness", attrgetter("turn.drift")),
-        Column("farthest inside", "thickness", attrgetter("farthest_in.inside")),
-        Column("farthest outside", "thickness", attrgetter("farthest_out.outside")),
-        Column("room on the rolls", "thickness", attrgetter("turn.room")),
-        Column("minimum against drift", "length", lambda row: max(s.least for s in row.states)),
-        Column("maximum against drift", "length", lambda row: min(s.most for s in row.states)),
+        Column("section", "text", "section"),
+        Column("strand", "text", "strand"),
+        Column("to the", "text", "turn.side"),
+        Column("radius", "length", "radius"),
+        Column("banking", "angle", "turn.banking"),
+        Column("skew", "angle", "turn.skew"),
+        Column("drift, steady", "thickness", "turn.drift"),
+        Column("farthest inside", "thickness", "farthest_in.inside"),
+        Column("farthest outside", "thickness", "farthest_out.outside"),
+        Column("room on the rolls", "thickness", "turn.room"),
+        Column("minimum against drift", "length", extreme(max, "states", "least")),
+        Column("maximum against drift", "length", extreme(min, "states", "most")),
     )
     note = (
         "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
         "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. ∞: the belt runs off "
         "its rolls, or no radius is too large."
     )
-    page = (OnPage("belt", "Horizontal curves"),)
-    return Table(
-        "horizontal_curves",
-        "Loop",
-        "Horizontal curves",
-        columns,
-        a.horizontal,
-        page,
-        note if a.horizontal else "",
-    )
+    heading = "Horizontal curves"
+    return Table("horizontal_curves", "Loop", heading, columns, a.horizontal, "belt", note)
 
 
 def curve_edges(a: CalculatedConveyor) -> Table:
     """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
     columns = (
-        Column("section", "text", attrgetter("section")),
-        Column("strand", "text", attrgetter("strand")),
-        Column("radius", "length", attrgetter("radius")),
-        Column("minimum against overstress", "length", attrgetter("overstress")),
-        Column("minimum against a slack edge", "length", attrgetter("buckling")),
-        Column("highest at the outer edge", "strength", attrgetter("most")),
-        Column("lowest at the inner edge", "strength", attrgetter("least")),
+        Column("section", "text", "section"),
+        Column("strand", "text", "strand"),
+        Column("radius", "length", "radius"),
+        Column("minimum against overstress", "length", "overstress"),
+        Column("minimum against a slack edge", "length", "buckling"),
+        Column("highest at the outer edge", "strength", "most"),
+        Column("lowest at the inner edge", "strength", "least"),
     )
     rows = tuple(curve for curve in a.horizontal if curve.most is not None)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
     heading = "Edges of the belt in horizontal curves"
-    return Table("curve_edges", "Loop", heading, columns, rows, (OnPage("belt", heading),), note)
+    return Table("curve_edges", "Loop", heading, columns, rows, "belt", note)
 
 
 def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1095,21 +1028,21 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     system = a.conveyor.report.units
     rows = tuple(
         (bend, label.text(system), state)
-        for label, result in (_loads(a, studies) if a.horizontal else ())
+        for label, result in (loads(a, studies) if a.horizontal else ())
         for bend in result.horizontal
         for state in bend.states
     )
     columns = (
-        Column("section", "text", lambda row: row[0].section),
-        Column("strand", "text", lambda row: row[0].strand),
-        Column("case", "text", itemgetter(1)),
-        Column("state", "text", lambda row: row[2].state),
-        Column("lowest tension", "force", lambda row: row[2].lowest),
-        Column("highest tension", "force", lambda row: row[2].highest),
-        Column("farthest inside", "thickness", lambda row: row[2].inside),
-        Column("farthest outside", "thickness", lambda row: row[2].outside),
-        Column("minimum against drift", "length", lambda row: row[2].least),
-        Column("maximum against drift", "length", lambda row: row[2].most),
+        Column("section", "text", "0.section"),
+        Column("strand", "text", "0.strand"),
+        Column("case", "text", "1"),
+        Column("state", "text", "2.state"),
+        Column("lowest tension", "force", "2.lowest"),
+        Column("highest tension", "force", "2.highest"),
+        Column("farthest inside", "thickness", "2.inside"),
+        Column("farthest outside", "thickness", "2.outside"),
+        Column("minimum against drift", "length", "2.least"),
+        Column("maximum against drift", "length", "2.most"),
     )
     heading = "Drift in horizontal curves in every case and state"
     return Table("drift_states", "States", heading, columns, rows, printed=False)
@@ -1118,16 +1051,16 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
 def transitions(a: CalculatedConveyor) -> Table:
     """One row a transition that the spec gives: its length beside the least ones, tensions of its strips."""
     columns = (
-        Column("end", "text", attrgetter("zone.end")),
-        Column("pulley over depth of trough", "share", attrgetter("zone.pulley_height")),
-        Column("length", "spacing", attrgetter("zone.length")),
-        Column("minimum against overstress", "spacing", attrgetter("stretched")),
-        Column("minimum against slack strips", "spacing", attrgetter("slackened")),
-        Column("lowest tension per width", "strength", attrgetter("lowest")),
-        Column("highest tension per width", "strength", attrgetter("highest")),
-        Column("highest in a strip", "strength", attrgetter("most")),
-        Column("allowed in a strip", "strength", attrgetter("allowed")),
-        Column("lowest in a strip", "strength", attrgetter("least")),
+        Column("end", "text", "zone.end"),
+        Column("pulley over depth of trough", "share", "zone.pulley_height"),
+        Column("length", "spacing", "zone.length"),
+        Column("minimum against overstress", "spacing", "stretched"),
+        Column("minimum against slack strips", "spacing", "slackened"),
+        Column("lowest tension per width", "strength", "lowest"),
+        Column("highest tension per width", "strength", "highest"),
+        Column("highest in a strip", "strength", "most"),
+        Column("allowed in a strip", "strength", "allowed"),
+        Column("lowest in a strip", "strength", "least"),
     )
     heading = "Transitions between trough and pulley"
     note = (
@@ -1139,9 +1072,7 @@ def transitions(a: CalculatedConveyor) -> Table:
     note += "".join(
         f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
     )
-    return Table(
-        "transitions", "Loop", heading, columns, a.belt_duty.transitions, (OnPage("belt", heading),), note
-    )
+    return Table("transitions", "Loop", heading, columns, a.belt_duty.transitions, "belt", note)
 
 
 def convergence(a: CalculatedConveyor) -> Table:
@@ -1163,49 +1094,42 @@ def _contacts(a: CalculatedConveyor) -> dict[Any, Any]:
     return {curve: r for r in a.stretches for roll in r.rolls for curve in roll.curve.solved}
 
 
-def _tension(contact: Callable[[Any], RollContact], a: CalculatedConveyor) -> tuple[Column, ...]:
-    """T - m' V² per width that contacts on a belt that gives were solved at."""
-    if not isinstance(a.contacts, BeltContacts):
-        return ()
-    return (Column("effective tension", "line force", lambda row: contact(row).pull),)
-
-
 def belt_support(a: CalculatedConveyor) -> Table:
     """What the give of the belt changes and where its loss goes, one row a strand; empty on a stiff carcass."""
     columns = (
-        Column("strand", "text", attrgetter("strand")),
-        Column("lowest effective tension", "line force", lambda row: row.tensions[0]),
-        Column("mean effective tension", "line force", lambda row: row.tensions[1]),
-        Column("highest effective tension", "line force", lambda row: row.tensions[2]),
-        Column("indentation on a stiff carcass", "force", attrgetter("confined")),
-        Column("indentation on the belt", "force", attrgetter("force")),
-        Column("change by the give", "share", attrgetter("change")),
+        Column("strand", "text", "strand"),
+        Column("lowest effective tension", "line force", "tensions.0"),
+        Column("mean effective tension", "line force", "tensions.1"),
+        Column("highest effective tension", "line force", "tensions.2"),
+        Column("indentation on a stiff carcass", "force", "confined"),
+        Column("indentation on the belt", "force", "force"),
+        Column("change by the give", "share", "change"),
         Column("loss in the cover on the rolls", "share", lambda row: row.shares.get("bottom_cover")),
         Column("loss in the other cover", "share", lambda row: row.shares.get("top_cover")),
         Column("loss in the carcass", "share", lambda row: row.shares.get("carcass")),
     )
     rows = a.contacts.gives if isinstance(a.contacts, BeltContacts) else ()
     heading = "Effect of belt compliance, and shares of the loss"
-    page = (OnPage("rolls", heading),)
-    return Table("belt_support", "Indentation", heading, columns, rows, page)
+    return Table("belt_support", "Indentation", heading, columns, rows, "rolls")
 
 
 def contact_solutions(a: CalculatedConveyor) -> Table:
     """One row a distinct contact: its range of loads, what the curve cost, its errors."""
+    gives = isinstance(a.contacts, BeltContacts)  # its contacts are solved at T - m' V² per width
     columns = (
-        Column("strand", "text", lambda row: row[1].stretch.strand),
+        Column("strand", "text", "1.stretch.strand"),
         Column("roll", "size", lambda row: 2.0 * row[0].contact.radius),
-        Column("spacing", "spacing", lambda row: row[0].contact.spacing),
-        Column("cover", "size", lambda row: row[0].contact.cover_thickness),
-        *_tension(lambda row: row[0].contact, a),
-        Column("lowest load", "line force", lambda row: row[0].lowest),
-        Column("highest load", "line force", lambda row: row[0].highest),
-        Column("order", "count", lambda row: row[0].stats.order),
-        Column("matrices", "count", lambda row: row[0].stats.matrices),
-        Column("nodes", "count", lambda row: row[0].stats.nodes),
-        Column("retardation terms", "count", lambda row: row[0].stats.terms),
-        Column("error estimate", "error", lambda row: row[0].error),
-        Column("energy error", "error", lambda row: row[0].energy_error),
+        Column("spacing", "spacing", "0.contact.spacing"),
+        Column("cover", "size", "0.contact.cover_thickness"),
+        *((Column("effective tension", "line force", "0.contact.pull"),) if gives else ()),
+        Column("lowest load", "line force", "0.lowest"),
+        Column("highest load", "line force", "0.highest"),
+        Column("order", "count", "0.stats.order"),
+        Column("matrices", "count", "0.stats.matrices"),
+        Column("nodes", "count", "0.stats.nodes"),
+        Column("retardation terms", "count", "0.stats.terms"),
+        Column("error estimate", "error", "0.error"),
+        Column("energy error", "error", "0.energy_error"),
     )
     heading, caption = (
         "Contacts, one a distinct roll, cover and spacing",
@@ -1236,12 +1160,12 @@ def indentation(a: CalculatedConveyor) -> Table:
         columns = (loads, resistance, solved.half_width, solved.peak_pressure)
         rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
     declared = (
-        Column("contact", "text", itemgetter(0)),
-        Column("line load", "line force", itemgetter(1)),
-        Column("indentation", "line force", itemgetter(2)),
+        Column("contact", "text", "0"),
+        Column("line load", "line force", "1"),
+        Column("indentation", "line force", "2"),
         Column("friction", "friction", lambda row: row[2] / row[1]),
-        Column("half width", "thickness", itemgetter(3)),
-        Column("peak pressure", "pressure", itemgetter(4)),
+        Column("half width", "thickness", "3"),
+        Column("peak pressure", "pressure", "4"),
     )
     heading = "Indentation against line load, one block a contact"
     return Table("indentation", "Indentation", heading, declared, tuple(rows), printed=False)
@@ -1256,14 +1180,14 @@ def rubber(a: CalculatedConveyor) -> Table:
         rows.append((strand, compound, band or (None, None), data or (None, None), strain))
     contacts = a.contacts
     columns = (
-        Column("strand", "text", itemgetter(0), json="strand"),
-        Column("compound", "text", lambda row: row[1].name, json="compound"),
-        Column("kind", "text", lambda row: row[1].kind),
+        Column("strand", "text", "0", json="strand"),
+        Column("compound", "text", "1.name", json="compound"),
+        Column("kind", "text", "1.kind"),
         Column("temperature", "temperature", lambda _: at, json="temperature_degC"),
-        *bands(lambda row: row[2], lambda row: row[3]),
+        *bands("2", "3"),
         Column("", "text", lambda row: list(row[2]), page=None, sheet=False, json="excited_Hz", key="excited"),
         Column("", "text", lambda row: list(row[3]), page=None, sheet=False, json="data_Hz", key="data"),
-        Column("working strain", "share", lambda row: row[4] and row[4].strain, json="working_strain"),
+        Column("working strain", "share", "4.strain", json="working_strain"),
         Column("E' factor of strain", "factor",
                lambda row: 1.0 if row[4] is None else row[4].storage_factor, json="storage_factor",
                key="storage_factor"),
@@ -1274,10 +1198,8 @@ def rubber(a: CalculatedConveyor) -> Table:
         Column("level from", "factor", lambda row: _level_end(contacts, row[0], -1.0), json="level_from"),
         Column("level to", "factor", lambda row: _level_end(contacts, row[0], 1.0), json="level_to"),
     )  # fmt: skip
-    page = (OnPage("rubber", "Rubber excitation band, working strain and level"),)
-    return Table(
-        "rubber", "Rubber", "Rubber excitation band, working strain and level", columns, tuple(rows), page
-    )
+    heading = "Rubber excitation band, working strain and level"
+    return Table("rubber", "Rubber", heading, columns, rows, "rubber")
 
 
 def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
@@ -1287,25 +1209,18 @@ def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
     return contacts.level_factor(strand) * math.exp(sign * contacts.level_band(strand))
 
 
-def bands(excited: Getter, data: Getter) -> Iterator[Column]:
+def bands(excited: str, data: str) -> Iterator[Column]:
     """What the rolls excite and what the data hold: numbers in workbook and files, bands in words on the page."""
-    for name, kind, get in (("excited", "passing", excited), ("data", "frequency", data)):
-        yield Column(f"{name} from", kind, _end(get, 0), page=None)
-        yield Column(f"{name} to", kind, _end(get, 1), page=None)
-    for name, get in (("excitation band", excited), ("band of the data", data)):
-        yield Column(name, "frequency", _words(get), sheet=False)
+    for name, kind, path in (("excited", "passing", excited), ("data", "frequency", data)):
+        yield Column(f"{name} from", kind, f"{path}.0", page=None)
+        yield Column(f"{name} to", kind, f"{path}.1", page=None)
+    yield Column("excitation band", "frequency", _in_hertz, sheet=False).of(excited)
+    yield Column("band of the data", "frequency", _in_hertz, sheet=False).of(data)
 
 
-def _end(get: Getter, i: int) -> Getter:
-    return lambda row: get(row)[i]
-
-
-def _words(get: Getter) -> Getter:
-    def words(row: Any) -> str | None:
-        low, high = get(row)
-        return None if low is None or high is None else band_words((low, high)).removesuffix(" Hz")
-
-    return words
+def _in_hertz(band: tuple[float | None, float | None] | None) -> str | None:
+    low, high = band or (None, None)
+    return None if low is None or high is None else band_words((low, high)).removesuffix(" Hz")
 
 
 def compounds(a: CalculatedConveyor, system: System) -> Iterator[Table]:
@@ -1345,7 +1260,7 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
          f"{share.converted(fit.storage_rms)}, {share.converted(fit.loss_rms)}"),
         ("unknown", "; ".join(compound.missing) or "nothing listed"),
     )  # fmt: skip
-    columns = (Column("fact", "text", itemgetter(0)), Column("value", "text", itemgetter(1)))
+    columns = (Column("fact", "text", "0"), Column("value", "text", "1"))
     rows = tuple((name, degrees(words)) for name, words in said if words)
     page = (OnPage("rubber", f"What is known of {compound.name}", printed=False),)
     return Table(f"known_{strand}", "", f"{compound.name} ({compound.kind})", columns, rows, page)
@@ -1355,9 +1270,9 @@ def _prony(compound: RubberCompound, strand: str, at: float) -> Table:
     """Terms of a compound's relaxation spectrum, at the reference and at a temperature [K]."""
     reference = compound.series_at_reference
     columns = (
-        Column("modulus", "pressure", itemgetter(0)),
-        Column("time at reference", "time", itemgetter(1)),
-        Column("time at belt temperature", "time", itemgetter(2)),
+        Column("modulus", "pressure", "0"),
+        Column("time at reference", "time", "1"),
+        Column("time at belt temperature", "time", "2"),
     )
     values = (reference.moduli, reference.times, compound.series(at).times)
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
@@ -1370,10 +1285,10 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
     series, omega = compound.series(at), 2.0 * np.pi * frequency
     values = (frequency, series.storage(omega), series.loss(omega), series.tan_delta(omega))
     columns = (
-        Column("frequency", "frequency", itemgetter(0)),
-        Column("E'", "pressure", itemgetter(1), key="storage"),
-        Column("E''", "pressure", itemgetter(2), key="loss"),
-        Column("tan delta", "friction", itemgetter(3)),
+        Column("frequency", "frequency", "0"),
+        Column("E'", "pressure", "1", key="storage"),
+        Column("E''", "pressure", "2", key="loss"),
+        Column("tan delta", "friction", "3"),
     )
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
     return Table(
@@ -1402,13 +1317,13 @@ class CheckRow(NamedTuple):
 
 
 _CHECK: Final = (
-    Column("check", "text", attrgetter("subject")),
-    Column("calculated", "text", attrgetter("found"), key="found"),
-    Column("required", "text", attrgetter("asked"), key="asked"),
-    Column("margin", "margin", attrgetter("margin")),
+    Column("check", "text", "subject"),
+    Column("calculated", "text", "found", key="found"),
+    Column("required", "text", "asked", key="asked"),
+    Column("margin", "margin", "margin"),
 )
-_OF_CASE: Final = Column("case", "text", attrgetter("case"))
-_VERDICT: Final = Column("verdict", "verdict", attrgetter("verdict"))
+_OF_CASE: Final = Column("case", "text", "case")
+_VERDICT: Final = Column("verdict", "verdict", "verdict")
 
 
 def checked(checks: tuple[Check, ...], system: System) -> Table:
@@ -1425,44 +1340,22 @@ def checked(checks: tuple[Check, ...], system: System) -> Table:
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
     """Every criterion in every load case; those that fail on the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
-    columns, caption = (_OF_CASE, *_CHECK, _VERDICT), "Failed checks by case"
-    yield Table(
-        "case_checks",
-        "Case checks",
-        "Every criterion in every load case",
-        columns,
-        rows,
-        named=2,
-        printed=False,
-    )
+    columns, heading = (_OF_CASE, *_CHECK, _VERDICT), "Every criterion in every load case"
+    yield Table("case_checks", "Case checks", heading, columns, rows, named=2, printed=False)
     failed = tuple(row for row in rows if row.verdict == "FAIL")
-    yield Table("case_failures", "", caption, columns, failed, (OnPage("load-cases", caption),), named=2)
-
-
-class Remark(tuple[str, str]):
-    """A remark: its kind and its text."""
-
-    __slots__ = ()
-    kind = property(itemgetter(0))
-    text = property(itemgetter(1))
+    yield Table("case_failures", "", "Failed checks by case", columns, failed, "load-cases", named=2)
 
 
 def remarks(
     a: CalculatedConveyor, checks: tuple[Check, ...], system: System, further: tuple[str, ...] = ()
 ) -> Table:
     """Warnings, method, assumptions, and the notes of the spec."""
-    columns = (
-        Column("kind", "text", attrgetter("kind")),
-        Column("text", "text", attrgetter("text")),
-    )
-    notes = [line for line in (a.conveyor.notes or "").splitlines() if line.strip()]
-    warned = [line.text(system) for line in warnings(a, checks)]
-    said = {
-        "warning": warned, "method": method(a), "assumption": (*assumptions(a.conveyor), *further),
-        "note of the spec": notes,
-    }  # fmt: skip
-    rows = tuple(Remark((kind, line)) for kind, lines in said.items() for line in lines)
-    return Table("remarks", "Checks and notes", "Remarks", columns, rows)
+    return noted({
+        "warning": [line.text(system) for line in warnings(a, checks)],
+        "method": method(a),
+        "assumption": (*assumptions(a.conveyor), *further),
+        "note of the spec": [line for line in (a.conveyor.notes or "").splitlines() if line.strip()],
+    })  # fmt: skip
 
 
 def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
@@ -1473,10 +1366,7 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
         "python": platform.python_version(),
         **{name: version(name) for name in _VERSIONED},
     }
-    columns = (
-        Column("made by", "text", itemgetter(0)),
-        Column("version", "text", itemgetter(1)),
-    )
+    columns = (Column("made by", "text", "0"), Column("version", "text", "1"))
     page = (OnPage("provenance", "What made these figures", printed=False),)
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
@@ -1495,13 +1385,13 @@ def drawings(
     yield Drawing(
         "profile",
         "Profile of the route from the tail, with feeding points, drives and take-up.",
-        lambda: loop_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
+        lambda: analysis_plots.route_profile(conveyor, a.line, boundaries(a.line), system=system),
         "key-figures",
     )
     yield Drawing(
         "tensions",
         "Tension round the loop in every state, from the head along the return strand and back.",
-        lambda: loop_plots.tension_diagram(a.balance, a.motions, system=system),
+        lambda: analysis_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
     yield from of_discharge(a, system)
@@ -1509,16 +1399,16 @@ def drawings(
         yield Drawing(
             "plan",
             "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
-            lambda: loop_plots.plan(a.line, system=system),
+            lambda: analysis_plots.plan(a.line, system=system),
             "sections",
         )
         yield Drawing(
             "drift",
             "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
-            lambda: loop_plots.drift(
+            lambda: analysis_plots.drift(
                 [
                     (label.text(system).removeprefix("load state "), result.horizontal)
-                    for label, result in _loads(a, studies)
+                    for label, result in loads(a, studies)
                 ],
                 system=system,
             ),
@@ -1535,7 +1425,7 @@ def drawings(
             "flap",
             "Natural frequencies of the belt between the idlers in steady running, and rotation of the rolls with the "
             "distance wanted.",
-            lambda: loop_plots.flap_diagram(a, system=system),
+            lambda: analysis_plots.flap_diagram(a, system=system),
             "idler_sets",
         )
     strands = compounds_by_strand(conveyor)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from itertools import zip_longest
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, OnPage, Table, figures
-from conveyor.report.plots import colour, keyed, stacked, titled
+from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, at, figures
+from conveyor.report.plots import colour, finished, stacked
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -39,44 +38,37 @@ def _asked(landing: Landing) -> bool:
 def landings(a: CalculatedConveyor) -> Table:
     """A column a loading point: skirtboards beside what they need, impact beside what the sets bear."""
     shown = tuple(each for each in a.landings if _asked(each))
-    figures_of = (
-        ("mass flow", "mass flow", attrgetter("point.flow")),
-        ("length of acceleration", "spacing", attrgetter("acceleration")),
-        ("usual skirtboards", "spacing", attrgetter("usual_skirts")),
-        ("skirtboards", "spacing", attrgetter("point.skirtboards")),
-        ("drop height", "spacing", attrgetter("point.drop_height")),
-        ("resting on a set", "force", attrgetter("resting")),
-        ("impact of the stream", "force", attrgetter("stream")),
-        ("impact of the lump", "force", attrgetter("lump")),
-        ("load of a set", "force", attrgetter("load")),
-        ("a set bears", "force", attrgetter("point.idler_rating")),
-        ("impact bed for the lump", "text", attrgetter("bed")),
+    every = (
+        ("mass flow", "mass flow", "point.flow"),
+        ("length of acceleration", "spacing", "acceleration"),
+        ("usual skirtboards", "spacing", "usual_skirts"),
+        ("skirtboards", "spacing", "point.skirtboards"),
+        ("drop height", "spacing", "point.drop_height"),
+        ("resting on a set", "force", "resting"),
+        ("impact of the stream", "force", "stream"),
+        ("impact of the lump", "force", "lump"),
+        ("load of a set", "force", "load"),
+        ("a set bears", "force", "point.idler_rating"),
+        ("impact bed for the lump", "text", "bed"),
     )
+    points = [each.point.name.removeprefix(", ") or each.point.place for each in shown]
+    values = "value" if len(shown) == 1 else "value.{}"
     columns = (
-        Column("quantity", NAMED, attrgetter("label")),
-        *(
-            Column(
-                each.point.name.removeprefix(", ") or each.point.place, OF_ROW, _of_point(i), key=f"point_{i}"
-            )
-            for i, each in enumerate(shown)
-        ),
+        Column("quantity", NAMED, "label"),
+        *(Column(name, OF_ROW, values.format(i), key=f"point_{i}") for i, name in enumerate(points)),
     )
-    every = [(label, kind, tuple(get(each) for each in shown)) for label, kind, get in figures_of]
+    found = [(label, kind, tuple(map(at(path), shown))) for label, kind, path in every]
     known = tuple(
-        Figure(label, kind, values if len(shown) > 1 else values[0])
-        for label, kind, values in every
-        if any(value is not None for value in values)
+        Figure(label, kind, each if len(shown) > 1 else each[0])
+        for label, kind, each in found
+        if any(value is not None for value in each)
     )
     heading = "Loading points"
     note = (
         "Stream: its momentum; lump: energy on the spring under it, without loss; the larger one falls on one set. "
         "Usual skirtboards and classes of impact beds: CEMA, general knowledge."
     )
-    return Table("landings", SHEET, heading, columns, known, (OnPage(_PAGE, heading),), note)
-
-
-def _of_point(i: int) -> Any:
-    return lambda row: row.value[i] if isinstance(row.value, tuple) else row.value
+    return Table("landings", SHEET, heading, columns, known, _PAGE, note)
 
 
 def cleaners(a: CalculatedConveyor) -> Table:
@@ -84,17 +76,17 @@ def cleaners(a: CalculatedConveyor) -> Table:
     columns = (
         Column("cleaner", "text", lambda row: row[1].scraper.kind or f"cleaner {row[0]}"),
         Column("count", "count", lambda row: float(row[1].scraper.count)),
-        Column("width of the blade", "size", lambda row: row[1].scraper.width),
-        Column("drag of one", "force", lambda row: row[1].drag),
-        Column("efficiency of one", "share", lambda row: row[1].scraper.efficiency),
-        Column("left on the belt", "area mass", lambda row: row[1].left),
-        Column("carried back", "carryback", lambda row: row[1].lost),
+        Column("width of the blade", "size", "1.scraper.width"),
+        Column("drag of one", "force", "1.drag"),
+        Column("efficiency of one", "share", "1.scraper.efficiency"),
+        Column("left on the belt", "area mass", "1.left"),
+        Column("carried back", "carryback", "1.lost"),
     )
     given = a.line.carryback[0] is not None
     rows = tuple(enumerate(a.cleanings, start=1)) if given else ()
     note = "Every cleaner takes the same share of what reaches it; over the width of its blade."
     heading = "Cleaners"
-    return Table("cleaners", SHEET, heading, columns, rows, (OnPage(_PAGE, heading),), note)
+    return Table("cleaners", SHEET, heading, columns, rows, _PAGE, note)
 
 
 def discharge(a: CalculatedConveyor) -> Table:
@@ -126,9 +118,7 @@ def discharge(a: CalculatedConveyor) -> Table:
         )  # fmt: skip
     note = "" if stream is None else _way(stream)
     heading = "Discharge over the head pulley"
-    return figures(
-        "discharge", SHEET, heading, rows, page=(OnPage(_PAGE, heading),), note=note, prefix="discharge_"
-    )
+    return figures("discharge", SHEET, heading, rows, page=_PAGE, note=note, prefix="discharge_")
 
 
 def _way(stream: Trajectory) -> str:
@@ -182,10 +172,7 @@ def pulley_outline(a: CalculatedConveyor) -> Table:
     rows: tuple[tuple[float, ...], ...] = ()
     if stream is not None:
         rows = tuple(zip(*(axis.tolist() for axis in _outline(stream)), strict=True))
-    columns = (
-        Column("belt, forward", "spacing", lambda row: row[0]),
-        Column("belt, up", "spacing", lambda row: row[1]),
-    )
+    columns = (Column("belt, forward", "spacing", "0"), Column("belt, up", "spacing", "1"))
     return Table("pulley_outline", SHEET, "Belt round the head pulley", columns, rows, printed=False)
 
 
@@ -226,7 +213,5 @@ def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
         length(booth.across), length(booth.up), color=colour(1), linestyle="--", label="lower edge (Booth)"
     )
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set(xlabel=length.beside("forward of the axis"), ylabel=length.beside("over the axis"))
-    titled(sheet, "Discharge over the head pulley")
-    keyed(axis)
-    return sheet
+    across, up = length.beside("forward of the axis"), length.beside("over the axis")
+    return finished(sheet, across, up, "Discharge over the head pulley")

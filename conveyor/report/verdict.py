@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 from conveyor.checks import Check, leading
@@ -38,24 +37,21 @@ class GoverningRow(NamedTuple):
     where: str
 
 
-class _Load(NamedTuple):
+class Load(NamedTuple):
+    """What the conveyor is calculated for, in words, and the result."""
+
     case: Said
     found: CalculatedConveyor
 
 
-def _loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[_Load]:
-    yield _Load(said(AS_GIVEN), a)
-    if studies is None:
-        return
-    if studies.cases is not None:
-        yield from (_Load(result.label, result.found) for result in studies.cases.results if result.covered)
-    if studies.states is not None:
-        own = studies.states.own
-        yield from (
-            _Load(state.case, replace(own, temperature=state.temperature, balance=state.balance))
-            for state in studies.states.states
-            if state.balance is not own.balance
-        )
+def loads(
+    a: CalculatedConveyor, studies: CalculatedStudies | None, *, covered: bool = False
+) -> Iterator[Load]:
+    """The conveyor as given, its load cases and its load states; `covered`: only what the rubber's data cover."""
+    yield Load(said(AS_GIVEN), a)
+    cases = () if studies is None or studies.cases is None else studies.cases.results
+    yield from (Load(case.label, case.found) for case in cases if case.covered or not covered)
+    yield from (Load(*load) for load in (studies.states.loads if studies and studies.states else ()))
 
 
 def _asked(result: CalculatedConveyor) -> float:
@@ -65,7 +61,7 @@ def _asked(result: CalculatedConveyor) -> float:
 
 def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
     """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
-    return max((_asked(load.found) for load in _loads(a, studies)), key=abs)
+    return max((_asked(load.found) for load in loads(a, studies, covered=True)), key=abs)
 
 
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
@@ -85,24 +81,21 @@ def governing_figures(
     governing: Sequence[Check],
     take_up: tuple[TakeUpDuty, Said],
     left_open: PowerRange,
-) -> tuple[Table, str]:
+) -> Table:
     """What governs the design, over all calculated loads, and the verdict in a sentence."""
-    system = a.conveyor.report.units
-    loads = list(_loads(a, studies))
     columns = (
-        Column("what governs", "text", lambda row: row.subject, key="subject"),
-        Column("value", "text", lambda row: row.value),
-        Column("where and when", "text", lambda row: row.where, key="where"),
+        Column("what governs", "text", "subject", key="subject"),
+        Column("value", "text", "value"),
+        Column("where and when", "text", "where", key="where"),
     )
-    rows = tuple(_rows(a, studies, loads, governing, take_up, left_open))
-    heading = "What governs the design"
-    return Table("governing_figures", "", heading, columns, rows), sentence(governing, system)
+    rows = tuple(_rows(a, studies, governing, take_up, left_open))
+    note = sentence(governing, a.conveyor.report.units)
+    return Table("governing_figures", "", "What governs the design", columns, rows, note=note)
 
 
-def _rows(  # noqa: PLR0917 one line of the first page each
+def _rows(
     a: CalculatedConveyor,
     studies: CalculatedStudies | None,
-    loads: list[_Load],
     governing: Sequence[Check],
     take_up: tuple[TakeUpDuty, Said],
     left_open: PowerRange,
@@ -111,7 +104,8 @@ def _rows(  # noqa: PLR0917 one line of the first page each
     power, force, mass, length = (
         unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
-    case, most = max(((load.case, _asked(load.found)) for load in loads), key=lambda pair: abs(pair[1]))
+    every = list(loads(a, studies, covered=True))
+    case, most = max(((load.case, _asked(load.found)) for load in every), key=lambda pair: abs(pair[1]))
     braking = ", braking" if most < 0.0 else ""
     yield GoverningRow("maximum motor power", power.short(abs(most)) + braking, case.text(system))
     where = figure(a.temperature, "temperature", system)
@@ -133,7 +127,7 @@ def _rows(  # noqa: PLR0917 one line of the first page each
     sized += [] if duty.travel is None else [f"travel {length.short(duty.travel.whole)}"]
     asked = f"required by {asks.text(system)}"
     yield GoverningRow(f"take-up, {duty.unit.kind}", force.short(duty.setting), "; ".join([*sized, asked]))
-    states = [(load, state) for load in loads for state in load.found.every_state]
+    states = [(load, state) for load in every for state in load.found.every_state]
     largest = max(states, key=lambda pair: pair[1].largest)
     smallest = min(states, key=lambda pair: pair[1].smallest)
     for name, (load, state), newtons in (

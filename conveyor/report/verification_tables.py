@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from importlib.metadata import version
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.models import Report
-from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table
-from conveyor.report.tables import Remark
+from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table, noted
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -42,15 +40,9 @@ def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
     title = f"Rolling resistance of {names}"
     report = Report() if sheet.conveyor is None else sheet.conveyor.report
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
-    parts = (what(sheet), to_fill_in(), per_width(sheet, system), per_set(sheet))
-    return Contents(about, tuple(part for part in parts if not part.empty), system)
-
-
-def what(sheet: CalculatedVerification) -> Table:
-    """What the figures are and rest on, a line each."""
-    columns = (Column("kind", "text", attrgetter("kind")), Column("text", "text", attrgetter("text")))
-    rows = tuple(Remark(("assumption", line)) for line in lines(sheet))
-    return Table("remarks", ABOUT, "What these figures are", columns, rows)
+    what = noted({"assumption": lines(sheet)}, ABOUT, "What these figures are")
+    parts = (what, to_fill_in(), per_width(sheet, system), per_set(sheet))
+    return Contents(about, parts, system, page=PARTS, layout="verification")
 
 
 def lines(sheet: CalculatedVerification) -> Iterator[str]:
@@ -95,8 +87,9 @@ def to_fill_in() -> Table:
         Column("of the test", "text", lambda row: row),
         Column("maker", "text", lambda _: None, asked=True),
     )
-    page = (OnPage("to-fill-in", "Of the test"),)
-    return Table("to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, page)
+    return Table(
+        "to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, (OnPage("to-fill-in", "Of the test"),)
+    )
 
 
 def per_width(sheet: CalculatedVerification, system: System) -> Table:
@@ -106,41 +99,35 @@ def per_width(sheet: CalculatedVerification, system: System) -> Table:
     for k, load in enumerate(sheet.line_loads):
         said = f"{strength.shown(load):.4g} {strength.sign}"
         pairs += [
-            Column(f"at {said}, ours", "line force", _resistance(k), key=f"ours_{k + 1}"),
+            Column(f"at {said}, ours", "line force", f"resistances.{k}", key=f"ours_{k + 1}"),
             Column("maker", "line force", lambda _: None, asked=True, key=f"maker_{k + 1}"),
         ]
     columns = (
-        Column("compound", "text", attrgetter("compound")),
-        Column("cover", "size", attrgetter("cover")),
-        Column("roll", "size", attrgetter("diameter")),
-        Column("belt speed", "speed", attrgetter("speed"), key="speed"),
-        Column("temperature", "temperature", attrgetter("temperature")),
+        Column("compound", "text", "compound"),
+        Column("cover", "size", "cover"),
+        Column("roll", "size", "diameter"),
+        Column("belt speed", "speed", "speed", key="speed"),
+        Column("temperature", "temperature", "temperature"),
         *pairs,
         Column("no figure because", "text", lambda row: row.reason or None, sparse=True),
     )
     heading = "Indentation resistance per width under line loads"
-    page = (OnPage("per-width", heading),)
-    return Table("per_width", PER_WIDTH, heading, columns, sheet.rows, page, named=5)
-
-
-def _resistance(k: int) -> Callable[[Any], Any]:
-    return lambda row: row.resistances[k]
+    return Table("per_width", PER_WIDTH, heading, columns, sheet.rows, "per-width", named=5)
 
 
 def per_set(sheet: CalculatedVerification) -> Table:
     """One row a compound and temperature."""
     columns = (
-        Column("compound", "text", attrgetter("compound")),
-        Column("section", "text", attrgetter("section")),
-        Column("temperature", "temperature", attrgetter("temperature")),
-        Column("load of the set", "force", attrgetter("load")),
-        Column("ours", "force", attrgetter("resistance")),
+        Column("compound", "text", "compound"),
+        Column("section", "text", "section"),
+        Column("temperature", "temperature", "temperature"),
+        Column("load of the set", "force", "load"),
+        Column("ours", "force", "resistance"),
         Column("maker", "force", lambda _: None, asked=True),
         Column("no figure because", "text", lambda row: row.reason or None, sparse=True),
     )
     heading = "Indentation resistance of the most loaded carry set"
-    page = (OnPage("per-set", heading),)
-    return Table("per_set", PER_SET, heading, columns, sheet.sets, page, named=3)
+    return Table("per_set", PER_SET, heading, columns, sheet.sets, "per-set", named=3)
 
 
 def plain(sheet: CalculatedVerification) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from conveyor.rubber.interconversion import equivalent_sweep
 from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
-from conveyor.rubber.prony import CreepSeries, PronySeries
+from conveyor.rubber.prony import CreepSeries, PronySeries, creeps
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shifted
 from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from conveyor.rubber.shift_laws import ShiftComparison, compare_shift_laws
@@ -47,6 +47,7 @@ __all__ = [
     "Superposition",
     "bootstrap",
     "compare_shift_laws",
+    "creeps",
     "entropic_b_T",
     "equivalent_linear",
     "equivalent_linear_many",

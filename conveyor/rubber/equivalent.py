@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.rubber.arrays import positive
+from conveyor.rubber.arrays import FloatArray, positive
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.strain import AmplitudeFactors
 
@@ -21,6 +21,9 @@ _SOFTENS, _SLOWS = 0.65, 0.2
 """Exponents of E' in strain and frequency, for the first step alone: between a half-space (1/2, 1/2) and a thin cover;
 0.35 to 0.73 and 0 to 0.25 were seen on the shelf's compounds."""
 _GUESSES = 2
+_CONTRACTS = 0.2
+"""Of a change of strain or frequency, what the plain step leaves at most where nothing is measured: 0.02 to 0.1 was
+seen."""
 _LARGEST_STEP = math.log(3.0)
 _MOST_STEPS = 30
 
@@ -65,24 +68,52 @@ def softened(series: PronySeries, *, storage_factor: float, loss_factor: float, 
     ... )
     (2800000, 0.8, 7200000)
     """
-    stiff, lossy = positive("storage_factor", storage_factor, "-"), positive("loss_factor", loss_factor, "-")
-    turn = positive("omega", omega, "rad/s") * series.times
-    if turn.size == 0:
-        return PronySeries(stiff * series.equilibrium, series.moduli, series.times)
+    factors = positive("storage_factor", storage_factor, "-"), positive("loss_factor", loss_factor, "-")
+    (soft,) = _softened([series], np.array([factors]), np.array([positive("omega", omega, "rad/s")]))
+    if isinstance(soft, NoSolutionError):
+        raise soft
+    return soft
+
+
+def _softened(
+    series: Sequence[PronySeries], factors: FloatArray, omega: FloatArray
+) -> list[PronySeries | NoSolutionError]:
+    """Each series at its factors of E' and E'', shape (b, 2), at ω, shape (b,); missing terms have no modulus."""
+    moduli, turn = np.zeros((2, len(series), max(1, *(one.times.size for one in series))))
+    for row, one in enumerate(series):
+        moduli[row, : one.moduli.size] = one.moduli
+        turn[row, : one.times.size] = omega[row] * one.times
     slow, fast, quick = turn**2 / (1.0 + turn**2), 1.0 / (1.0 + turn**2), turn / (1.0 + turn**2)
-    storage = np.array([series.equilibrium, series.moduli @ slow**2, series.moduli @ (slow * fast)])
-    loss = np.array([0.0, series.moduli @ (slow * quick), series.moduli @ (fast * quick)])
-    shares = np.stack([storage / storage.sum(), loss / loss.sum()])
-    mean = 0.5 * (stiff + lossy)
-    r, s, g = (mean + np.linalg.lstsq(shares, np.array([stiff - mean, lossy - mean]), rcond=None)[0]).tolist()
-    if not min(r, s, g) > 0.0:
-        raise NoSolutionError(
-            f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave {r:.3g} of the equilibrium "
-            f"modulus, {s:.3g} of the slow and {g:.3g} of the fast part of the spectrum: no solid changes so; check "
-            "that sweep and master curve are of one compound and the reference strain is right, or work at a smaller "
-            "strain or load, or nearer the temperatures of the data"
-        )
-    return PronySeries(r * series.equilibrium, (s * slow + g * fast) * series.moduli, series.times)
+    rubbery = np.array([one.equilibrium for one in series])
+    storage = np.stack([rubbery, (moduli * slow**2).sum(-1), (moduli * slow * fast).sum(-1)])
+    loss = np.stack([np.zeros(len(series)), (moduli * slow * quick).sum(-1), (moduli * fast * quick).sum(-1)])
+    lossy = loss.sum(0) > 0.0
+    a, b = storage / storage.sum(0), loss / np.where(lossy, loss.sum(0), 1.0)
+    # a·x = half the difference of the factors and b·x = minus that, by the shortest x = y a + z b
+    half, mean = 0.5 * (factors[:, 0] - factors[:, 1]), factors.mean(axis=1)
+    aa, ab, bb = (a * a).sum(0), (a * b).sum(0), (b * b).sum(0)
+    scale = half / np.where(lossy, aa * bb - ab * ab, 1.0)
+    r, s, g = np.where(lossy, mean + scale * ((bb + ab) * a - (aa + ab) * b), factors[:, 0])
+    made: list[PronySeries | NoSolutionError] = []
+    for row, one in enumerate(series):
+        n, parts = one.moduli.size, (r[row], s[row], g[row])
+        if min(parts) > 0.0:
+            held = s[row] * slow[row, :n] + g[row] * fast[row, :n]
+            made.append(PronySeries(r[row] * one.equilibrium, held * one.moduli, one.times))
+        else:
+            made.append(_no_solid(factors[row].tolist(), float(omega[row]), parts))
+    return made
+
+
+def _no_solid(factors: Sequence[float], omega: float, parts: Sequence[float]) -> NoSolutionError:
+    """Why no solid has the factors at ω [rad/s]."""
+    (stiff, lossy), (r, s, g) = factors, parts
+    return NoSolutionError(
+        f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave {r:.3g} of the equilibrium "
+        f"modulus, {s:.3g} of the slow and {g:.3g} of the fast part of the spectrum: no solid changes so; check "
+        "that sweep and master curve are of one compound and the reference strain is right, or work at a smaller "
+        "strain or load, or nearer the temperatures of the data"
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,9 +184,11 @@ def equivalent_linear(
 
     Notes
     -----
-    Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain, from the second
-    step on; a secant whose slope would lead away, or that steps by more than a factor 3, gives way to half the plain
-    step or to that factor.
+    Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain; the first one
+    from how the strain fell with E' and how E' falls with strain. A secant whose slope would lead away, or that steps
+    by more than a factor 3, gives way to half the plain step or to that factor. It ends when what the plain step
+    leaves, by that slope and a fifth of the change at least, is within `rtol`: series and strain are those of the last
+    step, whose contact is not looked at again.
 
     Examples
     --------
@@ -216,61 +249,140 @@ def equivalent_linear_many(
     """
     positive("rtol", rtol, "-")
     answers: dict[int, EquivalentLinear | NoSolutionError | RangeError] = {}
-    going = {i: _iteration(task, rtol) for i, task in enumerate(tasks)}
-    asked = {i: next(steps) for i, steps in going.items()}
-    while asked:
-        heard = zip(list(asked), strains_of(list(asked), list(asked.values())), strict=True)
-        for i, worked in heard:
-            try:
-                if isinstance(worked, NoSolutionError):
-                    raise worked
-                asked[i] = going[i].send(worked)
-            except StopIteration as done:
-                answers[i] = done.value
-            except (NoSolutionError, RangeError) as error:
-                answers[i] = error
-            if i in answers:
-                del asked[i]
+    heard = _heard(list(range(len(tasks))), [task.series for task in tasks], strains_of, answers)
+    paths = {i: _Path(strain, omega) for i, (strain, omega) in heard.items()}
+    for _ in range(_GUESSES):
+        trials = {i: (path.trial, path.omega) for i, path in paths.items()}
+        for i, (stiff, _) in _factors(tasks, trials, answers).items():
+            paths[i].guess(stiff)
+    going = {i: path for i, path in paths.items() if i not in answers}
+    while going:
+        softer = _series(tasks, going, answers)
+        heard = _heard(list(softer), [series for series, _ in softer.values()], strains_of, answers)
+        there = {i: (math.log(strain), going[i].omega) for i, (strain, _) in heard.items()}
+        ahead = _factors(tasks, there, {})
+        for i, worked in heard.items():
+            here = softer[i][1]
+            going[i].go_on(*worked, here[0], ahead.get(i, here)[0])
+        done = {i: going[i] for i in heard if going[i].left < rtol}
+        for i, (series, (stiff, lossy)) in _series(tasks, done, answers).items():
+            path = done[i]
+            answers[i] = EquivalentLinear(series, math.exp(path.trial), path.omega, stiff, lossy, path.steps)
+        for i, path in going.items():
+            if i not in answers and path.steps == _MOST_STEPS:
+                answers[i] = path.unsettled()
+        going = {i: path for i, path in going.items() if i not in answers}
     return [answers[i] for i in range(len(tasks))]
 
 
-def _iteration(task: StrainTask, rtol: float) -> Generator[PronySeries, Worked, EquivalentLinear]:
-    """Ask for the strain of one series after the other until it no longer changes."""
-    series, factors, temperature = task.series, task.factors, task.temperature
-    strain, omega = yield series
-    first = trial = math.log(positive("strain_of's strain", strain, "-"))
-    stiff = 1.0
-    for _ in range(_GUESSES):
-        stiff = float(factors.storage(math.exp(trial), temperature))
-        trial = first - _SOFTENS * math.log(stiff)
-    omega *= stiff**_SLOWS
-    before: tuple[float, float] | None = None
-    for step in range(2, _MOST_STEPS + 1):
-        amplitude = math.exp(trial)
-        f = float(factors.storage(amplitude, temperature))
-        g = float(factors.loss(amplitude, temperature))
-        if task.swept is not None:
-            there, here = complex(task.swept.modulus(omega)), complex(series.modulus(omega))
-            f = 1.0 + min(1.0, there.real / here.real) * (f - 1.0)
-            g = 1.0 + min(1.0, there.imag / here.imag) * (g - 1.0)
-        soft = softened(series, storage_factor=f, loss_factor=g, omega=omega)
-        strain, heard = yield soft
-        change = math.log(positive("strain_of's strain", strain, "-")) - trial
-        if abs(change) < rtol and abs(math.log(heard / omega)) < rtol:
-            return EquivalentLinear(soft, strain, omega, f, g, step)
-        move = _next_move(trial, change, before)
-        before, omega = (trial, change), heard
-        trial += move
-    raise NoSolutionError(
-        f"the working strain did not settle in {_MOST_STEPS} steps: last {math.exp(trial):.4g}, "
-        f"changing by {abs(change):.2g} of itself; ask for a larger rtol, or smooth the strain sweeps (Kraus' law)"
-    )
+_Answers: TypeAlias = dict[int, EquivalentLinear | NoSolutionError | RangeError]
 
 
-def _next_move(trial: float, change: float, before: tuple[float, float] | None) -> float:
-    """Secant of the change; half the plain step where the secant points away from the fixed point."""
-    move = change
-    if before is not None and trial != before[0]:
-        slope = (change - before[1]) / (trial - before[0])
+def _heard(
+    asked: list[int],
+    series: list[PronySeries],
+    strains_of: Callable[[list[int], list[PronySeries]], Sequence[Worked | NoSolutionError]],
+    answers: _Answers,
+) -> dict[int, Worked]:
+    """Strains and frequencies that series are worked at; refusals go to the answers."""
+    heard: dict[int, Worked] = {}
+    for i, worked in zip(asked, strains_of(asked, series) if asked else (), strict=True):
+        if isinstance(worked, NoSolutionError):
+            answers[i] = worked
+        else:
+            heard[i] = positive("strain_of's strain", worked[0], "-"), worked[1]
+    return heard
+
+
+def _factors(
+    tasks: Sequence[StrainTask], asked: dict[int, tuple[float, float]], answers: _Answers
+) -> dict[int, tuple[float, float]]:
+    """Factors of E' and E'' at strains, by their logarithms, and ω; strains beyond the sweeps go to the answers."""
+    alike: dict[AmplitudeFactors, list[int]] = {}
+    for i in asked:
+        alike.setdefault(tasks[i].factors, []).append(i)
+    found: dict[int, tuple[float, float]] = {}
+    for factors, members in alike.items():
+        together = [members]
+        while together:
+            chosen = together.pop()
+            strain = np.exp([asked[i][0] for i in chosen])
+            at = [tasks[i].temperature for i in chosen]
+            try:
+                pairs = zip(
+                    factors.storage(strain, at).tolist(), factors.loss(strain, at).tolist(), strict=True
+                )
+                found.update(zip(chosen, pairs, strict=True))
+            except RangeError as error:
+                if len(chosen) > 1:
+                    together += [[i] for i in chosen]
+                else:
+                    answers[chosen[0]] = error
+    return {i: _held(tasks[i], found[i], omega) for i, (_, omega) in asked.items() if i in found}
+
+
+def _held(task: StrainTask, factors: tuple[float, float], omega: float) -> tuple[float, float]:
+    """Factors whose change of each modulus is that at the nearest temperature swept."""
+    if task.swept is None:
+        return factors
+    there, here = complex(task.swept.modulus(omega)), complex(task.series.modulus(omega))
+    ratios = min(1.0, there.real / here.real), min(1.0, there.imag / here.imag)
+    return 1.0 + ratios[0] * (factors[0] - 1.0), 1.0 + ratios[1] * (factors[1] - 1.0)
+
+
+def _series(
+    tasks: Sequence[StrainTask], paths: dict[int, _Path], answers: _Answers
+) -> dict[int, tuple[PronySeries, tuple[float, float]]]:
+    """Series at the trial strains, and their factors; refusals go to the answers."""
+    factors = _factors(tasks, {i: (path.trial, path.omega) for i, path in paths.items()}, answers)
+    if not factors:
+        return {}
+    omegas = np.array([paths[i].omega for i in factors])
+    made = _softened([tasks[i].series for i in factors], np.array(list(factors.values())), omegas)
+    soft: dict[int, tuple[PronySeries, tuple[float, float]]] = {}
+    for (i, pair), series in zip(factors.items(), made, strict=True):
+        if isinstance(series, NoSolutionError):
+            answers[i] = series
+        else:
+            soft[i] = series, pair
+    return soft
+
+
+class _Path:
+    """The strain of one series on its way: ln of the first one, of the trial, and what the last step left of it."""
+
+    def __init__(self, strain: float, omega: float) -> None:
+        self.first = self.trial = math.log(strain)
+        self.omega, self.steps, self.left = omega, 1, math.inf
+        self._slowing = omega
+        self._before: tuple[float, float] | None = None
+        self._change = 0.0
+
+    def guess(self, stiff: float) -> None:
+        """The trial from the factor of E' at the trial before."""
+        self.trial = self.first - _SOFTENS * math.log(stiff)
+        self.omega = self._slowing * stiff**_SLOWS
+
+    def go_on(self, strain: float, omega: float, stiff: float, ahead: float) -> None:
+        """The next trial, from the strain and ω found with a factor of E', and the factor at that strain."""
+        self.steps += 1
+        change = math.log(strain) - self.trial
+        if self._before is not None and self.trial != self._before[0]:
+            slope = (change - self._before[1]) / (self.trial - self._before[0])
+        else:  # ln strain falls with ln E' as it did from the first step
+            softens = (math.log(strain) - self.first) / -math.log(stiff) if stiff != 1.0 else _SOFTENS
+            steep = math.log(ahead / stiff) / change if change != 0.0 else 0.0
+            slope = -1.0 - softens * steep
+        contracts = max(abs(1.0 + slope), _CONTRACTS)
+        self.left = max(contracts * abs(change), _CONTRACTS * abs(math.log(omega / self.omega)))
         move = -change / slope if slope < 0.0 else 0.5 * change
-    return math.copysign(min(abs(move), _LARGEST_STEP), move)
+        self._before, self._change, self.omega = (self.trial, change), change, omega
+        self.trial += math.copysign(min(abs(move), _LARGEST_STEP), move)
+
+    def unsettled(self) -> NoSolutionError:
+        """Why it has no end."""
+        return NoSolutionError(
+            f"the working strain did not settle in {_MOST_STEPS} steps: last {math.exp(self.trial):.4g}, "
+            f"changing by {abs(self._change):.2g} of itself; ask for a larger rtol, or smooth the strain sweeps "
+            "(Kraus' law)"
+        )

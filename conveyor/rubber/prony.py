@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +16,8 @@ _FLUID_ADVICE = (
     ": without an equilibrium modulus the series is a fluid and the belt would creep without end;"
     " fit again with the equilibrium modulus held at a measured value"
 )
+
+_CHUNK: Final = 16  # spectra inverted at once: few enough for the cache
 
 
 def _debye(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -197,12 +200,7 @@ class PronySeries:
         -----
         J*E* = 1 to 1e-14 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
         """
-        return self._creep
-
-    @cached_property
-    def _creep(self) -> CreepSeries:
-        excess, compliances = interlaced(self.equilibrium, self.moduli, self.times)
-        return CreepSeries(1.0 / self.glassy, *_one_per_time(compliances, self.times * (1.0 + excess)))
+        return creeps([self])[0]
 
     def scaled(self, *, a_T: float = 1.0, b_T: float = 1.0) -> PronySeries:
         """Shift to another temperature: times times `a_T`, all moduli times `b_T`.
@@ -226,6 +224,32 @@ class PronySeries:
         """
         a, b = positive("a_T", a_T, "-"), positive("b_T", b_T, "-")
         return PronySeries(self.equilibrium * b, self.moduli * b, self.times * a)
+
+    def merged(self, *, fastest: float, slowest: float) -> PronySeries:
+        """Leave the terms between two times; the faster ones become one, and the slower ones.
+
+        Parameters
+        ----------
+        fastest, slowest : float
+            Between which the terms stay as they are [s].
+
+        Returns
+        -------
+        PronySeries
+            Same rubbery and glassy modulus. The fast term has their sum of moduli times times, so that E'' is kept to
+            first order in ωτ; the slow one their sum of moduli over times, E'' to first order in 1/ωτ.
+        """
+        first, last = np.searchsorted(self.times, (fastest, slowest)).tolist()
+        fast, slow = slice(0, first), slice(last, None)
+        if first >= last or max(first, self.times.size - last) < 2:
+            return self
+        moduli, times = [self.moduli[first:last]], [self.times[first:last]]
+        for part, power in ((fast, 1.0), (slow, -1.0)):
+            if (whole := self.moduli[part].sum()) > 0.0:
+                mean = self.moduli[part] @ self.times[part] ** power / whole
+                moduli.append(np.array([whole]))
+                times.append(np.array([mean**power]))
+        return PronySeries(self.equilibrium, np.concatenate(moduli), np.concatenate(times))
 
 
 @dataclass(frozen=True, eq=False)
@@ -319,3 +343,39 @@ class CreepSeries:
         """
         excess, moduli = interlaced(self.instantaneous, self.compliances, self.times, reciprocal=True)
         return PronySeries(1.0 / self.equilibrium, *_one_per_time(moduli, self.times[::-1] / (1.0 + excess)))
+
+
+def creeps(series: Iterable[PronySeries]) -> list[CreepSeries]:
+    """Creep forms of many series, as `PronySeries.creep`, side by side; the very same series is converted once.
+
+    Parameters
+    ----------
+    series : iterable of PronySeries
+        Series.
+
+    Returns
+    -------
+    list of CreepSeries
+        In their order.
+
+    Raises
+    ------
+    NoSolutionError
+        The moduli of one are beyond the range of double precision.
+    """
+    given = list(series)
+    alike: dict[int, list[PronySeries]] = {}
+    for one in dict.fromkeys(given):
+        alike.setdefault(one.times.size, []).append(one)
+    creep_of: dict[PronySeries, CreepSeries] = {}
+    for same in alike.values():
+        for start in range(0, len(same), _CHUNK):
+            chosen = same[start : start + _CHUNK]
+            moduli, times = (
+                np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True)
+            )
+            excess, compliances = interlaced([s.equilibrium for s in chosen], moduli, times)
+            for one, over, weights in zip(chosen, excess, compliances, strict=True):
+                terms = _one_per_time(weights, one.times * (1.0 + over))
+                creep_of[one] = CreepSeries(1.0 / one.glassy, *terms)
+    return [creep_of[one] for one in given]

@@ -1,8 +1,9 @@
-"""Exact inversion of a relaxation or retardation spectrum: the roots that interlace with its poles."""
+"""Exact inversion of relaxation or retardation spectra: the roots that interlace with their poles."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import FloatArray
@@ -14,9 +15,11 @@ ROUNDING_PER_TERM = 4.0
 
 
 def interlaced(
-    constant: float, weights: FloatArray, times: FloatArray, *, reciprocal: bool = False
+    constant: ArrayLike, weights: FloatArray, times: FloatArray, *, reciprocal: bool = False
 ) -> tuple[FloatArray, FloatArray]:
-    r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``.
+    r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``; of many side by side.
+
+    `constant` has the shape of `weights` and `times` without its last axis, which is that of the terms.
 
     Notes
     -----
@@ -36,56 +39,61 @@ def interlaced(
     M. Gu, S. C. Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994) 1266-1276 (weights recomputed from the roots).
     R.-C. Li, "Solving secular equations stably and efficiently", LAPACK Working Note 89 (1993), section 3.
     """
-    if weights.size == 0:
-        return np.empty(0), np.empty(0)
+    if weights.shape[-1] == 0:
+        return np.empty(weights.shape), np.empty(weights.shape)
+    whole = np.asarray(constant, dtype=float)[..., None]
     ratio, gap = _pole_geometry(times, reciprocal=reciprocal)
     if reciprocal:
-        weights = weights[::-1]
-    g = ratio * (weights / constant)
-    lower = np.tri(weights.size, dtype=np.bool_)
+        weights = weights[..., ::-1]
+    n = weights.shape[-1]
+    g = ratio * (weights / whole)[..., None, :]
+    lower = np.tri(n, dtype=np.bool_)
     offset, span, z, w = _start(ratio, gap, g, lower)
     g_low, g_up = np.where(lower, g, 0.0), np.where(lower, 0.0, g)
     g_low_offset, g_up_offset = g_low * offset, g_up * offset
-    tolerance = ROUNDING_PER_TERM * weights.size * float(np.finfo(np.float64).eps)
+    tolerance = ROUNDING_PER_TERM * n * float(np.finfo(np.float64).eps)
+    settled = np.zeros(whole.shape, dtype=np.bool_)
     for _ in range(MAX_ITERATIONS):
-        inverse_square = 1.0 / np.square(np.where(lower, z[:, None], w[:, None]) + offset)
-        p, low = (g_low_offset * inverse_square).sum(1), (g_low * inverse_square).sum(1) * z
-        s, up = (g_up_offset * inverse_square).sum(1), (g_up * inverse_square).sum(1) * w
+        inverse_square = 1.0 / np.square(np.where(lower, z[..., None], w[..., None]) + offset)
+        p, low = (g_low_offset * inverse_square).sum(-1), (g_low * inverse_square).sum(-1) * z
+        s, up = (g_up_offset * inverse_square).sum(-1), (g_up * inverse_square).sum(-1) * w
         residual, size = (1.0 + s + up) - (p + low), (1.0 + s + up) + (p + low)
-        z, w = _quadratic(1.0 + s - p, low * z, up * w, span)
-        if np.all(np.abs(residual) <= tolerance * size):
+        nearer = _quadratic(1.0 + s - p, low * z, up * w, span)
+        z, w = (np.where(settled, old, new) for old, new in zip((z, w), nearer, strict=True))
+        settled = settled | np.all(np.abs(residual) <= tolerance * size, axis=-1, keepdims=True)
+        if settled.all():
             break
     else:
         raise NoSolutionError(
             f"the spectrum could not be inverted in {MAX_ITERATIONS} steps; the weights span"
             f" {np.log10(weights.max() / weights.min()):.0f} decades: drop the terms that do not matter"
         )
-    return z, _residues(np.where(lower, z[:, None], w[:, None]) + offset, z, ratio, lower) / constant
+    return z, _residues(np.where(lower, z[..., None], w[..., None]) + offset, z, ratio, lower) / whole
 
 
 def _pole_geometry(times: FloatArray, *, reciprocal: bool) -> tuple[FloatArray, FloatArray]:
     """Pole j over pole i, and their difference over pole i, each correctly rounded."""
     if reciprocal:
-        t = times[::-1]
-        return t[:, None] / t, (t[:, None] - t) / t
-    return times / times[:, None], (times - times[:, None]) / times[:, None]
+        t = times[..., ::-1]
+        return t[..., :, None] / t[..., None, :], (t[..., :, None] - t[..., None, :]) / t[..., None, :]
+    poles, own = times[..., None, :], times[..., :, None]
+    return poles / own, (poles - own) / own
 
 
 def _start(
     ratio: FloatArray, gap: FloatArray, g: FloatArray, lower: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Offsets of all poles from the near end of each interval; widths; geometric mid-points as (z, w)."""
-    n = len(ratio)
-    i = np.arange(n - 1)
-    step = ratio[i, i + 1]
+    i = np.arange(ratio.shape[-1] - 1)
+    step = ratio[..., i, i + 1]
     offset = -gap
-    offset[:-1] = np.where(lower[:-1], offset[:-1], gap[1:] * step[:, None])
-    span, z, w = np.empty(n), np.empty(n), np.ones(n)
-    span[:-1] = gap[i, i + 1]
-    z[:-1] = span[:-1] / (1.0 + np.sqrt(step))
-    w[:-1] = np.sqrt(step) * z[:-1]
+    offset[..., :-1, :] = np.where(lower[:-1], offset[..., :-1, :], gap[..., 1:, :] * step[..., None])
+    span, z, w = np.empty(ratio.shape[:-1]), np.empty(ratio.shape[:-1]), np.ones(ratio.shape[:-1])
+    span[..., :-1] = gap[..., i, i + 1]
+    z[..., :-1] = span[..., :-1] / (1.0 + np.sqrt(step))
+    w[..., :-1] = np.sqrt(step) * z[..., :-1]
     # above the last pole: g t/(L - t) summed <= sum(g)/z bounds the root; from there the steps descend
-    span[-1] = z[-1] = g[-1].sum()
+    span[..., -1] = z[..., -1] = g[..., -1, :].sum(-1)
     return offset, span, z, w
 
 
@@ -97,9 +105,11 @@ def _residues(
 ) -> FloatArray:
     """Residues times the constant; `distance` is |root i - pole j| over pole i."""
     # the pole between two roots splits |root i - root j| into two positive parts: nothing cancels
-    roots = np.where(lower, z[:, None] + distance.T * ratio, distance + z * ratio)
-    np.fill_diagonal(roots, 1.0 + z)
-    return np.asarray(np.prod(distance / roots, axis=1))
+    between = distance.swapaxes(-1, -2) * ratio
+    roots = np.where(lower, z[..., None] + between, distance + z[..., None, :] * ratio)
+    every = np.arange(z.shape[-1])
+    roots[..., every, every] = 1.0 + z
+    return np.asarray(np.prod(distance / roots, axis=-1))
 
 
 def _quadratic(
@@ -111,5 +121,5 @@ def _quadratic(
     b, d = cr + t + q, cr - t - q
     z = np.where(b > 0.0, 2.0 * q * span, b - root) / np.where(b > 0.0, b + root, 2.0 * c)
     w = np.where(d < 0.0, 2.0 * t * span, d + root) / np.where(d < 0.0, root - d, 2.0 * c)
-    w[-1] = 1.0
+    w[..., -1] = 1.0
     return z, w

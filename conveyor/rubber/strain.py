@@ -207,15 +207,15 @@ class AmplitudeFactors:
         """Temperature whose factors stand for one [K]: itself inside the sweeps, else that of the nearest."""
         return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
 
-    def storage(self, strain: ArrayLike, temperature: float) -> FloatArray:
+    def storage(self, strain: ArrayLike, temperature: ArrayLike) -> FloatArray:
         """Factor of E'.
 
         Parameters
         ----------
         strain : array_like
             Single strain amplitude, > 0, any shape [-].
-        temperature : float
-            Absolute temperature [K].
+        temperature : array_like
+            Absolute temperature, one or of the shape of `strain` [K].
 
         Returns
         -------
@@ -231,15 +231,15 @@ class AmplitudeFactors:
         """
         return self._factor("storage", strain, temperature)
 
-    def loss(self, strain: ArrayLike, temperature: float) -> FloatArray:
+    def loss(self, strain: ArrayLike, temperature: ArrayLike) -> FloatArray:
         """Factor of E''.
 
         Parameters
         ----------
         strain : array_like
             Single strain amplitude, > 0, any shape [-].
-        temperature : float
-            Absolute temperature [K].
+        temperature : array_like
+            Absolute temperature, one or of the shape of `strain` [K].
 
         Returns
         -------
@@ -255,23 +255,20 @@ class AmplitudeFactors:
         """
         return self._factor("loss", strain, temperature)
 
-    def _factor(self, name: str, strain: ArrayLike, temperature: float) -> FloatArray:
+    def _factor(self, name: str, strain: ArrayLike, temperature: ArrayLike) -> FloatArray:
         array = np.asarray(strain, dtype=np.float64)
         flat = positive_vector("strain", array.ravel(), "-")
+        at = positive_vector("temperature", np.broadcast_to(temperature, array.shape).ravel(), "K")
         out = np.zeros(flat.shape)
-        for level, weight in self._between(positive("temperature", temperature, "K")):
-            runs = self._runs[name][level]
+        for level, (runs, weight) in enumerate(zip(self._runs[name], self._between(at), strict=True)):
+            near = np.flatnonzero(weight)
             label = f"factor of the {name} modulus at {self.temperatures[level]:.2f} K"
-            for run in runs:
-                out += (weight / len(runs)) * run.at(flat, label)
+            for run in runs if near.size else ():
+                out[near] += (weight[near] / len(runs)) * run.at(flat[near], label)
         return out.reshape(array.shape)[()]
 
-    def _between(self, temperature: float) -> list[tuple[int, float]]:
-        """Levels and weights of a linear interpolation; the last ones are held beyond."""
-        levels = self.temperatures
-        at = self.nearest(temperature)
-        upper = int(np.searchsorted(levels, at))
-        if levels[upper] == at:
-            return [(upper, 1.0)]
-        share = float((at - levels[upper - 1]) / (levels[upper] - levels[upper - 1]))
-        return [(upper - 1, 1.0 - share), (upper, share)]
+    def _between(self, temperature: FloatArray) -> FloatArray:
+        """Weights of the levels at temperatures, shape (levels, n), linear between; the last ones are held beyond."""
+        return np.array(
+            [np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)]
+        )

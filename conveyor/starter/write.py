@@ -7,8 +7,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, Final, Literal
 
-from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout
-from conveyor.forms.limits import like, limits_like
+from conveyor.forms.layout import FieldGroup, FieldTable, Leaf, Part, layout, like, limits_like
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.starter.values import LEFT_OUT, OPTIONAL, Kind, in_units, read

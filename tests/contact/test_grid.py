@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -200,4 +201,35 @@ def test_a_grid_without_nodes_on_the_roll_is_refused():
 def test_exchanges_are_bounded(monkeypatch):
     monkeypatch.setattr(module, "_PIVOTS", 2)
     with pytest.raises(NoSolutionError, match=r"did not settle in \d exchanges"):
-        solve_grid(SCENES["confined"], 512)
+        solve_grid(SCENES["confined"], 2048)  # fewer nodes are gone through one by one
+
+
+# a thin free plate on whose grid block exchanges run in circles
+PLATE = ContactProblem(
+    "free", 0.259, 3.33e-4, CreepSpectrum(1.5e-6, [0.5, 0.4999985], [149.0, 2.56e6]), 0.00167, 0.16
+)
+
+
+class TestRaisedFromNothing:
+    @by_scene
+    def test_the_same_contact(self, name):
+        grid = Grid(SCENES[name], 256)
+        raised, limit = grid.raised(SCENES[name].pressure)
+        straight = grid.contact(SCENES[name].pressure)
+        assert raised.friction == pytest.approx(straight.friction, rel=ROUNDING, abs=1e-15)
+        assert raised.depth == pytest.approx(straight.depth, rel=ROUNDING)
+        assert math.isinf(limit)
+
+    @pytest.mark.parametrize("start", [None, 1e-7])
+    def test_the_limit_is_where_the_end_is_reached(self, start):
+        grid = Grid(PLATE, 128)
+        below = None if start is None else Grid(PLATE, 256).contact(start)
+        wrapped, limit = grid.raised(PLATE.pressure, below)
+        assert wrapped.at_roll_end
+        assert not grid.raised(0.999 * limit)[0].at_roll_end
+        assert grid.raised(1.001 * limit)[0].at_roll_end
+
+    def test_where_block_exchanges_run_in_circles(self):
+        grid = Grid(PLATE, 128)
+        found = grid.contact(PLATE.pressure)
+        assert found.friction == pytest.approx(grid.raised(PLATE.pressure)[0].friction, rel=1e-9)

@@ -20,7 +20,7 @@ from conveyor.contact import (
     working_strains,
 )
 from conveyor.contact.interior import interior, interior_fields, path_amplitude
-from conveyor.contact.layer_shapes import confined_shapes, free_shapes
+from conveyor.contact.layer_shapes import confined_shapes, free_shapes, incompressible_shapes
 from conveyor.contact.layers import confined_symbol, free_symbol
 from conveyor.errors import InputError, NoSolutionError
 
@@ -416,3 +416,11 @@ def test_many_working_strains_are_those_of_each_contact():
         assert wave_number == pytest.approx(one.wave_number, rel=3e-4)
         assert strain != one.working_strain  # by another way
     assert found[3:] == [(one.working_strain, one.wave_number) for one in each[3:]]
+
+
+def test_an_incompressible_layer_alone_is_the_confined_one():
+    q, share = np.geomspace(1e-2, 60.0, 25), np.array([1e-3, 0.1, 0.5, 0.9, 0.999])[:, None]
+    difference, shear, _, _ = confined_shapes(q, share * q, (1.0 - share) * q, 0.5)
+    found = incompressible_shapes(q, share * q, (1.0 - share) * q)
+    assert found[0] == pytest.approx(difference, rel=1e-9)
+    assert found[1] == pytest.approx(shear, rel=1e-9)

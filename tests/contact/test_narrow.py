@@ -26,7 +26,7 @@ from conveyor.contact.layers import Layers
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.quadrature import build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.short_rule import CAPS, COARSE, FINE, _moments, _width, short_rule
+from conveyor.contact.short_rule import CAPS, COARSE, FINE, _moments, _width, short_rules
 from conveyor.contact.single import Near, by_half_width
 from conveyor.contact.spectral import Contact, assemble
 
@@ -114,8 +114,7 @@ def test_short_rules_make_the_matrix_of_the_full_rule(support, half_width, thick
     side = Creeps(np.array([creep.instantaneous]), creep.weights[None], creep.times[None])
     layers = Layers(support, np.array([thickness]), np.array([0.45]))
     for grades, tolerance in ((FINE, 1e-10), (COARSE, 2e-8)):
-        for grade in grades:
-            rule = short_rule(layers, side, np.array([half_width]), grade)
+        for rule in short_rules(layers, side, np.array([half_width]), grades):
             assert rule.nodes.shape[1] < full.nodes.size
             for share in (1.0, 0.3):
                 alpha = np.array([share * half_width])

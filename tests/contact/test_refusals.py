@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve, solve_many
+from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve, solve_loads, solve_many
 from conveyor.errors import InputError, NoSolutionError
 
 CREEP = CreepSpectrum(0.1, [0.9], [1.0])
@@ -38,6 +39,7 @@ SHARP = problem(support="half-space", creep=CreepSpectrum(1e-6, [1.0 - 1e-6], [1
         ({"pressure": math.nan}, r"pressure = nan: the mean pressure is finite and positive"),
         ({"poisson": 0.51}, r"poisson = 0\.51: Poisson's ratio lies in \[0, 0\.5\]"),
         ({"poisson": -0.1}, r"poisson = -0\.1: Poisson's ratio lies in"),
+        ({"creep": None}, r"creep = None: a CreepSpectrum is needed"),
         ({"poisson": math.nan}, r"poisson = nan: Poisson's ratio lies in"),
     ],
 )
@@ -56,10 +58,14 @@ def test_problem(changes, message):
         ((0.1, [[0.9]], [[1.0]]), r"weights \(1, 1\) and times \(1, 1\): give two lists of equal length"),
         (
             (0.1, [1.0, -0.1], [1.0, 2.0]),
-            r"weights = \[1\.0, -0\.1\]: each weight is a finite positive number",
+            r"weights = \[1\.0, -0\.1\]: each weight is positive",
         ),
-        ((0.1, [0.9, 0.0], [1.0, 2.0]), r"weights = \[0\.9, 0\.0\]: each weight is a finite positive number"),
-        ((0.1, [math.inf], [1.0]), r"weights = \[inf\]: each weight is a finite positive number"),
+        ((0.1, [0.9, 0.0], [1.0, 2.0]), r"weights = \[0\.9, 0\.0\]: each weight is positive"),
+        ((0.1, [math.inf], [1.0]), r"weights = \[inf\]: each weight is positive"),
+        (
+            (0.1, [1e308, 1e308], [1.0, 2.0]),
+            r"weights = \[1e\+308, 1e\+308\]: each weight is positive, .* add to 1",
+        ),
         ((0.1, [0.9], [-1.0]), r"times = \[-1\.0\]: each ζ is finite and not negative"),
         ((0.1, [0.9], [math.inf]), r"times = \[inf\]: each ζ is finite and not negative"),
         (
@@ -171,11 +177,10 @@ def test_a_batch_raises_on_request():
 
 
 def test_a_layer_too_thin_for_memory_is_a_status_not_an_exception():
-    creep = CreepSpectrum(0.1, [0.9], [1.0])
-    found = solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7), throw=False)
-    assert found.status is Status.TOO_THIN
+    thin = ContactProblem("confined", 0.1, 1e-3, CreepSpectrum(0.1, [0.9], [1.0]), 1e-7)
+    assert solve(thin, throw=False).status is Status.TOO_THIN
     with pytest.raises(NoSolutionError, match="thicker layer"):
-        solve(ContactProblem("free", 0.1, 1e-3, creep, 1e-7))
+        solve(thin)
 
 
 @pytest.mark.parametrize("value", ["x", None, True])
@@ -204,3 +209,29 @@ def test_a_load_far_beyond_the_limit_is_refused_on_a_coarse_grid():
     assert found.status is Status.WRAP_LIMIT
     assert float(found.message.rsplit(" ", 1)[1]) == pytest.approx(7e-6, rel=0.2)
     assert found.stats.grid == 64 * 512
+
+
+@pytest.mark.parametrize("given", [np.zeros_like, lambda m: np.nan * m, lambda m: -1.0 / m, lambda m: m[:2]])
+def test_a_layer_that_is_none_is_refused(given):
+    with pytest.raises(
+        InputError, match=r"5 wave numbers must be as many finite complex numbers with a positive"
+    ):
+        problem(support=SimpleNamespace(reach=1.0, symbol=lambda m, _: given(m)))
+
+
+@pytest.mark.parametrize("field", ["pressure", "profile"])
+@pytest.mark.parametrize("x", ["a", [0.0, math.nan], math.inf, None])
+def test_places_are_numbers(field, x):
+    with pytest.raises(InputError, match=r"x.*: places x/R are "):
+        getattr(solve(problem()), field)(x)
+
+
+@pytest.mark.parametrize("shares", [(2.0,), (0.5, 0.1), (math.nan,), (0.0, 0.5)])
+def test_shares_of_the_loss_ascend_between_0_and_1(shares):
+    with pytest.raises(InputError, match=r"shares = .*: ascending numbers between 0 and 1"):
+        solve(problem()).excitation(shares)
+
+
+def test_loads_are_numbers():
+    with pytest.raises(InputError, match="pressures: give numbers"):
+        solve_loads(problem(), ["heavy"])

@@ -231,3 +231,35 @@ def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch
     x = np.array([-0.4, 0.1, 0.6, 0.9])
     np.testing.assert_allclose(found.pressure(x), exact.pressure(x), rtol=0, atol=1e-2 * exact.peak_pressure)
     np.testing.assert_allclose(found.profile(x), exact.profile(x), rtol=0, atol=1e-4)
+
+
+class TestLineContacts:
+    """A thin lossy plate tilts under the roll until a line of it touches: narrower than any grid shows at first."""
+
+    THIN = ContactProblem("free", 0.01, 2e-5, CreepSpectrum(0.01, [0.99], [39.0]), 0.01)
+
+    @pytest.mark.parametrize("pressure", [2e-5, 1e-4])
+    def test_friction_is_the_slope_at_the_line(self, pressure):
+        found = solve(replace(self.THIN, pressure=pressure))
+        assert found.status is Status.TOO_DEEP  # a plate this thin sags far below the roll
+        slope = found.eccentricity / math.sqrt(1.0 - found.eccentricity**2)
+        # slopes spread over the strip by a/R (1 + slope²)^(3/2): second order
+        assert found.friction == pytest.approx(slope, rel=(found.half_width * (1.0 + slope**2) ** 1.5) ** 2)
+        assert found.energy_error < 1e-9
+
+    def test_a_line_force_tilts_in_proportion_to_itself(self):
+        # a point force's own slope is its force times 2 Σ Im S: that of the finite strip differs by O(α/kh)²
+        one, five = (solve(replace(self.THIN, pressure=p)) for p in (2e-5, 1e-4))
+        assert five.friction / one.friction == pytest.approx(5.0, rel=1e-6)
+        assert (one.half_width * self.THIN.rho / self.THIN.thickness) ** 2 < 1e-4
+
+
+def test_forces_that_cancel_leave_the_friction_of_the_loss():
+    # two strips push forward and back a hundred million times harder than the layer resists
+    thin = ContactProblem("free", 0.207, 2.4e-4, CreepSpectrum(0.1, [0.9], [1e-9]), 0.15)
+    short = solve(replace(thin, creep=CreepSpectrum(0.1, [0.9], [1e-12])))
+    found = solve(thin)
+    # memory this short: friction in proportion to it, to O(ζ/kh)
+    assert found.friction / short.friction == pytest.approx(1e3, rel=1e-8)
+    assert "forces cancel" in short.message
+    assert short.error_estimate < 1e-6

@@ -11,7 +11,7 @@ from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.line.anchors import anchor, anchor_rows
+from conveyor.line.anchors import anchor, anchor_rows, anchors
 from conveyor.models import Uncertainty
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -146,9 +146,9 @@ def test_without_the_confined_support_the_theory_stands_alone(line):
 
 def test_a_test_that_no_contact_answers_says_so():
     heavy = linear("low-rolling-resistance-cover").replace(
-        tests=[one_test((100.0, 1e4), roll_diameter="20 mm", cover_thickness="40 mm")]
+        tests=[one_test((100.0, 1e4), roll_diameter="20 mm", cover_thickness="100 mm", temperature="40 degC")]
     )
-    with pytest.raises(NoSolutionError, match="a rolling-resistance test: roll of 20 mm on a 40 mm cover"):
+    with pytest.raises(NoSolutionError, match="a rolling-resistance test: roll of 20 mm on a 100 mm cover"):
         anchor(heavy, softened=False)
 
 
@@ -177,3 +177,13 @@ def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
     assert remark.startswith('"low-rolling-resistance-cover": ')
     assert not said([untested, linear("standard-cover")])
     assert not said([tested, shelf.compound("cold-resistant-cover")])
+
+
+def test_levels_side_by_side_are_each_alone():
+    compounds = [shelf.compound(name) for name in ("standard-cover", "s100", "cold-resistant-cover")]
+    first, none, last = anchors(compounds, softened=True)
+    assert none is None  # no tests
+    for compound, level in ((compounds[0], first), (compounds[2], last)):
+        alone = anchor(compound, softened=True)
+        # batches round otherwise, and contacts end within their tolerance
+        assert level.factor(2000.0, AT) == pytest.approx(alone.factor(2000.0, AT), rel=RTOL)

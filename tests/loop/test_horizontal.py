@@ -13,8 +13,8 @@ from conveyor.line.stretches import Acting
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
 from conveyor.loop.curves import drifts, pressing_masses
 from conveyor.pipeline import calculate
-from conveyor.report.loop_plots import drift as drift_drawn
-from conveyor.report.loop_plots import plan
+from conveyor.report.analysis_plots import drift as drift_drawn
+from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, data
@@ -57,7 +57,7 @@ def straight():
 def test_a_straight_conveyor_has_nothing_of_it(straight):
     assert straight.horizontal == ()
     assert straight.convergence is None
-    assert horizontal_curves(straight).empty
+    assert not horizontal_curves(straight).rows
     assert "guidance" not in {force.key for force in straight.balance.along}
 
 

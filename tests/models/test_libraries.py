@@ -9,7 +9,7 @@ from conveyor.files import libraries
 from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.listed import merged, without
 from conveyor.pipeline import calculate
-from conveyor.remarks.rolls import roll_assumptions, roll_warnings
+from conveyor.remarks import roll_assumptions, roll_warnings
 from conveyor.report.inputs import inputs
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text

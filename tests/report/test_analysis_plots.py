@@ -15,7 +15,7 @@ from conveyor.errors import InputError
 from conveyor.line.line import Line
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
-from conveyor.report.loop_plots import route_profile
+from conveyor.report.analysis_plots import route_profile
 from conveyor.report.plots import master_curve, stacked
 from conveyor.report.svg import inline, restyle
 from conveyor.units import si
@@ -124,7 +124,7 @@ def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
 
 
 def test_power_over_temperature_is_that_of_the_cases(cases):
-    (axis,) = plots.case_power_against_temperature(cases).axes
+    (axis,) = plots.case_power(cases, "temperature").axes
     curves = {curve.get_label(): curve for curve in axis.lines}
     assert set(curves) == {"full", "empty"}  # "half" is at one temperature only: no line
     for name in ("full", "empty"):
@@ -137,7 +137,7 @@ def test_power_over_temperature_is_that_of_the_cases(cases):
 
 def test_power_over_speed_is_that_of_the_cases(cases):
     temperature = next(r.temperature for r in cases.results if r.case.name == "half")
-    (axis,) = plots.case_power_against_speed(cases, temperature).axes
+    (axis,) = plots.case_power(cases, "speed", temperature).axes
     (curve,) = (curve for curve in axis.lines if curve.get_label() == "half")
     assert curve.get_xdata() == pytest.approx([2.54, 3.048])  # 500 and 600 ft/min
     assert axis.get_xlabel() == "belt speed [m/s]"
@@ -145,16 +145,16 @@ def test_power_over_speed_is_that_of_the_cases(cases):
 
 def test_cases_that_are_not_there(cases):
     with pytest.raises(InputError, match=r"speed = 9.0 m/s: no load case has it, there are 2.54, 3.048"):
-        plots.case_power_against_temperature(cases, 9.0)
+        plots.case_power(cases, "temperature", 9.0)
     with pytest.raises(InputError, match=r"temperature = 1.0 K: no load case has it"):
-        plots.case_power_against_speed(cases, 1.0)
+        plots.case_power(cases, "speed", 1.0)
 
 
 def test_no_case_answered(cases):
     from dataclasses import replace
 
     with pytest.raises(InputError, match="no load case has an answer"):
-        plots.case_power_against_speed(replace(cases, results=()))
+        plots.case_power(replace(cases, results=()), "speed")
 
 
 def test_tornado_is_the_study(line):
@@ -170,7 +170,7 @@ def test_tornado_is_the_study(line):
 
 
 def test_restyled_curves_keep_their_house_colours_and_differ_in_dashes(cases):
-    figure = plots.case_power_against_temperature(cases)
+    figure = plots.case_power(cases, "temperature")
     before = [to_hex(curve.get_color()) for curve in figure.axes[0].lines]
     restyle(figure)
     curves = figure.axes[0].lines

@@ -15,10 +15,11 @@ import conveyor
 from conveyor import checks as criteria
 from conveyor import pipeline
 from conveyor.checks import compared
-from conveyor.cli.power_tables import show
+from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
-from conveyor.report import excel, files, html, representations, tables
+from conveyor.report import excel, files, html, tables
 from conveyor.report.columns import Column, Figure, OnPage, Table
+from conveyor.report.page import in_short
 from conveyor.units.presentation import _KINDS, Unit, unit
 from conveyor.units.sentences import said
 
@@ -83,11 +84,11 @@ def test_in_the_files(probed, tmp_path):
 
 
 def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
-    page = html.build(probed)
-    assert re.search(r">probe <span class=\"unit\">\[N\]", page)
-    assert ">Probes</caption>" in page
-    assert "<dt>probing, as given</dt><dd>12.3 <small>kW</small></dd>" in page
-    assert "probing" in representations.of_analysis(probed)
+    made = html.build(probed)
+    assert re.search(r">probe <span class=\"unit\">\[N\]", made)
+    assert ">Probes</caption>" in made
+    assert "<dt>probing, as given</dt><dd>12.3 <small>kW</small></dd>" in made
+    assert "probing" in in_short(probed)
     assert "probe [lbf]" in probed["sections"].frame("US")
 
 
@@ -99,7 +100,7 @@ def test_in_json(result):
 
 
 def test_the_terminal_takes_the_same_tables(probed, capsys):
-    show(probed)
+    show_power(probed)
     assert "effective tension" in capsys.readouterr().out
 
 
@@ -169,4 +170,4 @@ def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
     assert "strength of the probe" in {cell.value for row in book["Summary"] for cell in row}
     page = html.write(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
     assert "strength of the probe" in page
-    assert "strength of the probe" in representations.of_analysis(contents)
+    assert "strength of the probe" in in_short(contents)

@@ -13,7 +13,7 @@ from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
-from conveyor.report.page_style import COLOURS, DARK
+from conveyor.report.page import COLOURS, DARK
 from conveyor.units.presentation import unit
 from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page

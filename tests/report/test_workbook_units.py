@@ -41,22 +41,7 @@ FACTORS = {  # NIST SP 811, appendix B.8; exact but for the horsepower (550 ft l
 }
 UNIT = re.compile(r" \[([^\]]*)\]$")
 SYMBOL = re.compile(r" (Te|T1|T2|Tmax)$")
-SAME = {
-    "MJ",
-    "Hz",
-    "s",
-    "-",
-    "°",
-    "rpm",
-    "h",
-    "MWh",
-    "a",
-    "EUR",
-    "USD",
-    "kg/kWh",
-    "EUR/kWh",
-    "USD/kWh",
-}
+SAME = {"MJ", "Hz", "s", "-", "°", "rpm", "h", "MWh", "a", "EUR", "USD", "kg/kWh", "EUR/kWh", "USD/kWh"}
 
 
 @pytest.fixture(scope="module", params=SPECS, ids=lambda path: path.stem)

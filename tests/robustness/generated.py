@@ -320,9 +320,9 @@ def commands() -> Iterator[Case]:
     fit = ("fit", "data.csv", "--at", "20 degC")
     lines: list[tuple[str, ...]] = [
         ("power",), ("power", "spec.yaml", "spec.yaml"), ("power", "\x1b[31m.yaml"), ("power", "x" * 5_000 + ".yaml"),
-        ("power", "spec.yaml", "-o"), ("power", "spec.yaml", "--units", "x" * 5_000), ("power", "spec.yaml", "--html", "\0.html"),
-        ("power", "spec.yaml", "--tables", "\0"), ("power", "spec.yaml", "-o", "x" * 300 + ".xlsx"), ("power", "spec.yaml", "--shelf", "spec.yaml"),
-        ("power", "spec.yaml", "--shelf", "nowhere"), ("power", "spec.yaml", "--shelf", "\0"), ("power", "spec.yaml", "-o", "spec.xlsx/r.xlsx"),
+        ("power", "spec.yaml", "-o"), ("power", "spec.yaml", "--units", "x" * 5_000),
+        ("power", "spec.yaml", "-o", "x" * 300 + ".xlsx"), ("power", "spec.yaml", "--shelf", "spec.yaml"),
+        ("power", "spec.yaml", "--shelf", "nowhere"), ("power", "spec.yaml", "-o", "spec.xlsx/r.xlsx"),
         ("compare", "spec.yaml"), ("compare", "spec.yaml", "-c", ""), ("compare", "spec.yaml", "-c", "x" * 9_000), ("compare", "spec.yaml", "-c", "\x1b"),
         *(("compare", "spec.yaml", "-c", "s100", "--speed", v) for v in ("-5", "0", "nan", "1:2", "5:1:1", "1:2:0", "1e300", "5e-324", "a,b", "1:1e9:1e-9", "30")),
         *(("compare", "spec.yaml", "-c", "s100", "--temperature", v) for v in ("nan", "-400", "1e300", "x", "1:2:-1", "")),
@@ -334,8 +334,8 @@ def commands() -> Iterator[Case]:
         *((*fit, "--equilibrium", v) for v in ("1e300 MPa", "-1 MPa", "5e-324 Pa", "x", "1 mm")), (*fit, "--modulus-unit", "x"), (*fit, "--sheet", "x"),
         *(("shelf", "s100", "--at", v) for v in ("x", "-400 degC", "1e300 degC", "nan K")),
         *(("shelf", "s100", "--frequency", v) for v in ("x", "-1 Hz", "1e300 Hz", "5e-324 Hz", "10 rad/s")),
-        ("shelf", "nothing"), ("shelf", "x" * 9_000), ("shelf", "\x1b]0;"), ("new", "x.txt"), ("new", "nowhere/x.yaml"), ("new", "\0.yaml"),
-        ("template", "x.txt"), ("template", "x.xlsx", "--from", "nothing.yaml"), ("template", "\0.xlsx"), ("validate", "x"), ("schema", "--x"), ("", ""),
+        ("shelf", "nothing"), ("shelf", "x" * 9_000), ("shelf", "\x1b]0;"), ("new", "x.txt"), ("new", "nowhere/x.yaml"),
+        ("template", "x.txt"), ("template", "x.xlsx", "--from", "nothing.yaml"), ("validate", "x"), ("schema", "--x"), ("", ""),
     ]  # fmt: skip
     for line in lines:
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conveyor.errors import InputError
-from conveyor.rubber import CreepSeries, PronySeries
+from conveyor.rubber import CreepSeries, PronySeries, creeps
 from conveyor.rubber.prony import _one_per_time
 
 EXACT = 1e-12
@@ -267,3 +267,31 @@ def test_refused_arguments() -> None:
         series.relaxation(-1.0)
     with pytest.raises(InputError, match=r"a_T = 0 - must be finite and > 0"):
         series.scaled(a_T=0.0)
+
+
+def test_many_spectra_side_by_side_are_each_alone() -> None:
+    """Of unlike numbers of terms and unlike steps to convergence, one of them twice."""
+    rng = np.random.default_rng(2)
+    many = [
+        PronySeries(10.0 ** rng.uniform(5, 7), 10.0 ** rng.uniform(3, 8, n), 10.0 ** rng.uniform(-9, 4, n))
+        for n in (7, 1, 7, 0, 30, 7)
+    ]
+    found = creeps([*many, many[0]])
+    assert found[6] is found[0]
+    for one, together in zip(many, found, strict=False):
+        alone = one.creep()
+        assert together.instantaneous == alone.instantaneous
+        assert together.compliances == pytest.approx(alone.compliances, rel=EXACT)
+        assert together.times == pytest.approx(alone.times, rel=EXACT)
+
+
+def test_merged_terms_keep_both_ends_and_what_is_between() -> None:
+    """E* between is off by the squares: (ωτ)² of the fast terms, 1/(ωτ)² of the slow ones, of their moduli."""
+    series = PronySeries(1e6, [3e6, 2e6, 1e6, 1e6, 2e6, 3e6], [1e-8, 4e-8, 1e-3, 1e-2, 1e4, 5e4])
+    less = series.merged(fastest=1e-6, slowest=1e2)
+    assert less.times.size == 4
+    assert (less.equilibrium, less.glassy) == (series.equilibrium, pytest.approx(series.glassy, rel=1e-15))
+    omega = np.logspace(1.0, 4.0, 7)
+    allowed = 5e6 * (omega * 4e-8) ** 2 + 5e6 / (omega * 1e4) ** 2
+    assert np.all(np.abs(less.modulus(omega) - series.modulus(omega)) < allowed)
+    assert series.merged(fastest=2e-8, slowest=2e4) is series  # one on either side is none to merge

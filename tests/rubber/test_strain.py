@@ -367,3 +367,27 @@ def test_roll_on_s100_end_to_end():
     assert 600.0 > frequencies[0] > frequencies[1] > frequencies[2] > 200.0
     # softer and, beyond 0.4 %, relatively more lossy: the resistance rises, more with more load
     assert 0.03 < changes[0] < changes[1] < changes[2] < 0.3
+
+
+def test_factors_of_many_strains_and_temperatures_are_each_alone():
+    factors = AmplitudeFactors(sweeps("S100"), 4e-3)
+    strain, at = np.array([0.002, 0.01, 0.03]), np.array([ZERO - 40.0, ZERO + 17.0, ZERO + 90.0])
+    for of in (factors.storage, factors.loss):
+        each = [float(of(e, t)) for e, t in zip(strain.tolist(), at.tolist(), strict=True)]
+        assert of(strain, at) == pytest.approx(each, rel=1e-14)
+
+
+def test_a_step_that_leaves_little_is_not_looked_at_again():
+    """Strain of half the power of E', as under a roll: two evaluations, and a thousandth from the fixed point."""
+    factors = AmplitudeFactors([LAW_SWEEP], 1e-3)
+    unit = float(SERIES.storage(200.0))
+
+    def strain_of(series):
+        return 0.0015 * (unit / float(series.storage(200.0))) ** 0.5, 200.0
+
+    soon, late = (
+        equivalent_linear(SERIES, factors, strain_of, temperature=293.15, rtol=rtol) for rtol in (5e-3, 1e-9)
+    )
+    assert (soon.steps, late.steps > 3) == (2, True)
+    assert soon.strain == pytest.approx(late.strain, rel=1e-3)
+    assert soon.storage_factor == pytest.approx(late.storage_factor, rel=1e-3)

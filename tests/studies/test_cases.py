@@ -140,6 +140,17 @@ def test_a_strand_that_is_worked_alike_shares_its_cover_also_with_what_is_known(
     assert alone.contacts.covers["return"].strain.frequency > own.contacts.covers["return"].strain.frequency
 
 
+def test_specs_that_share_a_strand_share_its_stretches_and_drags():
+    given = spec("overland")
+    wider = given.replace(idlers=given.idlers.replace(carry=given.idlers.carry.replace(spacing="2 m")))
+    first, second = (result.line for result in calculate_many([Variant(given), Variant(wider)]))
+    assert first.strands.each[1] is second.strands.each[1]
+    assert first.strands.each[0] is not second.strands.each[0]
+    assert second.stretches[1].spacing == 2.0
+    alone = calculate(wider)
+    assert second.rotation.tolist() == alone.line.rotation.tolist()
+
+
 def test_one_result_a_case_speed_and_temperature(found):
     keys = [(r.case.name, r.speed, r.temperature) for r in found.results]
     assert len(set(keys)) == len(keys) == 4 * 2 * 2

@@ -1,0 +1,71 @@
+"""Tables of Bessel products against the products themselves, and weights moved to their grids."""
+
+import numpy as np
+import pytest
+
+from conveyor.contact import moved
+from conveyor.contact.creep import Creeps
+from conveyor.contact.energy import friction_by_loss
+from conveyor.contact.short_rule import ShortRule
+from conveyor.contact.spectral import assemble, equilibrium
+from conveyor.contact.tabled import Tabled
+
+ALPHA = np.array([0.004, 0.03, 0.4])
+RHO = np.array([0.3, 0.4, 1.5])
+
+
+def creeps(times):
+    """Three spectra of these times, a third part of each weight instantaneous."""
+    weights = np.random.default_rng(1).dirichlet(np.ones(len(times)), size=3) * (2.0 / 3.0)
+    return Creeps(np.full(3, 1.0 / 3.0), weights, np.outer([0.3, 1.0, 5.0], times))
+
+
+def rule():
+    """A few dozen nodes with weights that fall like those of a layer."""
+    rng = np.random.default_rng(2)
+    nodes = np.sort(rng.uniform(0.05, 40.0, (3, 30)), axis=1)
+    weights = 0.05 * (rng.standard_normal(nodes.shape) + 1j * rng.standard_normal(nodes.shape)) / nodes
+    return ShortRule(nodes, weights)
+
+
+def test_moved_weights_sum_a_smooth_function_as_before():
+    # Lagrange interpolation of cos at 16 points: step^16 (0.5·1.5·…·7.5)²/16! of the largest value, 3e-6 · 0.2^16
+    rng = np.random.default_rng(0)
+    places, weights = rng.uniform(0.0, 50.0, (2, 40)), rng.standard_normal((2, 40))
+    (grid,) = moved.moved(moved.stencils(places), 80, weights)
+    at = 0.2 * (np.arange(80) - moved.BEFORE)
+    np.testing.assert_allclose(grid @ np.cos(at), (weights * np.cos(0.2 * places)).sum(axis=1), atol=1e-12)
+    np.testing.assert_allclose(grid.sum(axis=1), weights.sum(axis=1), atol=1e-12)
+
+
+def test_moved_logarithms_keep_relative_precision_of_what_falls():
+    b = np.geomspace(1e-12, 1e13, 200)[:, None]
+    assert moved.within(b).all()
+    (grid,) = moved.moved(moved.log_stencils(b), moved.LOGS, np.ones_like(b))
+    np.testing.assert_allclose(grid @ (1.0 / (1.0 + moved.logs())), 1.0 / (1.0 + b[:, 0]), rtol=1e-7)
+    assert not moved.within(np.array([[1.0, 1e-20]])).any()
+
+
+@pytest.mark.parametrize("order", [10, 32, 64])
+@pytest.mark.parametrize("times", [[1.0], np.geomspace(1e-9, 1e8, 12)])
+def test_matrices_and_losses_are_those_formed_one_by_one(order, times):
+    # promised: 2e-12 of a node's weight, the terms' 1e-12, times the matrix's factor of 2 v
+    side, given = creeps(times), rule()
+    tabled, ratios = Tabled.of(side, ALPHA), (0.8, 1.0, 1.3)
+    found = tabled.matrices(given, order, ratios).reshape(3, 3, order + 1, order)
+    tolerance = 4e-12 * 2.0 * order * max(np.abs(given.weights).sum(axis=1).max(), 1.0)
+    for k, ratio in enumerate(ratios):
+        expected = assemble(given, side, ratio * ALPHA, order)
+        np.testing.assert_allclose(found[:, k], expected, rtol=0, atol=tolerance)
+    contact = equilibrium(found[:, 1], ALPHA, RHO)
+    expected = friction_by_loss(given, side, contact, RHO)
+    np.testing.assert_allclose(
+        tabled.friction_by_loss(given, contact, RHO), expected, rtol=0, atol=1e-9 * np.abs(expected).max()
+    )
+
+
+@pytest.mark.parametrize(("order", "times"), [(96, [1.0]), (10, [1e-40])])
+def test_what_the_tables_do_not_hold_is_formed_one_by_one(order, times):
+    side, given = creeps(times), rule()
+    found = Tabled.of(side, ALPHA).matrices(given, order)
+    np.testing.assert_array_equal(found, assemble(given, side, ALPHA, order))
