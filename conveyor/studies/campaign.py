@@ -31,7 +31,7 @@ from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
 from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
-from conveyor.units import Quantity, quantity
+from conveyor.units import Quantity, is_quantity, quantity
 
 BATCH: Final = 64
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -181,7 +181,7 @@ def _refuse_other_kinds(plan: VariedSpec, base: Conveyor, compounds: Mapping[str
     for row in plan.given:
         for path, value in row.items():
             like = field_of(base, path)
-            if isinstance(like, Quantity) and not _alike(value, like):
+            if is_quantity(like) and not _alike(value, like):
                 with_fields(base, row, resolve=compounds.__getitem__)
 
 
