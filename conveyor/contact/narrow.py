@@ -235,6 +235,9 @@ class Search:
             ]
         )
         self.cubics = sampled_figures.reshape(3, size, _SAMPLES) @ transform
+        # cubics of the pressure's shape c_v/c_1
+        shapes = contact.c[:, 1:] / contact.c[:, :1]
+        self.shapes = shapes.reshape(size, _SAMPLES, -1).transpose(2, 0, 1) @ transform
         self.place, self._from = np.zeros((2, size))
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
@@ -311,13 +314,15 @@ class Search:
         dragged = np.exp(np.where(lossy, dragged, 0.0))
         alpha = contact.alpha * wider
         eps = wider * contact.eps + alpha * shifted
+        c, shapes = contact.c * (heavier / wider)[:, None], self.shapes[:, rows]
+        c[:, 1:_SEARCH] += c[:, :1] * (_value(shapes, t_to) - _value(shapes, t_from)).T
         off = np.abs(_log(contact.friction, lossy) - here[2]) + _CUT * np.abs(cubics[2, :, 3])
         off = np.where(lossy, off, 0.0)
         off += np.abs(self.group.target[rows] + miss - here[0]) + _CUT * np.abs(cubics[0, :, 3])
         met = Contact(
             alpha,
             eps,
-            contact.c * (heavier / wider)[:, None],
+            c,
             contact.pressure * heavier,
             contact.friction * dragged,
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),

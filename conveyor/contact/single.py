@@ -17,7 +17,7 @@ from conveyor.contact.checks import (
     overlaps,
     sign,
 )
-from conveyor.contact.fields import SpectralFields
+from conveyor.contact.fields import RESOLVED, SpectralFields, edge_layer
 from conveyor.contact.load import LoadSearch, carry, guess
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
@@ -32,7 +32,6 @@ DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
 _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
-_RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
 _BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
 # a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
@@ -125,12 +124,12 @@ def _converged(
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
-            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < _RESOLVED:
+            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < RESOLVED:
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
                 reached = _resolution(scene, contact, last)
-                if reached < _RESOLVED:
+                if reached < RESOLVED:
                     error = max(error, min(_EARLY * reached, _LAYER_OVER_ENERGY) * here[1])
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
@@ -168,9 +167,4 @@ def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
 
 def _resolution(scene: Scene, contact: Contact, last: int) -> float:
     """Square of an order times the edge layer's share of the half width; infinite of an elastic contact."""
-    creep = scene.creep
-    if not creep.weights.size:
-        return math.inf
-    # j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m
-    layer = creep.instantaneous / (float(contact.alpha[0]) * float(np.sum(creep.weights / creep.times)))
-    return layer * last**2
+    return edge_layer(scene.creep, float(contact.alpha[0])) * last**2
